@@ -101,7 +101,8 @@ struct Heads {
 
 Positions carried(const FittedSkin& skin, const Mesh& mesh, AttachmentMove move,
                   const Positions& face) {
-  return AttachmentCarrier(skin, mesh.topology, mesh.points, move).carry(face, skin.normals(face));
+  return AttachmentCarrier(skin, mesh.topology, mesh.points, move)
+      .move_to_face(face, skin.normals(face));
 }
 
 RigidMotion some_motion() {
@@ -128,7 +129,7 @@ std::vector<double> heights_on(const FittedSkin& skin, const Mesh& fitted, const
   std::vector<double> heights;
   for (Index p = 0; p < points.rows(); ++p) {
     const PointGrid::NearestVertex nearest = skin.grid().nearest(row3(fitted.points, p));
-    const bool far = nearest.distance > 25 * skin.units_per_mm() + 2 * skin.spacing();
+    const bool far = nearest.distance > 25 * skin.units_per_mm() + 2 * skin.vertex_spacing();
     heights.push_back(
         far ? std::numeric_limits<double>::infinity()
             : skin.nearest_skin(face, normals, nearest.vertex, row3(points, p)).height);
@@ -139,7 +140,7 @@ std::vector<double> heights_on(const FittedSkin& skin, const Mesh& fitted, const
 /// The share of what was off the skin that lies in it now.
 double share_inside(const FittedSkin& skin, const Mesh& fitted, const Positions& face,
                     const Positions& points) {
-  const std::vector<double> before = heights_on(skin, fitted, skin.mesh(), fitted.points),
+  const std::vector<double> before = heights_on(skin, fitted, skin.mesh_positions(), fitted.points),
                             heights = heights_on(skin, fitted, face, points);
   double inside = 0, all = 0;
   for (std::size_t p = 0; p < heights.size(); ++p) {
@@ -187,8 +188,8 @@ TEST(AttachmentCarrier, KeepsWhatWasOffTheSkinOffIt) {
     const Positions& face = heads.heads[h];
     const Positions normals = skin.normals(face);
     before += share_inside(skin, cap, face, bare.bend(face));
-    after += share_inside(skin, cap, face, bends.carry(face, normals));
-    stiff += share_inside(skin, glasses, face, seats.carry(face, normals));
+    after += share_inside(skin, cap, face, bends.move_to_face(face, normals));
+    stiff += share_inside(skin, glasses, face, seats.move_to_face(face, normals));
   }
   EXPECT_GT(before, 0.01) << "nothing to push out: the test tells nothing";
   EXPECT_LT(after / 3, 0.001);
@@ -201,9 +202,9 @@ TEST(AttachmentCarrier, KeepsTheGapOfWhatLiesOnTheSkin) {
   const Mesh cap = heads.cap(2, 1);
   const AttachmentCarrier carrier(skin, cap.topology, cap.points, AttachmentMove::kBend);
   const Positions normals = skin.normals(heads.heads[1]);
-  const std::vector<double> before = heights_on(skin, cap, skin.mesh(), cap.points);
+  const std::vector<double> before = heights_on(skin, cap, skin.mesh_positions(), cap.points);
   const std::vector<double> heights =
-      heights_on(skin, cap, heads.heads[1], carrier.carry(heads.heads[1], normals));
+      heights_on(skin, cap, heads.heads[1], carrier.move_to_face(heads.heads[1], normals));
   std::vector<double> centroid_distance_mm;
   for (std::size_t p = 0; p < heights.size(); ++p) {
     centroid_distance_mm.push_back(std::abs(heights[p] - before[p]) / kUnitsPerMm);

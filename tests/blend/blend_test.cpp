@@ -467,7 +467,7 @@ class BlendPatches : public ::testing::Test {
     Positions sum = target_positions(faces_, recipe);
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
       for (const LevelWeights& at : weights_by_level(recipe, k)) {
-        for (const SourceWeight& part : at.shares) {
+        for (const SourceWeight& part : at.weights) {
           const HeadSmoothing& head = levels_[static_cast<std::size_t>(part.head)];
           const std::vector<double> functions = head.functions(at.level);
           for (Index v = 0; v < sum.rows(); ++v) {

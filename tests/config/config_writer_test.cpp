@@ -59,7 +59,7 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.smoothing.levels, b.smoothing.levels);
   EXPECT_EQ(a.smoothing.tolerance_mm, b.smoothing.tolerance_mm);
   EXPECT_EQ(a.blending.normalization, b.blending.normalization);
-  EXPECT_EQ(a.parts.follow, b.parts.follow);
+  EXPECT_EQ(a.parts.follow_skin, b.parts.follow_skin);
   EXPECT_EQ(a.parts.shape, b.parts.shape);
   EXPECT_EQ(a.parts.skin, b.parts.skin);
   EXPECT_EQ(a.parts.rigid, b.parts.rigid);

@@ -58,14 +58,14 @@ using Recipes = std::vector<std::string>;
 
 TEST_F(ConfigEdits, RecipesStandInAFileThatTheConfigNames) {
   const std::string before = read_file(folder_.config());
-  const auto file = put_recipe(recipe("eva", 1), config());
+  const auto file = save_recipe_in_edits(recipe("eva", 1), config());
   EXPECT_EQ(read_file(folder_.config()),
             concat(before, "\nedits: ", file.filename().string(), "  # saved by crowdface edit\n"));
   EXPECT_EQ(recipes(), (Recipes{"ada0", "eva1"}));
   const std::string named = read_file(folder_.config());
-  EXPECT_EQ(put_recipe(recipe("zoe", 2), config()), file);
-  put_recipe(recipe("eva", 3), config());
-  put_recipe(recipe("ada", 1), config());
+  EXPECT_EQ(save_recipe_in_edits(recipe("zoe", 2), config()), file);
+  save_recipe_in_edits(recipe("eva", 3), config());
+  save_recipe_in_edits(recipe("ada", 1), config());
   EXPECT_EQ(read_file(folder_.config()), named);
   EXPECT_EQ(recipes(), (Recipes{"ada1", "eva3", "zoe2"}));
   EXPECT_EQ(config().recipes[1].regions[0].position, PlanePoint(0.5, 0));
@@ -75,7 +75,7 @@ TEST_F(ConfigEdits, RecipesStandInAFileThatTheConfigNames) {
 TEST_F(ConfigEdits, RegionsTakeThePlaceOfThoseOfTheConfig) {
   const std::filesystem::path mask = folder_ / "mask_0.png";
   save_regions_in_edits(folder_.config(), {"brow", "jaw"}, {mask});
-  const auto file = put_recipe(recipe("eva", 1), config());
+  const auto file = save_recipe_in_edits(recipe("eva", 1), config());
   EXPECT_EQ(recipes(), (Recipes{"ada0", "eva1"}));
   EXPECT_EQ(file, config().edits);
   EXPECT_EQ(config().regions.names, (std::vector<std::string>{"brow", "jaw"}));
@@ -104,10 +104,10 @@ TEST_F(ConfigEdits, HeadsComeAfterThoseOfTheConfig) {
 }
 
 TEST_F(ConfigEdits, ThatTheConfigWouldRefuseChangeNothing) {
-  const auto file = put_recipe(recipe("eva", 1), config());
+  const auto file = save_recipe_in_edits(recipe("eva", 1), config());
   const std::string config_text = read_file(folder_.config()), edits = read_file(file);
   expect_error(ExitCode::kUsage, {"belong to the sampled faces"},
-               [&] { put_recipe(recipe(config().crowd.name + "_0001", 1), config()); });
+               [&] { save_recipe_in_edits(recipe(config().crowd.name + "_0001", 1), config()); });
   expect_error(ExitCode::kUsage, {"region_2"}, [&] {
     save_regions_in_edits(folder_.config(), {"region_1"}, {folder_ / "mask_0.png"});
   });
@@ -122,12 +122,12 @@ TEST_F(ConfigEdits, OfAConfigInBracesAreNamedByHand) {
   Config plain = config();
   ManualRecipe open = recipe("eva", 1);
   open.regions.resize(1);
-  expect_error(ExitCode::kUsage, {"add \"edits: "}, [&] { put_recipe(open, plain); });
+  expect_error(ExitCode::kUsage, {"add \"edits: "}, [&] { save_recipe_in_edits(open, plain); });
   EXPECT_EQ(read_file(folder_.config()), text);
 }
 
 TEST_F(ConfigEdits, AreRefusedWhereTheFileIsMissingOrHoldsSomethingElse) {
-  const auto file = put_recipe(recipe("eva", 1), config());
+  const auto file = save_recipe_in_edits(recipe("eva", 1), config());
   write_file(file, "sampling: {max_sources: 1}\n");
   expect_error(ExitCode::kUsage, {"sampling"}, [&] { config(); });
   remove_if_exists(file);

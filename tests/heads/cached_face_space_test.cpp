@@ -161,7 +161,7 @@ TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
   fewer.region_metrics.pop_back();
   EXPECT_FALSE(FaceSpace::have_matching_sizes(fewer, heads));
   FaceSpaceTables narrower = space.tables();
-  narrower.directions = narrower.directions.leftCols(3).eval();
+  narrower.principal_directions = narrower.principal_directions.leftCols(3).eval();
   EXPECT_FALSE(FaceSpace::have_matching_sizes(narrower, heads));
   EXPECT_FALSE(FaceSpace::have_matching_sizes(space.tables(), sampled_heads(1, true)));
 }

@@ -37,7 +37,7 @@ class KeptPatchesTest : public ::testing::Test {
     });
   }
   static bool alike(const CachedPatches& a, const CachedPatches& b) {
-    const PatchArrays &x = a.patches.lists(), &y = b.patches.lists();
+    const PatchArrays &x = a.patches.arrays(), &y = b.patches.arrays();
     return std::ranges::equal(x.vertices, y.vertices) &&
            std::ranges::equal(x.stored_vertex_counts, y.stored_vertex_counts) &&
            std::ranges::equal(x.field_counts, y.field_counts) &&
@@ -58,7 +58,7 @@ TEST_F(KeptPatchesTest, AreMadeOnceForAKeyAndUsedFromTheFile) {
   const CachedPatches again = patches(folder_.path());
   EXPECT_EQ(made_, 1);
   EXPECT_TRUE(alike(first, again));
-  EXPECT_FALSE(first.patches.lists().weights.empty());
+  EXPECT_FALSE(first.patches.arrays().weights.empty());
   patches(folder_.path(), {1, 3});
   EXPECT_EQ(made_, 2);
 }

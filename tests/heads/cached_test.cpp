@@ -203,9 +203,9 @@ TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
   config.output.lods = {50};
   config.output.meshes = {MeshFormat::kObj};
   const auto level = [&] {
-    inputs.levels.clear();
+    inputs.detail_levels.clear();
     find_levels(config, folder_.path(), inputs);
-    return inputs.levels.at(0);
+    return inputs.detail_levels.at(0);
   };
   const MeasuredLevel made = level();
   const std::string kept = read_file(entry());

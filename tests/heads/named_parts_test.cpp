@@ -113,7 +113,7 @@ TEST(PartsOfAJob, AreDescribed) {
   const std::string text = describe_parts(job.config, job.inputs);
   EXPECT_THAT(text, HasSubstr("skin: components 1 … 3 (2)"));
   EXPECT_THAT(text, HasSubstr("rigid: component 2, 8 vertices, eye"));
-  job.config.parts.follow = false;
+  job.config.parts.follow_skin = false;
   EXPECT_THAT(describe_parts(job.config, job.inputs), HasSubstr("none"));
 }
 

@@ -44,7 +44,7 @@ TEST(MaskPainter, WeightsStayWeightsAndEverythingIsTakenBackExactly) {
     const Index region = static_cast<Index>(i) % painter.alpha().cols();
     Brush brush = brush_of(static_cast<BrushMode>(i % 4), 0.2 + at[0] / 2, 0.3 + 0.7 * at[1],
                            i % 3 == 0 ? 0 : 1);
-    brush.mirror = i % 2 == 0;
+    brush.paints_mirror_image = i % 2 == 0;
     painter.paint(region, {place}, brush);
     expect_weights(painter.alpha());
     expect_weights(painter.alpha_without(region));
@@ -139,7 +139,7 @@ TEST(MaskPainter, MirroredStrokesAreSymmetric) {
   for (const BrushMode mode : {BrushMode::kAdd, BrushMode::kGrow, BrushMode::kSmooth}) {
     MaskPainter painter(sheet.topology, sheet.positions, {}, alpha);
     Brush brush = brush_of(BrushMode::kAdd, 0.4, 0.8);
-    brush.mirror = true;
+    brush.paints_mirror_image = true;
     painter.paint(1, {painter.surface().nearest({0.3, 0.21, 0})}, brush);
     brush.mode = mode;
     painter.paint(1, {painter.surface().nearest({-0.2, -0.1, 0})}, brush);

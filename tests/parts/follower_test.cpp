@@ -43,7 +43,7 @@ TEST(PartFollower, CarriesPartsWithTheWholeHead) {
     const Positions expected = testing::moved(head, 0.5, 1, {1, -2, 3});
     Positions result = expected;
     for (const std::uint32_t v : scene.moving) result.row(v).setConstant(-9);
-    follower.follow(target, result);
+    follower.move_parts(target, result);
     EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-10);
   }
 }
@@ -54,7 +54,7 @@ TEST(PartFollower, ChangesTheSizeOfBothEyeballsAlike) {
   const Positions& head = scene.faces.heads[0].positions;
   Positions result = head;
   for (Index v = 0; v < result.rows(); ++v) result.row(v) *= head(v, 0) > 0 ? 1.06 : 1.01;
-  scene.follower().follow(0, result);
+  scene.follower().move_parts(0, result);
   std::vector<double> growth;
   for (const Part& part : scene.parts.parts) {
     if (!part.is_eyeball) continue;
@@ -75,7 +75,7 @@ TEST(PartFollower, KeepsTheTargetsPartsToTheBitWhereNothingMoved) {
   const Positions& head = scene.faces.heads[1].positions;
   Positions result = head;
   for (const std::uint32_t v : scene.moving) result.row(v).setConstant(-9);
-  scene.follower().follow(1, result);
+  scene.follower().move_parts(1, result);
   EXPECT_TRUE(result == head);
 }
 
@@ -93,7 +93,7 @@ TEST(PartFollower, MovesRigidPartsAsAWholeAndLeavesTheSkin) {
   const Positions& head = scene.faces.heads[0].positions;
   const Positions blended = bent(head);
   Positions result = blended;
-  scene.follower().follow(0, result);
+  scene.follower().move_parts(0, result);
   for (Index v = 0; v < scene.parts.shapes[0].vertex_count; ++v) {
     ASSERT_TRUE(result.row(v) == blended.row(v)) << "skin";
   }
@@ -119,7 +119,7 @@ TEST(PartFollower, BlendsShapesIfAsked) {
     result(v, 2) = 0.8 * result(v, 2) + 5;
   }
   const Positions blended = result;
-  scene.follower(PartShape::kBlend).follow(0, result);
+  scene.follower(PartShape::kBlend).move_parts(0, result);
   // As flat as blended up to its size, but in its place.
   const auto size = [&](const Positions& mesh, Index axis) {
     double low = 1e300, high = -1e300;
@@ -137,9 +137,9 @@ TEST(PartFollower, HasTheSameBitsOnOneThreadAsOnMany) {
   const TwoHeads scene;
   const Positions blended = bent(scene.faces.heads[0].positions);
   Positions many = blended, one = blended;
-  scene.follower().follow(0, many);
+  scene.follower().move_parts(0, many);
   const ThreadLimit limit(1);
-  scene.follower().follow(0, one);
+  scene.follower().move_parts(0, one);
   EXPECT_TRUE(many == one);
 }
 

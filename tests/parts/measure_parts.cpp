@@ -123,7 +123,7 @@ class Watch {
             nearest_point_around(topology_, around_, mesh, skin.nearest(point).vertex, point);
         Vector3d normal = Vector3d::Zero();
         for (std::size_t k = 0; k < 3; ++k) {
-          normal += place.shares[k] * normals.row(place.corners[k]).transpose();
+          normal += place.barycentric[k] * normals.row(place.corners[k]).transpose();
         }
         // Where lips lie in folds the nearest skin may look away from the flesh: the turns tell.
         const bool inside =
@@ -449,7 +449,7 @@ void measure(const std::filesystem::path& folder, const std::vector<std::string>
       read(columns[columns.size() - (follow ? 2 : 1)]);
       if (!follow) continue;
       const std::clock_t begin = std::clock();
-      follower.follow(static_cast<Index>(face.target), mesh);
+      follower.move_parts(static_cast<Index>(face.target), mesh);
       following += std::clock() - begin;
       read(columns.back());
     }

@@ -48,7 +48,7 @@ TEST(SurfacePoint, IsNearerThanAnyOtherPlaceOnItsTriangles) {
     const Eigen::Vector3d point = random_point(i, 4);
     const SurfacePoint place = nearest_point_around(mesh.topology, faces, mesh.positions,
                                                     grid.nearest(point).vertex, point);
-    EXPECT_NEAR(place.shares[0] + place.shares[1] + place.shares[2], 1, 1e-12);
+    EXPECT_NEAR(place.barycentric[0] + place.barycentric[1] + place.barycentric[2], 1, 1e-12);
     EXPECT_NEAR((place.position - point).norm(), place.distance, 1e-12);
     // Every triangle of the mesh, sampled finely.
     double best = 1e300;

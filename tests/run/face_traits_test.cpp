@@ -71,7 +71,7 @@ double distance_on(const Positions& mesh, const HeadLandmarks& landmarks, std::s
   const auto at = [&](std::size_t l) {
     const SurfacePoint& place = *landmarks.surface_points[l];
     Eigen::RowVector3d point = Eigen::RowVector3d::Zero();
-    for (std::size_t c = 0; c < 3; ++c) point += place.shares[c] * mesh.row(place.corners[c]);
+    for (std::size_t c = 0; c < 3; ++c) point += place.barycentric[c] * mesh.row(place.corners[c]);
     return point;
   };
   return 10 * (at(a) - at(b)).norm();

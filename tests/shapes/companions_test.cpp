@@ -91,7 +91,7 @@ TEST_F(CompanionsTest, LipsThatComeTogetherAgainDoNotPassThroughEachOther) {
   EXPECT_EQ(transfer.prerequisite_of(2), 1U);
   EXPECT_EQ(transfer.prerequisite_of(1), std::nullopt);
   std::vector<Index> left;
-  const std::vector<Displacements> moves = transfer.carry(1, face, {}, &left);
+  const std::vector<Displacements> moves = transfer.transfer_to_face(1, face, {}, &left);
   EXPECT_EQ(left[2], 0);
   EXPECT_EQ(crossing(face, moves[1], moves[2]), 0U);
   EXPECT_LT((moves[2].moves - close.moves).cwiseAbs().maxCoeff(), 0.12) << "they close still";

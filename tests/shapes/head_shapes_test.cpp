@@ -48,7 +48,7 @@ TEST(HeadShapes, AHeadHasItsOwn) {
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set,
                                one_region(heads));
   for (const std::uint32_t h : {1U, 4U}) {
-    const auto carried = transfer.carry(h, heads[h], everywhere(set, {{h, 1}}));
+    const auto carried = transfer.transfer_to_face(h, heads[h], everywhere(set, {{h, 1}}));
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       const Positions own = in_shape(heads[h], displacements_of(set.head_shapes[h][s]));
       const Positions mean = in_shape(heads[h], set.shapes[s].moves);
@@ -67,7 +67,8 @@ TEST(HeadShapes, OfHeadsThatAreTheSameAreThoseOfEither) {
   const ShapeSet set = sets_of(heads);
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set,
                                one_region(heads));
-  const auto carried = transfer.carry(1, heads[1], everywhere(set, {{1, 0.3}, {3, 0.7}}));
+  const auto carried =
+      transfer.transfer_to_face(1, heads[1], everywhere(set, {{1, 0.3}, {3, 0.7}}));
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {
     const Positions own = in_shape(heads[1], displacements_of(set.head_shapes[1][s]));
     EXPECT_LT((in_shape(heads[1], carried[s]) - own).cwiseAbs().maxCoeff(), 1e-6);
@@ -80,7 +81,7 @@ TEST(HeadShapes, AShapeOfZeroInAllHeadsMovesNothing) {
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set,
                                one_region(heads));
   const Positions face = (heads[0] + heads[2]) / 2;
-  const auto carried = transfer.carry(0, face, everywhere(set, {{0, 0.5}, {2, 0.5}}));
+  const auto carried = transfer.transfer_to_face(0, face, everywhere(set, {{0, 0.5}, {2, 0.5}}));
   EXPECT_EQ(in_shape(face, carried.back()), face);
 }
 
@@ -96,7 +97,7 @@ TEST(HeadShapes, ABlinkClosesBetweenTwoHeads) {
     return mesh(rims.high[i], 1) - mesh(rims.low[i], 1);
   };
   const Positions closed =
-      in_shape(face, transfer.carry(2, face, everywhere(set, {{2, 0.5}, {5, 0.5}}))[0]);
+      in_shape(face, transfer.transfer_to_face(2, face, everywhere(set, {{2, 0.5}, {5, 0.5}}))[0]);
   for (std::size_t i = 0; i < rims.low.size(); ++i) {
     double wanted = 0;
     for (const std::size_t h : {2, 5}) {
@@ -117,10 +118,11 @@ TEST(HeadShapes, ComeRegionByRegion) {
     halves.alpha(v, set.neutral(v, 1) < -2 ? 0 : 1) = 1;
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set, halves);
   const RegionShares mouth_of_two = {{{2, 1}}, {{4, 1}}};
-  const auto carried = transfer.carry(4, heads[4], std::vector(set.shapes.size(), mouth_of_two));
+  const auto carried =
+      transfer.transfer_to_face(4, heads[4], std::vector(set.shapes.size(), mouth_of_two));
   const Positions own_blink = in_shape(heads[4], displacements_of(set.head_shapes[4][0]));
   EXPECT_LT((in_shape(heads[4], carried[0]) - own_blink).cwiseAbs().maxCoeff(), 1e-6);
-  const auto other = transfer.carry(4, heads[4], everywhere(set, {{2, 1}}));
+  const auto other = transfer.transfer_to_face(4, heads[4], everywhere(set, {{2, 1}}));
   const Displacements& smile = carried[1];
   for (std::size_t i = 0; i < smile.vertices.size(); ++i) {
     if (set.neutral(smile.vertices[i], 1) >= -2) continue;

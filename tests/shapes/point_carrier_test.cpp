@@ -64,7 +64,7 @@ TEST(PointCarrier, LeavesPointsOfTheirOwnMesh) {
   const HeadsWithPoints heads;
   const PointSet points = heads.points({0});
   const PointCarrier carrier(points, heads.parts, heads.skin, heads.triangles);
-  EXPECT_LT((carrier.carry(0, heads[0]) - points.positions[0]).norm(), 1e-9);
+  EXPECT_LT((carrier.place_points(0, heads[0]) - points.positions[0]).norm(), 1e-9);
 }
 
 TEST(PointCarrier, MovesThemWithAFaceThatIsTurnedMovedAndScaled) {
@@ -79,7 +79,7 @@ TEST(PointCarrier, MovesThemWithAFaceThatIsTurnedMovedAndScaled) {
   for (Index v = 0; v < face.rows(); ++v) {
     face.row(v) = motion.apply(row3(heads[0], v)).transpose();
   }
-  const Positions carried = carrier.carry(0, face);
+  const Positions carried = carrier.place_points(0, face);
   for (Index p = 0; p < 3; ++p) {
     EXPECT_LT((row3(carried, p) - motion.apply(row3(points.positions[0], p))).norm(), 1e-9) << p;
   }
@@ -90,7 +90,7 @@ TEST(PointCarrier, KeepsPivotsInTheMiddleOfEyes) {
   const PointSet points = heads.points({0});
   const PointCarrier carrier(points, heads.parts, heads.skin, heads.triangles);
   for (const std::size_t face : {1, 2}) {
-    const Positions carried = carrier.carry(0, heads[face]);
+    const Positions carried = carrier.place_points(0, heads[face]);
     EXPECT_GT((row3(carried, 0) - row3(points.positions[0], 0)).norm(), 1e-3) << "it went along";
     EXPECT_LT((row3(carried, 0) - heads.middle_of_eye(heads[face])).norm(), 1e-6);
     // Both heads know where the tip of their own nose is: a centimetre apart is another place.
@@ -116,8 +116,8 @@ TEST(PointCarrier, KeepsPointsOnTheirVerticesAndTriangles) {
   const PointCarrier with_the_skin(points, heads.parts, heads.skin, {});
   for (const std::size_t face : {1, 2}) {
     const Positions wanted = place(heads[face]);
-    EXPECT_LT((carrier.carry(0, heads[face]) - wanted).norm(), 1e-5) << face;
-    EXPECT_GT((with_the_skin.carry(0, heads[face]) - wanted).norm(), 1e-3) << face;
+    EXPECT_LT((carrier.place_points(0, heads[face]) - wanted).norm(), 1e-5) << face;
+    EXPECT_GT((with_the_skin.place_points(0, heads[face]) - wanted).norm(), 1e-3) << face;
   }
 }
 
@@ -127,7 +127,7 @@ TEST(PointCarrier, TakesThoseOfTheTargetWhereEachHeadHasSome) {
   const PointCarrier carrier(points, heads.parts, heads.skin, heads.triangles);
   for (Index h = 0; h < 3; ++h) {
     const auto head = static_cast<std::size_t>(h);
-    EXPECT_LT((carrier.carry(h, heads[head]) - points.positions[head]).norm(), 1e-9);
+    EXPECT_LT((carrier.place_points(h, heads[head]) - points.positions[head]).norm(), 1e-9);
   }
 }
 

@@ -32,7 +32,7 @@ TEST(ShapeTransfer, TheTemplateAsFaceHasTheShapesThemselves) {
   const Heads heads = synthetic_heads();
   const ShapeSet set = shapes_of(heads, heads[1]);
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set);
-  const auto moves = transfer.carry(1, heads[1]);
+  const auto moves = transfer.transfer_to_face(1, heads[1]);
   ASSERT_EQ(moves.size(), set.shapes.size());
   for (std::size_t s = 0; s < moves.size(); ++s) {
     EXPECT_EQ(moves[s].vertices, set.shapes[s].moves.vertices);
@@ -49,7 +49,7 @@ TEST(ShapeTransfer, ATurnedMovedAndScaledTemplateHasThemTurnedAndScaled) {
   heads.faces.heads.push_back({"elsewhere", elsewhere(heads[0])});
   const ShapeSet set = shapes_of(heads, heads[0]);
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set);
-  const auto moves = transfer.carry(6, heads[6]);
+  const auto moves = transfer.transfer_to_face(6, heads[6]);
   for (std::size_t s = 0; s < moves.size(); ++s) {
     Positions face = heads[6], shape = heads[0];
     moves[s].add_to(face);
@@ -65,7 +65,7 @@ TEST(ShapeTransfer, AShapeOfZeroMovesNothing) {
   EXPECT_TRUE(set.shapes.back().moves.vertices.empty());
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set);
   Positions face = heads[3];
-  transfer.carry(3, heads[3]).back().add_to(face);
+  transfer.transfer_to_face(3, heads[3]).back().add_to(face);
   EXPECT_EQ(face, heads[3]);
 }
 
@@ -74,7 +74,8 @@ TEST(ShapeTransfer, HasTheSameBitsForAnyNumberOfThreads) {
   const ShapeSet set = shapes_of(heads, heads[0]);
   const auto carried = [&](int threads) {
     const ThreadLimit limit(threads);
-    return ShapeTransfer(heads.faces, heads.adjacency, heads.parts, {}, set).carry(2, heads[2]);
+    return ShapeTransfer(heads.faces, heads.adjacency, heads.parts, {}, set)
+        .transfer_to_face(2, heads[2]);
   };
   const auto one = carried(1), many = carried(4);
   for (std::size_t s = 0; s < one.size(); ++s) EXPECT_EQ(one[s].moves, many[s].moves);
@@ -104,7 +105,8 @@ GapsOff gaps_off(const Heads& heads, const ShapeSet& set, const Part& eye, std::
   const auto wanted = gaps(set.neutral, shape);
   GapsOff off;
   for (std::size_t h = 0; h < heads.faces.heads.size(); ++h) {
-    const auto carried = gaps(heads[h], transfer.carry(static_cast<Index>(h), heads[h])[blink]);
+    const auto carried =
+        gaps(heads[h], transfer.transfer_to_face(static_cast<Index>(h), heads[h])[blink]);
     const auto unchanged = gaps(heads[h], shape);
     for (std::size_t i = 0; i < wanted.size(); ++i) {
       off.carried = std::max(off.carried, std::abs(carried[i] - wanted[i]));
@@ -177,7 +179,7 @@ TEST(ShapeTransfer, LipsThatAreLeftClosedStayClosedOnHeadsOfTheIctModel) {
   constexpr double kClosed = 0.002;
   double carried = 0, unchanged = 0;
   for (std::size_t h = 0; h < heads.faces.heads.size(); ++h) {
-    const auto moves = transfer.carry(static_cast<Index>(h), heads[h]);
+    const auto moves = transfer.transfer_to_face(static_cast<Index>(h), heads[h]);
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       const auto of_template = changes(set.neutral, set.shapes[s].moves);
       const auto of_face = changes(heads[h], moves[s]);
@@ -214,7 +216,7 @@ NewCrossings new_crossings(const Heads& heads, const ShapeSet& set) {
   NewCrossings sum;
   for (std::size_t h = 0; h < heads.faces.heads.size(); ++h) {
     const auto at_rest = crossing(heads[h]);
-    const auto moves = transfer.carry(static_cast<Index>(h), heads[h]);
+    const auto moves = transfer.transfer_to_face(static_cast<Index>(h), heads[h]);
     for (std::size_t s = 0; s < set.shapes.size(); ++s) {
       auto known = crossing(in_shape(set.neutral, set.shapes[s].moves));
       known.insert(known.end(), at_rest.begin(), at_rest.end());
@@ -241,7 +243,7 @@ TEST(ShapeTransfer, LidsKeepOffTheEyeball) {
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set);
   for (std::size_t h = 1; h < 6; ++h) {
     const auto [centre, radius] = ball_of(heads, eye, heads[h]);
-    const Displacements blink = transfer.carry(static_cast<Index>(h), heads[h])[0];
+    const Displacements blink = transfer.transfer_to_face(static_cast<Index>(h), heads[h])[0];
     for (std::size_t i = 0; i < blink.vertices.size(); ++i) {
       const Vector3d before = row3(heads[h], blink.vertices[i]) - centre;
       const Vector3d after = before + row3(blink.moves, static_cast<Index>(i));
@@ -259,7 +261,7 @@ TEST(ShapeTransfer, GazeTurnsAnEyeballAboutItsOwnCentre) {
   for (std::size_t h = 1; h < 6; ++h) {
     Positions face = heads[h];
     const auto [before, radius] = ball_of(heads, eye, face);
-    transfer.carry(static_cast<Index>(h), heads[h])[2].add_to(face);
+    transfer.transfer_to_face(static_cast<Index>(h), heads[h])[2].add_to(face);
     const auto [after, radius_after] = ball_of(heads, eye, face);
     EXPECT_LT((after - before).norm(), 0.01) << h;
     EXPECT_NEAR(radius_after, radius, 1e-6);
@@ -284,7 +286,7 @@ TEST(ShapeTransfer, RigidPartsStayRigid) {
   const ShapeSet set{heads[0], {make_shape("jaw", heads[0], open, kExtent)}};
   const ShapeTransfer transfer(heads.faces, heads.adjacency, heads.parts, {}, set);
   Positions face = heads[4];
-  transfer.carry(4, heads[4])[0].add_to(face);
+  transfer.transfer_to_face(4, heads[4])[0].add_to(face);
   const std::uint32_t a = teeth->vertices.front();
   for (const std::uint32_t b : teeth->vertices) {
     EXPECT_NEAR((row3(face, a) - row3(face, b)).norm(),

@@ -83,13 +83,13 @@ double missed(const std::vector<HeadSmoothing>& heads, const FieldPatches& patch
 }
 
 double mean_skeleton(const FieldPatches& patches) {
-  const auto& skeletons = patches.lists().stored_vertex_counts;
+  const auto& skeletons = patches.arrays().stored_vertex_counts;
   return std::accumulate(skeletons.begin(), skeletons.end(), 0.0) /
          static_cast<double>(patches.size());
 }
 
 bool same_lists(const FieldPatches& a, const FieldPatches& b) {
-  const PatchArrays &x = a.lists(), &y = b.lists();
+  const PatchArrays &x = a.arrays(), &y = b.arrays();
   return std::ranges::equal(x.vertices, y.vertices) &&
          std::ranges::equal(x.stored_vertex_counts, y.stored_vertex_counts) &&
          std::ranges::equal(x.field_counts, y.field_counts) &&
@@ -152,7 +152,7 @@ TEST(FieldPatches, KeepAllVerticesWhereNoneIsLikeAnother) {
       {quantize(noise, kVertices),
        [](std::uint64_t level) { return std::vector<double>(8, level == 0 ? 0.0 : 1.0); }}};
   const FieldPatches patches = interpolate_fields(heads, kLevels, rows_of_grid(), 0.001);
-  EXPECT_TRUE(patches.lists().weights.empty());
+  EXPECT_TRUE(patches.arrays().weights.empty());
   EXPECT_LT(missed(heads, patches), 1e-4) << "rounded to 16 bits";
 }
 
@@ -198,20 +198,20 @@ TEST(FieldPatches, AreTheSameOnAnyMachine) {
 TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   const auto heads = smooth_heads(6);
   const FieldPatches made = interpolate_fields(heads, kLevels, rows_of_grid(), 0.1);
-  ASSERT_FALSE(made.lists().weights.empty());
+  ASSERT_FALSE(made.arrays().weights.empty());
   const std::vector<Index> ranks(heads.size(), heads[0].fields.rank);
-  const auto taken = [&](const PatchArrays& lists) {
-    return FieldPatches::from_arrays(lists, kVertices, ranks).has_value();
+  const auto taken = [&](const PatchArrays& arrays) {
+    return FieldPatches::from_arrays(arrays, kVertices, ranks).has_value();
   };
-  ASSERT_TRUE(taken(made.lists()));
+  ASSERT_TRUE(taken(made.arrays()));
   const auto with = [&](auto PatchArrays::*list, auto change) {
     using T = std::remove_cv_t<
-        typename std::remove_reference_t<decltype(made.lists().*list)>::element_type>;
-    std::vector<T> values((made.lists().*list).begin(), (made.lists().*list).end());
+        typename std::remove_reference_t<decltype(made.arrays().*list)>::element_type>;
+    std::vector<T> values((made.arrays().*list).begin(), (made.arrays().*list).end());
     change(values);
-    PatchArrays lists = made.lists();
-    lists.*list = values;
-    return taken(lists);
+    PatchArrays arrays = made.arrays();
+    arrays.*list = values;
+    return taken(arrays);
   };
   EXPECT_FALSE(with(&PatchArrays::vertices, [](auto& v) { v[3] = kVertices; }));
   EXPECT_FALSE(with(&PatchArrays::vertices, [](auto& v) { v[3] = v[4]; }));
@@ -228,9 +228,9 @@ TEST(FieldPatches, RefuseListsThatAreNotOfPatches) {
   EXPECT_FALSE(with(&PatchArrays::weights, [](auto& v) { v[0] = NAN; }));
   EXPECT_FALSE(with(&PatchArrays::weights, [](auto& v) { v.pop_back(); }));
   EXPECT_FALSE(with(&PatchArrays::quantized_values, [](auto& v) { v.push_back(0); }));
-  EXPECT_FALSE(
-      FieldPatches::from_arrays(made.lists(), kVertices, std::vector<Index>{ranks[0]}).has_value());
-  EXPECT_FALSE(FieldPatches::from_arrays(made.lists(), kVertices + 128, ranks).has_value());
+  EXPECT_FALSE(FieldPatches::from_arrays(made.arrays(), kVertices, std::vector<Index>{ranks[0]})
+                   .has_value());
+  EXPECT_FALSE(FieldPatches::from_arrays(made.arrays(), kVertices + 128, ranks).has_value());
 }
 
 TEST(FieldPatches, TellOfEachPatchAndEndWhereTheyAreTold) {

@@ -82,8 +82,8 @@ TEST(SurfaceTree, AHitIsTheWeightedMeanOfItsCorners) {
     const SurfaceHit hit = nearest_on_triangle(corners, {0, 1, 2}, points.row(i).transpose());
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_GE(hit.shares[k], 0);
-      sum += hit.shares[k] * corners.row(static_cast<Index>(k));
+      EXPECT_GE(hit.barycentric[k], 0);
+      sum += hit.barycentric[k] * corners.row(static_cast<Index>(k));
     }
     EXPECT_LT((sum.transpose() - hit.point).norm(), 1e-12);
     // No place of a fine grid over the triangle is nearer.

@@ -17,7 +17,7 @@ std::size_t AttachmentCarrier::memory_bytes() const {
   return gaps_->memory_bytes() + (bend_ ? bend_->memory_bytes() : 0);
 }
 
-Positions AttachmentCarrier::carry(const Positions& face, const Positions& normals) const {
+Positions AttachmentCarrier::move_to_face(const Positions& face, const Positions& normals) const {
   if (rigid_placement_) return rigid_placement_->place(face, normals);
   Positions points = bend_->bend(face);
   gaps_->restore_gaps(face, normals, points);

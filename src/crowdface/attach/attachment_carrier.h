@@ -31,7 +31,7 @@ class AttachmentCarrier {
   /// \param face     #V by 3, in the topology of the fitted mesh.
   /// \param normals  Normals of the face, from FittedSkin::normals.
   /// \return         #P by 3.
-  Positions carry(const Positions& face, const Positions& normals) const;
+  Positions move_to_face(const Positions& face, const Positions& normals) const;
 
   std::size_t memory_bytes() const;
 

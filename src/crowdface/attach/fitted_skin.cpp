@@ -147,8 +147,8 @@ double FittedSkin::patch_radius_at(const Eigen::Vector3d& point, double min_radi
 void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                              Patch& patch) const {
   if (share <= 0) return;
-  for (const std::uint32_t v : level.grid.vertices_near(point, patch.reach)) {
-    const double away = std::min(1.0, (row3(mesh_, v) - point).norm() / patch.reach);
+  for (const std::uint32_t v : level.grid.vertices_near(point, patch.radius)) {
+    const double away = std::min(1.0, (row3(mesh_, v) - point).norm() / patch.radius);
     const double weight = share * level.areas[v] * biweight(away);
     if (weight <= 0) continue;
     patch.vertices.push_back(v);
@@ -157,19 +157,19 @@ void FittedSkin::add_samples(const Level& level, const Eigen::Vector3d& point, d
 }
 
 FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point) const {
-  return patch_around(point, std::max(kReachMm * units_per_mm_, kReachSpacings * spacing()));
+  return patch_around(point, std::max(kReachMm * units_per_mm_, kReachSpacings * vertex_spacing()));
 }
 
 FittedSkin::Patch FittedSkin::patch_around(const Eigen::Vector3d& point, double min_radius) const {
   Patch patch;
-  patch.reach = patch_radius_at(point, min_radius);
+  patch.radius = patch_radius_at(point, min_radius);
   std::size_t level = 0;
-  while (level + 1 < levels_.size() && patch.reach > 2 * kSpacings * levels_[level].spacing) {
+  while (level + 1 < levels_.size() && patch.radius > 2 * kSpacings * levels_[level].spacing) {
     ++level;
   }
   double next = 0;
   if (level + 1 < levels_.size()) {
-    next = std::clamp(patch.reach / (kSpacings * levels_[level].spacing) - 1, 0.0, 1.0);
+    next = std::clamp(patch.radius / (kSpacings * levels_[level].spacing) - 1, 0.0, 1.0);
   }
   add_samples(levels_[level], point, 1 - next, patch);
   if (next > 0) add_samples(levels_[level + 1], point, next, patch);
@@ -186,7 +186,7 @@ NearestSkinPoint FittedSkin::nearest_skin(const Positions& face, const Positions
       topology_, vertex_faces_, face,
       walk_to_nearest_vertex(topology_, vertex_faces_, face, start, point), point);
   const Eigen::Vector3d outward_normal =
-      point_on(normals, place.corners, place.shares).normalized();
+      point_on(normals, place.corners, place.barycentric).normalized();
   return {place.corners[0], (point - place.position).dot(outward_normal), outward_normal,
           place.position};
 }

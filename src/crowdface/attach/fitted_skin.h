@@ -38,20 +38,20 @@ class FittedSkin {
   FittedSkin(const FittedSkin&) = delete;
   FittedSkin& operator=(const FittedSkin&) = delete;
 
-  const Positions& mesh() const { return mesh_; }
+  const Positions& mesh_positions() const { return mesh_; }
   std::span<const std::uint32_t> vertices() const { return skin_; }
   const PointGrid& grid() const { return levels_.front().grid; }
   const std::vector<double>& areas() const { return areas_; }
   double units_per_mm() const { return units_per_mm_; }
   /// Mean spacing of the skin's vertices: the square root of the skin's area divided by the number
   /// of vertices.
-  double spacing() const { return levels_.front().spacing; }
+  double vertex_spacing() const { return levels_.front().spacing; }
 
   /// Skin vertices around a point, with weights.
   struct Patch {
     std::vector<std::uint32_t> vertices;
     std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance
-    double reach = 0;             ///< distance from the point at which weights become zero
+    double radius = 0;            ///< distance from the point at which weights become zero
   };
   /// Returns the skin vertices around a point, with weights that decrease with distance and are
   /// zero from the distance `reach` on. For a point on the skin, the reach is a few millimetres.
@@ -82,7 +82,7 @@ class FittedSkin {
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   void add_coarser_level(double spacing);
-  /// Returns the reach of the patch around a point; see Patch::reach.
+  /// Returns the reach of the patch around a point; see Patch::radius.
   double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
   void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                    Patch& patch) const;

@@ -35,7 +35,7 @@ RigidPlacement::RigidPlacement(const FittedSkin& skin, const Positions& points,
   const std::size_t fewest = std::min(kMinOfSocket, skin.vertices().size());
   for (double reach = kSeatReachMm * skin.units_per_mm(); socket_.vertices.size() < fewest;
        reach *= 2) {
-    socket_ = find_socket(skin.mesh(), grid, skin.vertices(), skin.areas(), reach);
+    socket_ = find_socket(skin.mesh_positions(), grid, skin.vertices(), skin.areas(), reach);
     if (reach > 1e6 * skin.units_per_mm()) break;
   }
 }
@@ -72,7 +72,8 @@ RigidMotion RigidPlacement::push_out_of_skin(
 
 Positions RigidPlacement::place(const Positions& face, const Positions& normals) const {
   if (socket_.vertices.size() < 3) return moved_points({});
-  RigidMotion motion = fit_rigid_motion(skin_.mesh(), face, socket_.vertices, socket_.weights);
+  RigidMotion motion =
+      fit_rigid_motion(skin_.mesh_positions(), face, socket_.vertices, socket_.weights);
   for (int round = 0; round < kSeatRounds; ++round) {
     const auto violations = gaps_.violations(face, normals, moved_points(motion));
     if (violations.empty()) break;

@@ -43,7 +43,7 @@ class Roots {
         const Positions& points)
       : skin_(skin),
         points_(points),
-        normals_(skin.normals(skin.mesh())),
+        normals_(skin.normals(skin.mesh_positions())),
         of_point_(static_cast<std::size_t>(points.rows())),
         is_found_(of_point_.size(), false) {
     std::vector<QueueEntry> nearest(of_point_.size());
@@ -51,7 +51,7 @@ class Roots {
       const auto found = skin.grid().nearest(row3(points, p));
       nearest[p] = {false, found.distance, static_cast<std::uint32_t>(p), found.vertex};
     });
-    EdgeDistances along(adjacency, skin.mesh());
+    EdgeDistances along(adjacency, skin.mesh_positions());
     for (QueueEntry& at : nearest) at.is_ambiguous = is_ambiguous(at, along);
     std::vector<QueueEntry> starts = nearest;
     std::ranges::sort(starts);
@@ -78,7 +78,8 @@ class Roots {
     along.search(std::array{at.vertex}, kFarther * reach);
     const Eigen::Vector3d point = row3(points_, at.point);
     return std::ranges::any_of(skin_.grid().vertices_near(point, reach), [&](std::uint32_t v) {
-      return (row3(skin_.mesh(), v) - point).norm() < reach && std::isinf(along.distance(v));
+      return (row3(skin_.mesh_positions(), v) - point).norm() < reach &&
+             std::isinf(along.distance(v));
     });
   }
 
@@ -91,7 +92,8 @@ class Roots {
       open.pop();
       if (is_found_[point]) continue;
       is_found_[point] = true;
-      of_point_[point] = skin_.nearest_skin(skin_.mesh(), normals_, from, row3(points_, point));
+      of_point_[point] =
+          skin_.nearest_skin(skin_.mesh_positions(), normals_, from, row3(points_, point));
       for (const std::uint32_t next : neighbours.items_of(point)) {
         if (is_found_[next]) continue;
         QueueEntry found = nearest[next];
@@ -132,7 +134,7 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   const std::vector<NearestSkinPoint> roots = Roots(skin, adjacency, topology, points).of_point();
   const Positions anchors = anchors_of(roots, points, kOffMm * skin.units_per_mm());
   const PointGrid grid(anchors, all);
-  EdgeDistances along(adjacency, skin.mesh());
+  EdgeDistances along(adjacency, skin.mesh_positions());
   std::vector<std::vector<BendNodes::NodeWeight>> of_point(all.size());
   std::vector<bool> covered(all.size(), false);
   for (std::uint32_t p = 0; p < all.size(); ++p) {
@@ -141,9 +143,9 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
     const auto number = static_cast<std::uint32_t>(nodes_.patches.size());
     nodes_.patches.push_back(skin.patch_around(middle, kPatchReachMm * skin.units_per_mm()));
     FittedSkin::Patch& patch = nodes_.patches.back();
-    const double near = kAlong * patch.reach;
+    const double near = kAlong * patch.radius;
     along.search(std::array{roots[p].vertex}, near);
-    const double radius = BendNodes::kInfluenceRadius * BendNodes::kNodeSpacing * patch.reach;
+    const double radius = BendNodes::kInfluenceRadius * BendNodes::kNodeSpacing * patch.radius;
     for (const std::uint32_t q : grid.vertices_near(middle, radius)) {
       const double distance = (row3(anchors, q) - middle).norm() / radius;
       if (distance >= 1 || along.distance(roots[q].vertex) > near) continue;
@@ -160,7 +162,7 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
 /// remain.
 void ShapeBend::remove_distant_vertices(const EdgeDistances& along, double limit,
                                         FittedSkin::Patch& patch) {
-  FittedSkin::Patch near{{}, {}, patch.reach};
+  FittedSkin::Patch near{{}, {}, patch.radius};
   for (std::size_t i = 0; i < patch.vertices.size(); ++i) {
     if (along.distance(patch.vertices[i]) > limit) continue;
     near.vertices.push_back(patch.vertices[i]);

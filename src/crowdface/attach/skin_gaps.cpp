@@ -18,7 +18,7 @@ constexpr double kFarMm = 25;
 constexpr double kCloseMm = 2, kLooseMm = 6;
 /// An outside vertex with a larger original gap keeps at least this distance from the skin. A
 /// vertex with a smaller original gap keeps that gap.
-constexpr double kMinMm = 2;
+constexpr double kMinGapMm = 2;
 /// Number of rounds in which pushed vertices move their neighbours.
 constexpr int kRounds = 8;
 constexpr std::uint32_t kGapsPerBlock = 512;
@@ -31,13 +31,13 @@ SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Posit
       heights_(static_cast<std::size_t>(points.rows()), kNowhere),
       start_vertices_(heights_.size(), 0),
       neighbours_(build_adjacency(topology)) {
-  const Positions normals = skin.normals(skin.mesh());
+  const Positions normals = skin.normals(skin.mesh_positions());
   parallel_for_each(heights_.size(), kGapsPerBlock, [&](std::size_t p) {
     const Eigen::Vector3d point = row3(points, static_cast<Index>(p));
     const PointGrid::NearestVertex nearest = skin.grid().nearest(point);
     start_vertices_[p] = nearest.vertex;
-    if (nearest.distance > kFarMm * skin.units_per_mm() + 2 * skin.spacing()) return;
-    heights_[p] = skin.nearest_skin(skin.mesh(), normals, nearest.vertex, point).height;
+    if (nearest.distance > kFarMm * skin.units_per_mm() + 2 * skin.vertex_spacing()) return;
+    heights_[p] = skin.nearest_skin(skin.mesh_positions(), normals, nearest.vertex, point).height;
   });
 }
 
@@ -47,7 +47,7 @@ std::size_t SkinGaps::memory_bytes() const {
 }
 
 double SkinGaps::min_height(std::uint32_t point) const {
-  return std::min(heights_[point], kMinMm * skin_.units_per_mm());
+  return std::min(heights_[point], kMinGapMm * skin_.units_per_mm());
 }
 
 std::vector<SkinGaps::Violation> SkinGaps::violations(const Positions& face,

@@ -27,7 +27,7 @@ std::vector<std::uint32_t> find_nodes(const FittedSkin& skin, const Positions& p
     const Eigen::Vector3d middle = row3(points, p);
     places.push_back(p);
     patches.push_back(skin.patch_around(middle));
-    const double apart = BendNodes::kNodeSpacing * patches.back().reach;
+    const double apart = BendNodes::kNodeSpacing * patches.back().radius;
     for (const std::uint32_t other : grid.vertices_near(middle, apart)) {
       if ((row3(points, other) - middle).norm() < apart) covered[other] = true;
     }
@@ -49,7 +49,7 @@ SmoothBend::SmoothBend(const FittedSkin& skin, const Positions& points)
     for (std::uint32_t n = 0; n < places.size(); ++n) {
       const Eigen::Vector3d middle = row3(points, places[n]);
       const double radius =
-          BendNodes::kInfluenceRadius * BendNodes::kNodeSpacing * nodes_.patches[n].reach;
+          BendNodes::kInfluenceRadius * BendNodes::kNodeSpacing * nodes_.patches[n].radius;
       for (const std::uint32_t p : grid.vertices_near(middle, radius)) {
         const double distance = (row3(points, p) - middle).norm() / radius;
         const double weight = biweight(std::min(1.0, distance));
@@ -63,7 +63,7 @@ Positions SmoothBend::bend(const Positions& face) const {
   std::vector<RigidMotion> motions(nodes_.patches.size());
   parallel_for_each(motions.size(), kNodesPerBlock, [&](std::size_t n) {
     const FittedSkin::Patch& patch = nodes_.patches[n];
-    motions[n] = fit_rigid_motion(skin_.mesh(), face, patch.vertices, patch.weights);
+    motions[n] = fit_rigid_motion(skin_.mesh_positions(), face, patch.vertices, patch.weights);
   });
   Positions bent(points_.rows(), 3);
   parallel_for_each(points_.rows(), kPointsPerBlock, [&](Index p) {

@@ -31,7 +31,7 @@ void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is
     if (!is_skin[f]) continue;
     if (placed.file_of_face[f] != kNoIndex) {
       used.insert(placed.file_of_face[f]);
-    } else if (found.tile[f] != std::array<std::int32_t, 2>{0, 0}) {
+    } else if (found.tile_of_face[f] != std::array<std::int32_t, 2>{0, 0}) {
       tiled = true;
     }
   }
@@ -42,7 +42,7 @@ void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is
       if (!used.contains(file)) file = kNoIndex;
     } else if (is_skin[f]) {
       const std::uint32_t material = materials.material_of_face[f];
-      const auto [row, is_new] = rows.try_emplace({material, found.tile[f]},
+      const auto [row, is_new] = rows.try_emplace({material, found.tile_of_face[f]},
                                                   static_cast<std::uint32_t>(placed.files.size()));
       if (is_new) {
         placed.files.push_back({{}, concat(materials.names[material], tiled ? kTileWord : "")});

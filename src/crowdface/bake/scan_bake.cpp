@@ -125,10 +125,11 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
     if (along.triangle != kNoIndex) place = along;
   }
   seen.area.triangle = place.triangle;
-  seen.area.shares = nearest_on_triangle(surface_.scan().positions,
-                                         surface_.scan().triangles[place.triangle], place.point)
-                         .shares;
-  if (!place.found) return seen;
+  seen.area.barycentric =
+      nearest_on_triangle(surface_.scan().positions, surface_.scan().triangles[place.triangle],
+                          place.point)
+          .barycentric;
+  if (!place.is_found) return seen;
   const double distance = (place.point - skin_point.position).norm();
   seen.confidence =
       (1 - smooth_step(0.6 * kMaxDistanceMm, kMaxDistanceMm, distance)) *
@@ -285,9 +286,9 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
                                      std::uint32_t& guess) const {
   const SurfaceTexels::Triangle& triangle = *texel.triangle;
   const std::vector<double>& ambient_visibility = template_.wrap_template().skin.ambient_visibility;
-  const auto mix = [&](const Positions& values, const std::array<double, 3>& shares) {
+  const auto mix = [&](const Positions& values, const std::array<double, 3>& barycentric) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) sum += shares[k] * row3(values, texel.rows[k]);
+    for (std::size_t k = 0; k < 3; ++k) sum += barycentric[k] * row3(values, texel.rows[k]);
     return sum;
   };
   const auto barycentric_at = [&](double column, double row) -> std::array<double, 3> {
@@ -313,10 +314,10 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
           : 1;
   for (int j = 0; j < samples && trust > 0; ++j) {
     for (int i = 0; i < samples; ++i) {
-      const auto shares =
+      const auto barycentric =
           barycentric_at(x + (i + 0.5) / samples - 0.5, y + (j + 0.5) / samples - 0.5);
       ScanPoint seen = find_scan_point(
-          {mix(positions_, shares), mix(normals_, shares).normalized(), open}, guess);
+          {mix(positions_, barycentric), mix(normals_, barycentric).normalized(), open}, guess);
       guess = seen.area.triangle;
       if (seen.confidence == 0) continue;
       seen.area.to_right_texel = texel.to_right_texel / samples;

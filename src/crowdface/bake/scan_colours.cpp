@@ -168,7 +168,7 @@ std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanA
         const double a = one.dot(step), b = other.dot(step);
         return ((bb * a - ab * b) * second + (aa * b - ab * a) * third) / det;
       };
-      const Eigen::Vector2d uv = first + area.shares[1] * second + area.shares[2] * third;
+      const Eigen::Vector2d uv = first + area.barycentric[1] * second + area.barycentric[2] * third;
       return colours_.textures[file]->mean_at(uv - Eigen::Vector2d(tile[0], tile[1]),
                                               in_uv(area.to_right_texel),
                                               in_uv(area.to_lower_texel));
@@ -177,9 +177,9 @@ std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanA
   if (has_vertex_colours()) {
     const auto& vertices = mesh_.topology.corner_vertices;
     const Eigen::Vector3d light =
-        area.shares[0] * row3(vertex_linear_colours_, vertices[source.first]) +
-        area.shares[1] * row3(vertex_linear_colours_, vertices[source.second]) +
-        area.shares[2] * row3(vertex_linear_colours_, vertices[source.third]);
+        area.barycentric[0] * row3(vertex_linear_colours_, vertices[source.first]) +
+        area.barycentric[1] * row3(vertex_linear_colours_, vertices[source.second]) +
+        area.barycentric[2] * row3(vertex_linear_colours_, vertices[source.third]);
     return light.cast<float>().array();
   }
   const auto& light = material_linear_colours_[material_of_face_[source.face]];
@@ -203,8 +203,8 @@ ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
     for (std::size_t c = 0; c < 3; ++c) {
       if (is_done[corners[c]]) continue;
       is_done[corners[c]] = true;
-      area.shares = {};
-      area.shares[c] = 1;
+      area.barycentric = {};
+      area.barycentric[c] = 1;
       const Eigen::Array3f light =
           colours.mean_at(scan, area).value_or(Eigen::Array3f::Constant(kUnknown));
       for (int k = 0; k < 3; ++k) {

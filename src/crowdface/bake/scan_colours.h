@@ -33,8 +33,8 @@ MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
 
 /// A point of a scan, and the parallelogram around it that one texel shows.
 struct ScanArea {
-  std::uint32_t triangle = 0;         ///< index of a triangle of the scan
-  std::array<double, 3> shares = {};  ///< barycentric coordinates of the point
+  std::uint32_t triangle = 0;              ///< index of a triangle of the scan
+  std::array<double, 3> barycentric = {};  ///< barycentric coordinates of the point
   /// Vectors from the texel to its right neighbour and to its lower neighbour, in the scan's frame.
   Eigen::Vector3d to_right_texel, to_lower_texel;
 };

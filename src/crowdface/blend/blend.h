@@ -14,13 +14,15 @@ namespace crowdface {
 /// mean of the heads in the mixture.
 Positions target_positions(const HeadSet& heads, const Recipe& recipe);
 
-/// Blends the face of a recipe with exact smoothing levels, before mirroring. Applies the filter
-/// once for each band of each region. The formula is Eq. 7, in the second form below;
-/// weights_by_level generalises it to several bands. With C̄_k = Σ_i ω̂_ki C_i and D_k = B − e_k
-/// C̄_k,
+/// Blends the face of a recipe, without mirroring. Unlike CrowdBlender, smooths exactly: applies
+/// the filter once for each band of each region. Computes Eq. 7 in the second form below:
 ///
 ///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ]
 ///       = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
+///
+/// B is the target. Region k has the vertex weights α_k, the smoothing S_{L_k} to level L_k, the
+/// extrapolation factor e_k, the weighted mean of the source heads C̄_k = Σ_i ω̂_ki C_i, and the
+/// difference D_k = B − e_k C̄_k. weights_by_level generalises Eq. 7 to several bands.
 ///
 /// The second form keeps a vertex bit-identical to B if the vertex is fixed or if D_k = 0 there
 /// (when the target is blended with itself). For a mixture, B is the weighted mean of its heads.

@@ -92,7 +92,7 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
     // weights before multiplying by the functions φ. Then weights that cancel give exactly zero,
     // and a target that is blended with itself does not change.
     std::vector<double> shares(levels_.size(), 0.0);
-    for (const SourceWeight& part : at.shares) {
+    for (const SourceWeight& part : at.weights) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
     }
     for (std::size_t h = 0; h < shares.size(); ++h) {
@@ -240,8 +240,9 @@ class CrowdBlender::PatchBlender {
     for (std::size_t row = 0; row < fields_.size(); ++row) {
       const auto uses = [&](std::uint32_t k) { return crowd_.uses(k, fields_[row]); };
       if (std::ranges::none_of(regions_, uses)) continue;
-      unpack(patch_.quantized_values + row * patch_.values_per_field(), patch_.values_per_field(),
-             patch_.quantization_steps[row], unpacked + fields_[row] * patch_.values_per_field());
+      dequantize(patch_.quantized_values + row * patch_.values_per_field(),
+                 patch_.values_per_field(), patch_.quantization_steps[row],
+                 unpacked + fields_[row] * patch_.values_per_field());
     }
     for (const std::uint32_t region : regions_) {
       copy_alpha(region);

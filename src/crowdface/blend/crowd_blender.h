@@ -12,17 +12,20 @@
 
 namespace crowdface {
 
-/// Blends many faces at once from the fitted levels of the heads (Eqs. 5–7 with S̃):
+/// Blends many faces at once, with approximate smoothing. For each head C_h, the smoothing S̃_L to
+/// any level L was fitted in advance as S̃_L C_h = C_h + Σ_p φ_hp(L) c_hp (Eq. 5), where c_hp are
+/// vector fields on the mesh and φ_hp are functions of the level. With this fit, Eq. 7 becomes
 ///
 ///     A = B + Σ_k α_k Σ_h Σ_p [ Σ_L s_kLh φ_hp(L) ] c_hp
 ///
-/// The weights s_kLh come from weights_by_level; with one band, the weight at level L_k is s_kh =
-/// τ_h − e_k ω̂_kh. The formula follows from Eq. 7 by C − S̃_L C = −Σ_p φ_p c_p(C).
+/// B is the target, α_k are the vertex weights of region k, and s_kLh is the weight of head h at
+/// level L from weights_by_level. With one band, L = L_k and s_kLh = τ_h − e_k ω̂_kh.
 ///
 /// For M faces, each region of a patch takes two matrix products. The first product multiplies the
-/// fields of all heads at the patch's skeleton by a matrix with M columns of coefficients. The
-/// second product multiplies the skeleton's interpolation weights by the result of the first. All M
-/// faces share the cost of reading the fields.
+/// fields of all heads at the patch's skeleton (the vertices from which all vertices of the patch
+/// are interpolated) by a matrix with M columns of coefficients. The second product multiplies the
+/// skeleton's interpolation weights by the result of the first. All M faces share the cost of
+/// reading the fields.
 ///
 /// The bits of a face do not depend on the faces that are blended with it, the number of threads or
 /// the instruction set. A face whose coefficients are all zero (the target blended with itself) is

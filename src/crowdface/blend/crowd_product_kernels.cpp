@@ -24,7 +24,7 @@ HWY_INLINE hn::VFromD<Lanes> widened(Lanes lanes, const std::int16_t* numbers) {
   return hn::ConvertTo(lanes, hn::PromoteTo(whole, hn::LoadU(narrow, numbers)));
 }
 
-void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values) {
+void dequantize(const std::int16_t* numbers, std::size_t count, float step, float* values) {
   const hn::CappedTag<float, kPatchPadding> lanes;
   const auto factor = hn::Set(lanes, step);
   for (std::size_t i = 0; i < count; i += hn::Lanes(lanes)) {
@@ -166,14 +166,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
-HWY_EXPORT(unpack);
+HWY_EXPORT(dequantize);
 HWY_EXPORT(multiply_floats);
 HWY_EXPORT(multiply_numbers);
 HWY_EXPORT(write_sums);
 HWY_EXPORT(wait_for_streaming_stores);
 
-void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values) {
-  HWY_DYNAMIC_DISPATCH(unpack)(numbers, count, step, values);
+void dequantize(const std::int16_t* numbers, std::size_t count, float step, float* values) {
+  HWY_DYNAMIC_DISPATCH(dequantize)(numbers, count, step, values);
 }
 
 void multiply(const MatrixRows<float>& rows, std::span<const float* const> columns,

@@ -14,7 +14,7 @@ inline constexpr std::size_t kMaxColumns = 6;
 /// Converts quantized numbers to floats: values[i] = numbers[i]·step.
 ///
 /// \param count  a multiple of kPatchPadding.
-void unpack(const std::int16_t* numbers, std::size_t count, float step, float* values);
+void dequantize(const std::int16_t* numbers, std::size_t count, float step, float* values);
 
 /// The matrix whose rows `multiply` adds up. The values are quantized (int16) or unpacked (float).
 template <class Number>

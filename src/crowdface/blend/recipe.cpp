@@ -65,7 +65,7 @@ std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t reg
     LevelWeights& level = levels.emplace_back(LevelWeights{band.iterations, std::move(coarser)});
     coarser.clear();
     for (const SourceWeight& source : band.weights) {
-      level.shares.push_back({source.head, -e * source.weight});
+      level.weights.push_back({source.head, -e * source.weight});
       coarser.push_back({source.head, e * source.weight});
     }
   }
@@ -77,14 +77,14 @@ std::vector<SourceWeight> target_head_weights(const Recipe& recipe) {
   return recipe.mixture;
 }
 
-void set_target_heads(Recipe& recipe, std::vector<SourceWeight> shares) {
-  require(!shares.empty(), "a target of no head");
+void set_target_heads(Recipe& recipe, std::vector<SourceWeight> weights) {
+  require(!weights.empty(), "a target of no head");
   const auto largest =
-      std::max_element(shares.begin(), shares.end(),
+      std::max_element(weights.begin(), weights.end(),
                        [](const auto& a, const auto& b) { return a.weight < b.weight; });
   recipe.target = largest->head;
-  if (shares.size() == 1) shares.clear();
-  recipe.mixture = std::move(shares);
+  if (weights.size() == 1) weights.clear();
+  recipe.mixture = std::move(weights);
 }
 
 std::vector<SourceWeight> weights_at_position(const std::vector<PlanePoint>& anchors, Index target,

@@ -81,7 +81,7 @@ double mirrored_weight(const Recipe& recipe);
 struct LevelWeights {
   std::uint64_t level = 0;
   /// s_h in the order in which they are summed; a head may occur twice
-  std::vector<SourceWeight> shares;
+  std::vector<SourceWeight> weights;
 };
 
 /// Whether extrapolation factors have the values in the recipe (kAsGiven) or are all 1 (kNone).
@@ -108,8 +108,8 @@ std::vector<SourceWeight> target_head_weights(const Recipe& recipe);
 /// empty for a single head, and sets `target` to the head with the largest weight. If several heads
 /// have the largest weight, the first of these becomes the target.
 ///
-/// \param shares  weights by ascending head, above zero, summing to one.
-void set_target_heads(Recipe& recipe, std::vector<SourceWeight> shares);
+/// \param weights  weights by ascending head, above zero, summing to one.
+void set_target_heads(Recipe& recipe, std::vector<SourceWeight> weights);
 
 /// Returns B = Σ_h τ_h B_h.
 ///

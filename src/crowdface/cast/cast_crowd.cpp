@@ -20,7 +20,7 @@ namespace {
 ///
 /// \param diversity  options whose `min_distance_mm` applies to all these faces.
 void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diversity,
-                    const FaceJudge& judge, const std::vector<FaceDistribution>& kinds,
+                    const FaceJudge& judge, const std::vector<FaceDistribution>& distributions,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
                     CrowdSoFar& crowd, PopulationBalance& population,
                     const FaceJoinedCallback& on_face_joined, CastingResult& result) {
@@ -35,7 +35,7 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
     std::vector<FaceSearch> searches;
     for (std::uint64_t index = first; index <= last; ++index) {
       const FaceDistribution& kind =
-          kinds[static_cast<std::size_t>(result.group_indices[index - 1] + 1)];
+          distributions[static_cast<std::size_t>(result.group_indices[index - 1] + 1)];
       searches.emplace_back(
           [&casting, &kind, index](std::uint32_t attempt) {
             return random_face(casting, index, attempt, kind);
@@ -68,7 +68,7 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
 /// Casts the sampled faces `from` … `to`. Their minimum distances may differ, see
 /// DiversityOptions::min_distance_mm_by_last_face.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
-                    const std::vector<FaceDistribution>& kinds,
+                    const std::vector<FaceDistribution>& distributions,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
                     CrowdSoFar& crowd, PopulationBalance& population,
                     const FaceJoinedCallback& on_face_joined, CastingResult& result) {
@@ -76,7 +76,7 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
   while (from <= to && !result.shortfall) {
     const auto same = distances.lower_bound(from);
     const std::uint64_t last = same == distances.end() ? to : std::min(to, same->first);
-    cast_first_fit(casting, casting.diversity.options_of_face(from), judge, kinds,
+    cast_first_fit(casting, casting.diversity.options_of_face(from), judge, distributions,
                    family_separation, from, last, crowd, population, on_face_joined, result);
     from = last + 1;
   }
@@ -133,7 +133,7 @@ void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result
 
 /// Casts the sampled faces `from` … `to`, after a review has been applied.
 void grow(const CastingOptions& casting, const FaceJudge& judge,
-          const std::vector<FaceDistribution>& kinds, std::uint64_t from, std::uint64_t to,
+          const std::vector<FaceDistribution>& distributions, std::uint64_t from, std::uint64_t to,
           PopulationBalance& population, const FaceJoinedCallback& on_face_joined,
           CastingResult& result) {
   auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
@@ -143,7 +143,7 @@ void grow(const CastingOptions& casting, const FaceJudge& judge,
     crowd->add(result.crowd[i], result.points[i]);
   }
   if (others == result.crowd.size()) crowd->mark_first_sampled();
-  cast_first_fit(casting, judge, kinds, separation_of(result), from, to, *crowd, population,
+  cast_first_fit(casting, judge, distributions, separation_of(result), from, to, *crowd, population,
                  on_face_joined, result);
   take_crowd(judge, *crowd, result);
 }
@@ -183,21 +183,21 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   }
   crowd.mark_first_sampled();
   result.group_indices = schedule_groups(casting.groups, casting.count);
-  const std::vector<FaceDistribution> kinds = face_distributions(casting);
+  const std::vector<FaceDistribution> distributions = face_distributions(casting);
   const std::vector<std::uint64_t> before = faces_before_reviews(casting);
   PopulationBalance population(casting.trait_targets);
   std::uint64_t sampled = before.empty() ? casting.count : before.front();
   if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
-    cast_spread(casting, judge, kinds, family_separation, crowd, on_face_joined, result);
+    cast_spread(casting, judge, distributions, family_separation, crowd, on_face_joined, result);
   } else {
-    cast_first_fit(casting, judge, kinds, family_separation, 1, sampled, crowd, population,
+    cast_first_fit(casting, judge, distributions, family_separation, 1, sampled, crowd, population,
                    on_face_joined, result);
   }
   take_crowd(judge, crowd, result);
   so_far.reset();  // free the search index, which takes as much memory as the points
   const auto grow_to = [&](std::uint64_t count) {
     if (result.shortfall || count <= sampled) return;
-    grow(casting, judge, kinds, sampled + 1, count, population, on_face_joined, result);
+    grow(casting, judge, distributions, sampled + 1, count, population, on_face_joined, result);
     sampled = count;
   };
   for (std::size_t r = 0; r < casting.reviews.size(); ++r) {

@@ -24,7 +24,7 @@ struct Shortfall {
   int group_index = -1;     ///< group of the sampled face that could not be found, or −1
   std::string family = {};  ///< name of the family that could not be cast, if any
   std::string reviewed_face = {};  ///< id of the face that could not be redrawn, if any
-  std::string recipe = {};         ///< id of the hand-written face that could not be cast, if any
+  std::string manual_face = {};    ///< id of the hand-written face that could not be cast, if any
   std::string changed_face = {};   ///< id of the face that could not be changed, if any
 };
 

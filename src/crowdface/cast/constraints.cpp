@@ -44,12 +44,12 @@ constexpr std::array<Constraint, kReasonCount> kConstraints = {{
      "lips, or other skin that nearly touches, part by more than", kShape},
     {Reason::kExposed, "believability", "max_exposed", nullptr, &Believability::max_exposed_mm2,
      " mm²", "the lining of nose, lips or lids shows through the skin by more than", kShape},
-    {.reason = Reason::kFamily, .section = "", .key = "family", .advice = kFamilies},
+    {.reason = Reason::kFamily, .config_section = "", .config_key = "family", .advice = kFamilies},
     {.reason = Reason::kRejected,
-     .section = "diversity",
-     .key = "min_distance_to_rejected",
+     .config_section = "diversity",
+     .config_key = "min_distance_to_rejected",
      .advice = kReview},
-    {.reason = Reason::kTraits, .section = "", .key = "traits", .advice = kTraits},
+    {.reason = Reason::kTraits, .config_section = "", .config_key = "traits", .advice = kTraits},
 }};
 
 constexpr bool constraints_are_in_order() {
@@ -61,7 +61,7 @@ constexpr bool constraints_are_in_order() {
 static_assert(constraints_are_in_order(), "every Reason has its row, in the enumeration's order");
 
 std::string full_key(const Constraint& constraint) {
-  return concat(constraint.section, '.', constraint.key);
+  return concat(constraint.config_section, '.', constraint.config_key);
 }
 
 /// Returns the value of a constraint's limit with its unit, as text.

@@ -37,9 +37,9 @@ constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kTraits) + 1;
 /// A constraint on faces, with the names and texts that the user sees.
 struct Constraint {
   Reason reason;
-  std::string_view section;  ///< section of the config that contains the key of the limit
-  /// key of the limit in `section`; casting.json and logs use this name, too
-  std::string_view key;
+  std::string_view config_section;  ///< section of the config that contains the key of the limit
+  /// key of the limit in `config_section`; casting.json and logs use this name, too
+  std::string_view config_key;
   /// the option that holds the limit, if it is a diversity option
   double DiversityOptions::*diversity_limit = nullptr;
   /// the option that holds the limit, if it is a believability option
@@ -59,7 +59,7 @@ const Constraint& constraint_of(Reason reason);
 
 /// Returns the name of a constraint, which is its key in the config.
 inline std::string_view name_of(Reason reason) {
-  return constraint_of(reason).key;
+  return constraint_of(reason).config_key;
 }
 /// Returns a text such as "diversity.min_distance, 0.8 mm".
 std::string describe(Reason reason, const DiversityOptions& diversity,

@@ -11,7 +11,7 @@ namespace crowdface {
 /// Count, minimum, maximum and quartiles of a set of values.
 struct Quartiles {
   std::uint64_t count = 0;
-  double min = 0, lower = 0, median = 0, upper = 0, max = 0;
+  double min = 0, lower_quartile = 0, median = 0, upper_quartile = 0, max = 0;
 };
 Quartiles quartiles(std::vector<double> values);
 

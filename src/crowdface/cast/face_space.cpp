@@ -36,8 +36,8 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
 
 }  // namespace
 
-/// The order in which the rows of a matrix hold the basis functions: first the mean head, then each
-/// head's deviation from the mean head, then the fields, sorted by region, head and mode.
+/// The order of the basis functions in the rows of a matrix: first the mean head, then each head's
+/// deviation from the mean head, then the fields, sorted by region, head and mode.
 struct FaceSpace::BasisRowOrder {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
@@ -53,7 +53,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
   const FloatRows basis = compute_basis_functions();
   compute_head_shapes_and_fields();
   find_principal_directions(bands);
-  directions_transposed_ = tables_.directions.transpose();
+  directions_transposed_ = tables_.principal_directions.transpose();
   if (heads_.region_weights.cols() == 1) return;
   compute_region_area_fractions();
   find_region_metrics(basis);
@@ -64,18 +64,18 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, Fac
   require(have_matching_sizes(tables_, heads_), "face space: tables of other heads");
   choose_nonzero_weight_samples(weights);
   compute_head_shapes_and_fields();
-  directions_transposed_ = tables_.directions.transpose();
+  directions_transposed_ = tables_.principal_directions.transpose();
   if (heads_.region_weights.cols() > 1) compute_region_area_fractions();
 }
 
 bool FaceSpace::have_matching_sizes(const FaceSpaceTables& tables, const SampledHeads& heads) {
   const std::size_t mirror_variant_count = heads.mirror_images == nullptr ? 1 : 2;
   const BasisRowOrder rows{static_cast<Index>(mirror_variant_count * heads.heads.size()),
-                           tables.levels.cols()};
-  const Index regions = heads.region_weights.cols(), rank = tables.directions.rows();
-  return tables.levels.rows() == static_cast<Index>(heads.levels.size()) &&
-         tables.functions.rows() == rows.count(regions) &&
-         tables.directions.cols() == 3 * tables.functions.cols() &&
+                           tables.level_coefficients.cols()};
+  const Index regions = heads.region_weights.cols(), rank = tables.principal_directions.rows();
+  return tables.level_coefficients.rows() == static_cast<Index>(heads.levels.size()) &&
+         tables.basis_functions.rows() == rows.count(regions) &&
+         tables.principal_directions.cols() == 3 * tables.basis_functions.cols() &&
          static_cast<Index>(tables.region_metrics.size()) == (regions > 1 ? regions : 0) &&
          std::ranges::all_of(tables.region_metrics, [&](const FloatRows& metric) {
            return metric.rows() == rank && metric.cols() == rank;
@@ -181,24 +181,24 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
 /// \return  The functions, #P by #S.
 FloatRows FaceSpace::compute_basis_functions() {
   const SpanBasis modes = smoothing_displacement_modes();
-  tables_.levels = modes.coordinates;
+  tables_.level_coefficients = modes.coordinates;
   std::vector<float> max_coefficients;
   for (Index r = 0; r < modes.directions.rows(); ++r) {
     max_coefficients.push_back(modes.coordinates.col(r).cwiseAbs().maxCoeff());
-    for (Index l = 0; l < tables_.levels.rows(); ++l)
-      tables_.levels(l, r) /= max_coefficients.back();
+    for (Index l = 0; l < tables_.level_coefficients.rows(); ++l)
+      tables_.level_coefficients(l, r) /= max_coefficients.back();
   }
   const BasisRowOrder rows{head_point_count(), modes.directions.rows()};
   SpanBasis basis = span_basis(coordinate_functions(modes, max_coefficients, rows), kFieldTolerance,
                                mirror_variant_count() * kMaxBasisFunctions);
-  tables_.functions = std::move(basis.coordinates);
+  tables_.basis_functions = std::move(basis.coordinates);
   return std::move(basis.directions);
 }
 
 void FaceSpace::compute_head_shapes_and_fields() {
-  const BasisRowOrder rows{head_point_count(), tables_.levels.cols()};
+  const BasisRowOrder rows{head_point_count(), tables_.level_coefficients.cols()};
   const auto shape_at = [&](Index row) -> Shape {
-    return tables_.functions.middleRows<3>(row).transpose();
+    return tables_.basis_functions.middleRows<3>(row).transpose();
   };
   mean_shape_ = shape_at(0);
   for (Index h = 0; h < rows.heads; ++h) {
@@ -211,7 +211,7 @@ void FaceSpace::compute_head_shapes_and_fields() {
     for (Index r = 0; r < rows.modes; ++r) {
       const Shape mode = shape_at(rows.of_field(kh, r));
       for (Index l = 0; l < levels; ++l) {
-        const float factor = tables_.levels(l, r);
+        const float factor = tables_.level_coefficients(l, r);
         float* out = fields_.data() + (kh * levels + l) * size;
         for (Index i = 0; i < size; ++i) out[i] += factor * mode.data()[i];
       }
@@ -246,7 +246,7 @@ FaceSpace::Shape FaceSpace::shape_of_mirror_variant(const Recipe& recipe,
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     for (const LevelWeights& at : weights_by_level(recipe, k, extrapolation)) {
       for (const WeightedTrajectoryRow& level : interpolation_rows(heads_.levels, at.level)) {
-        for (const SourceWeight& part : at.shares) {
+        for (const SourceWeight& part : at.weights) {
           const auto f = static_cast<float>(part.weight * level.weight);
           add_scaled(f, field(k, first + part.head, level.row),
                      static_cast<std::size_t>(shape.size()), shape.data());
@@ -295,14 +295,14 @@ void FaceSpace::find_principal_directions(std::size_t bands) {
                   Extrapolation::kAsGiven));
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
-  tables_.directions =
+  tables_.principal_directions =
       span_basis(std::move(rows), kFaceTolerance, mirror_variant_count() * kMaxDirections)
           .directions;
 }
 
 Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
   const std::vector<float> at = aligned_deviation(shape);
-  const Index rank = tables_.directions.rows();
+  const Index rank = tables_.principal_directions.rows();
   const auto size = static_cast<std::size_t>(rank);
   Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
   add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
@@ -361,7 +361,7 @@ void FaceSpace::compute_region_area_fractions() {
 /// faces at sample s. M_k = V G_k Vᵀ, where the rows of V are the principal directions, G_k = U
 /// diag(α_k) Uᵀ, and U holds the values of the basis functions at the samples, times √w_s.
 void FaceSpace::find_region_metrics(const FloatRows& basis) {
-  const FloatRows& directions = tables_.directions;
+  const FloatRows& directions = tables_.principal_directions;
   const Index functions = basis.rows(), rank = directions.rows();
   for (Index k = 0; k < heads_.region_weights.cols(); ++k) {
     FloatRows masked = basis;  // the values of the basis contain √w_s

@@ -10,12 +10,12 @@ namespace crowdface {
 
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
-  FloatRows levels;  ///< #levels by #modes: coefficient of each mode at each level
+  FloatRows level_coefficients;  ///< #levels by #modes: coefficient of each mode at each level
   /// #functions by #P: each row is one scalar function on the skin, given by its coefficients in an
   /// orthonormal basis of P functions. Each coordinate of a face (x, y or z) is a linear
   /// combination of the rows.
   FloatRows functions;
-  FloatRows directions;  ///< #D by 3·#P: principal directions of the aligned faces
+  FloatRows principal_directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
   std::vector<FloatRows> region_metrics;
 };
@@ -55,7 +55,7 @@ class FaceSpace {
   /// head_count() on.
   Point head_point(Index head) const;
 
-  Index dimensions() const { return tables_.directions.rows() + 1; }
+  Index dimensions() const { return tables_.principal_directions.rows() + 1; }
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
   /// Returns the number of heads, including mirror images if there are any.
   Index head_point_count() const { return mirror_variant_count() * head_count(); }
@@ -132,7 +132,7 @@ class FaceSpace {
   std::vector<Shape> head_shapes_;  ///< shapes of all heads, including mirror images
   /// The displacements α_k (S_L x_h − x_h) of the heads x_h by smoothing to level L, multiplied by
   /// the weights α_k of region k. One #P by 3 matrix for each region, head (including mirror
-  /// images) and row of `levels`.
+  /// images) and row of `level_coefficients`.
   std::vector<float> fields_;
   FloatRows directions_transposed_;
   /// the region's fraction of the face's surface area; empty if there is one region

@@ -25,8 +25,8 @@ constexpr double kParentShare = 0.75;
 /// A child is a mixture of the founder and a random face. The coarse shape of the random face is a
 /// weighted mean of the coarse shapes of three contributors. One parent has the weight
 /// kLargeFormsShare, a third contributor (a random face) has the weight kForeignShare, and the
-/// second parent has the rest. Without the third contributor, the children of a couple would hardly
-/// differ.
+/// second parent has the rest. Without the third contributor, the children of two parents would
+/// hardly differ.
 constexpr double kLargeFormsShare = 0.65;
 constexpr double kForeignShare = 0.2;
 constexpr int kHalvings = 10;

@@ -77,8 +77,8 @@ class PointTrees {
   /// `limit_squared`; of equally near points, the first. The result does not depend on the other
   /// points, not even in its last bits.
   ///
-  /// \param sufficient_squared_distance  Squared distance, at most `limit_squared`. The search ends
-  ///                        at the first point that is nearer than this.
+  /// \param sufficient_squared_distance  at most `limit_squared`; the search ends at the first
+  ///                                     point whose squared distance is smaller.
   NearestPoint nearest(const Eigen::VectorXf& query, double limit_squared, Index begin, Index end,
                        double sufficient_squared_distance = 0) const;
 

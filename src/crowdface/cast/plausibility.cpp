@@ -14,10 +14,10 @@ constexpr double kRidge = 0.1;
 }  // namespace
 
 Plausibility::Metric Plausibility::metric_without(const std::vector<Eigen::VectorXf>& heads,
-                                                  Index head_count, Index left_out) {
+                                                  Index head_count, Index left_out_head) {
   Metric metric;
   for (std::size_t h = 0; h < heads.size(); ++h) {
-    if (static_cast<Index>(h) % head_count == left_out) continue;
+    if (static_cast<Index>(h) % head_count == left_out_head) continue;
     metric.head_offsets.emplace_back(heads[h].data(), heads[h].data() + heads[h].size());
   }
   const std::size_t count = metric.head_offsets.size();

@@ -36,10 +36,10 @@ class Plausibility {
   ///
   /// \param heads          The heads, then their mirror images if faces may be mirrored.
   /// \param head_count     Number of heads without mirror images.
-  /// \param left_out  Head that is left out together with its mirror image; −1: no head is
+  /// \param left_out_head  Head that is left out together with its mirror image; −1: no head is
   ///                       left out.
   static Metric metric_without(const std::vector<Eigen::VectorXf>& heads, Index head_count,
-                               Index left_out);
+                               Index left_out_head);
   static double squared_distance(const Metric& metric, const Eigen::VectorXf& point);
 
   Metric metric_;

@@ -61,7 +61,7 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
     // weights_by_level).
     for (const LevelWeights& at : weights_by_level(recipe, k)) {
       for (const WeightedTrajectoryRow& level : interpolation_rows(heads.levels, at.level)) {
-        for (const SourceWeight& part : at.shares) {
+        for (const SourceWeight& part : at.weights) {
           const Trajectory& trajectory = heads.trajectories[static_cast<std::size_t>(part.head)];
           const float* row = trajectory.data() + level.row * trajectory.cols();
           const auto f = static_cast<float>(part.weight * level.weight * heads.mm_per_unit);

@@ -46,7 +46,7 @@ double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, doubl
 }  // namespace
 
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
-                          const std::vector<FaceDistribution>& kinds, std::uint64_t count,
+                          const std::vector<FaceDistribution>& distributions, std::uint64_t count,
                           std::uint64_t pool_size_factor) {
   const std::uint64_t size = count * pool_size_factor;
   const std::vector<int> schedule = schedule_groups(casting.groups, size, pool_size_factor);
@@ -54,7 +54,7 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
   std::vector<Rejections> rejections(size);
   parallel_for_each(size, [&](std::size_t at) {
     if (at % 1024 == 0) throw_if_interrupted();
-    const FaceDistribution& kind = kinds[static_cast<std::size_t>(schedule[at] + 1)];
+    const FaceDistribution& kind = distributions[static_cast<std::size_t>(schedule[at] + 1)];
     const bool limited = judge.trait_rules() != nullptr && !kind.sampling->traits.empty();
     const int attempts =
         casting.diversity.max_attempts * (limited ? static_cast<int>(kAttemptFactorWithTraits) : 1);
@@ -121,11 +121,11 @@ void FarthestPoints::pick(Index candidate) {
 }
 
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
-                 const std::vector<FaceDistribution>& kinds,
+                 const std::vector<FaceDistribution>& distributions,
                  const FamilySeparation& family_separation, CrowdSoFar& crowd,
                  const FaceJoinedCallback& on_face_joined, CastingResult& result) {
   CandidatePool pool =
-      sample_pool(casting, judge, kinds, casting.count, DiversityOptions::kPoolSizeFactor);
+      sample_pool(casting, judge, distributions, casting.count, DiversityOptions::kPoolSizeFactor);
   result.rejections.add(pool.rejections);
   FarthestPoints points(pool, crowd);
   for (std::uint64_t index = 1; index <= casting.count; ++index) {

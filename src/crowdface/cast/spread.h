@@ -25,9 +25,9 @@ struct CandidatePool {
 /// Generates a pool of `count` · `pool_size_factor` candidates. Groups have the same proportions in
 /// the pool as in the crowd.
 ///
-/// \param kinds  Distribution of the faces without a group, then of each group's faces.
+/// \param distributions  Distribution of the faces without a group, then of each group's faces.
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
-                          const std::vector<FaceDistribution>& kinds, std::uint64_t count,
+                          const std::vector<FaceDistribution>& distributions, std::uint64_t count,
                           std::uint64_t pool_size_factor = 1);
 
 /// Picks candidates from a pool, one after the other. Each pick is the candidate farthest from the
@@ -62,7 +62,7 @@ class FarthestPoints {
 
 /// Casts faces 1 … count: generates a pool of candidates, and picks the faces by FarthestPoints.
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
-                 const std::vector<FaceDistribution>& kinds,
+                 const std::vector<FaceDistribution>& distributions,
                  const FamilySeparation& family_separation, CrowdSoFar& crowd,
                  const FaceJoinedCallback& on_face_joined, CastingResult& result);
 

@@ -32,7 +32,7 @@ std::size_t common_tag_count(const std::vector<std::string>& one,
 }
 
 SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags& tags,
-                                 const std::vector<Index>& taken, const FaceSpace& space) {
+                                 const std::vector<Index>& parents_heads, const FaceSpace& space) {
   const Eigen::VectorXf apart = mean_place(space, group, true) - mean_place(space, group, false);
   for (Index head = 0; head < space.head_count(); ++head) {
     if (contains(group, head)) {
@@ -45,7 +45,7 @@ SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags
                                      ? 0
                                      : common_tag_count(tags[static_cast<std::size_t>(head)],
                                                         tags[static_cast<std::size_t>(other)]);
-      return std::tuple(-static_cast<std::ptrdiff_t>(common), contains(taken, other),
+      return std::tuple(-static_cast<std::ptrdiff_t>(common), contains(parents_heads, other),
                         (space.head_point(other).with_extrapolation - place).norm());
     };
     substitutes_.push_back(*std::min_element(group.begin(), group.end(),
@@ -54,10 +54,10 @@ SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags
 }
 
 std::vector<SourceWeight> SubstituteHeads::substituted(
-    const std::vector<SourceWeight>& shares) const {
-  if (contains_all(shares)) return shares;
+    const std::vector<SourceWeight>& weights) const {
+  if (contains_all(weights)) return weights;
   std::map<Index, double> sums;
-  for (const SourceWeight& share : shares) {
+  for (const SourceWeight& share : weights) {
     sums[substitutes_[static_cast<std::size_t>(share.head)]] += share.weight;
   }
   std::vector<SourceWeight> result;
@@ -65,8 +65,9 @@ std::vector<SourceWeight> SubstituteHeads::substituted(
   return result;
 }
 
-bool SubstituteHeads::contains_all(const std::vector<SourceWeight>& shares) const {
-  return substitutes_.empty() || std::all_of(shares.begin(), shares.end(), [&](const auto& share) {
+bool SubstituteHeads::contains_all(const std::vector<SourceWeight>& weights) const {
+  return substitutes_.empty() ||
+         std::all_of(weights.begin(), weights.end(), [&](const auto& share) {
            return substitutes_[static_cast<std::size_t>(share.head)] == share.head;
          });
 }

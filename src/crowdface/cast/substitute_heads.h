@@ -20,16 +20,16 @@ class SubstituteHeads {
   SubstituteHeads() = default;
   /// \param group  Heads of the group; ascending, not empty.
   /// \param tags   the tags of each head; empty if tags are unknown.
-  /// \param taken  Heads that the parents use.
+  /// \param parents_heads  Heads that the parents use.
   SubstituteHeads(const std::vector<Index>& group, const HeadTags& tags,
-                  const std::vector<Index>& taken, const FaceSpace& space);
+                  const std::vector<Index>& parents_heads, const FaceSpace& space);
 
   /// Returns weights in which each head outside the group is replaced by its substitute.
   ///
-  /// \param shares  Weights, by ascending head.
-  std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& shares) const;
-  /// Returns whether the group contains every head in `shares`.
-  bool contains_all(const std::vector<SourceWeight>& shares) const;
+  /// \param weights  Weights, by ascending head.
+  std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& weights) const;
+  /// Returns whether the group contains every head in `weights`.
+  bool contains_all(const std::vector<SourceWeight>& weights) const;
 
  private:
   /// the substitute of each head; empty if no head is replaced

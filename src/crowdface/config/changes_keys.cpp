@@ -27,7 +27,7 @@ void read_change_of_age(const YamlNode& node, FaceChange& change, ConfigDraft& d
     return;
   }
   if (node.kind != YamlNode::Kind::kScalar || !parse_double(node.text)) {
-    draft.complaints.expected(node, "older, younger or a number from -1 to 1");
+    draft.complaints.add_mismatch(node, "older, younger or a number from -1 to 1");
   } else if (const auto own = age().read(node, draft)) {
     change.age = own->low;
   }
@@ -115,7 +115,7 @@ Codec<std::string> hair_colour() {
   return {[names](const YamlNode& node, ConfigDraft& draft) -> std::optional<std::string> {
             if (node.kind == YamlNode::Kind::kScalar && contains(names, node.text))
               return node.text;
-            return draft.complaints.expected(node, concat("a hair colour: ", join(names)));
+            return draft.complaints.add_mismatch(node, concat("a hair colour: ", join(names)));
           },
           [](const std::string& name, const auto&) { return name; }, join(names)};
 }
@@ -123,7 +123,7 @@ Codec<std::string> hair_colour() {
 void read_variant_of(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
   const auto id = name().read(node, draft);
   if (!id) return;
-  if (!is_face(*id, draft.config)) {
+  if (!is_face_id(*id, draft.config)) {
     draft.complaints.add_at(node, concat("no face of this crowd is called ", quoted(*id)));
   } else if (*id == change.id) {
     draft.complaints.add_at(node, "a face cannot be a variant of itself");
@@ -191,7 +191,7 @@ const Keys<FaceChange>& change_keys() {
 void check_change(const YamlEntry& entry, const FaceChange& change, ConfigDraft& draft) {
   const YamlNode& node = entry.value;
   if (node.entries.empty()) {
-    draft.complaints.expected(node, concat("at least one of ", join(names_of(change_keys()))));
+    draft.complaints.add_mismatch(node, concat("at least one of ", join(names_of(change_keys()))));
   }
   const auto complain = [&](std::string_view key, const std::string& what) {
     draft.complaints.add_at(node.find(key)->value, what);
@@ -227,7 +227,7 @@ std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft) {
   for (const YamlEntry& entry : node.entries) {
     FaceChange change;
     change.id = entry.key;
-    if (!is_face(entry.key, draft.config)) {
+    if (!is_face_id(entry.key, draft.config)) {
       draft.complaints.add(entry.key_place,
                            concat("no face of this crowd is called ", quoted(entry.key)));
       continue;

@@ -32,7 +32,8 @@ Codec<double> fraction() {
   codec.read = [=, number = codec.read](const YamlNode& node,
                                         ConfigDraft& draft) -> std::optional<double> {
     if (node.kind != YamlNode::Kind::kScalar || parse_double(node.text)) return number(node, draft);
-    return draft.complaints.expected(node, "a fraction from 0 to 1 or a size, such as \"8 mm\"");
+    return draft.complaints.add_mismatch(node,
+                                         "a fraction from 0 to 1 or a size, such as \"8 mm\"");
   };
   return codec;
 }
@@ -43,7 +44,7 @@ Codec<double> relief_size() {
     const Config::Smoothing& smoothing = draft.config.smoothing;
     const bool bounded = draft.is_smoothing_known && !smoothing.max_iterations;
     if (!bounded || size <= smoothing.max_size_mm) return true;
-    draft.complaints.expected(
+    draft.complaints.add_mismatch(
         node, concat("a size up to smoothing.max_size, ", smoothing.max_size_mm, " mm"));
     return false;
   });
@@ -83,8 +84,8 @@ std::vector<WeightedHead> read_weights(const YamlNode& node, ConfigDraft& draft)
     const auto heads = find_heads(entry.key, entry.key_place, node.path, draft);
     const auto weight = read_number(entry.value, 0, kMaxSourceWeight, draft.complaints);
     if (weight == 0.0) {
-      draft.complaints.expected(entry.value,
-                                "a weight above 0 (to exclude the head, remove its entry)");
+      draft.complaints.add_mismatch(entry.value,
+                                    "a weight above 0 (to exclude the head, remove its entry)");
     }
     for (const Eigen::Index head : heads) {
       const bool named = draft.config.faces.names[static_cast<std::size_t>(head)] == entry.key;
@@ -104,7 +105,7 @@ std::vector<Eigen::Index> read_heads(const YamlNode& node, ConfigDraft& draft) {
       chosen.insert(static_cast<Eigen::Index>(i));
     }
   } else if (node.items.empty()) {
-    draft.complaints.expected(node, "all or a list of heads and tags");
+    draft.complaints.add_mismatch(node, "all or a list of heads and tags");
   }
   for (const YamlNode& item : node.items) {
     const auto name = read_name(item, draft.complaints);
@@ -170,7 +171,7 @@ Codec<LengthUnit> length_unit() {
       [](const YamlNode& node, Complaints& out) -> std::optional<LengthUnit> {
         const bool is_scalar = node.kind == YamlNode::Kind::kScalar;
         const auto unit = is_scalar ? parse_length_unit(node.text) : std::nullopt;
-        if (!unit) out.expected(node, std::string(kUnitChoices));
+        if (!unit) out.add_mismatch(node, std::string(kUnitChoices));
         return unit;
       },
       [](LengthUnit unit) { return name_of(unit); }, "`mm`, `cm`, `m`, `in`, `ft`, or a length");
@@ -187,8 +188,8 @@ Codec<double> length(double high_mm) {
         }
         const auto value = is_scalar ? parse_length_mm(node.text) : std::nullopt;
         if (!value || *value < 0 || *value > high_mm) {
-          return out.expected(node, concat("a length from 0 mm to ", plain_number(high_mm),
-                                           " mm with its unit, such as ", "\"8 mm\""));
+          return out.add_mismatch(node, concat("a length from 0 mm to ", plain_number(high_mm),
+                                               " mm with its unit, such as ", "\"8 mm\""));
         }
         return *value == 0 ? 0.0 : *value;  // turn -0 into 0
       },
@@ -204,7 +205,7 @@ Codec<double> positive_length(double high_mm) {
 Codec<double> nonzero(const Codec<double>& codec, const std::string& expected) {
   Codec<double> above =
       restricted(codec, [=](double value, const YamlNode& node, ConfigDraft& draft) {
-        if (value == 0) draft.complaints.expected(node, expected);
+        if (value == 0) draft.complaints.add_mismatch(node, expected);
         return value != 0;
       });
   above.accepted_values = remove_article(expected);
@@ -218,7 +219,7 @@ Codec<Range> range(const Codec<double>& one) {
               return value ? std::optional<Range>({*value, *value}) : std::nullopt;
             }
             if (node.items.size() != 2) {
-              return draft.complaints.expected(node, "one value or a list of two, [low, high]");
+              return draft.complaints.add_mismatch(node, "one value or a list of two, [low, high]");
             }
             const auto low = one.read(node.items[0], draft);
             const auto high = one.read(node.items[1], draft);
@@ -319,7 +320,7 @@ Codec<PlanePoint> plane_point() {
   return {[coordinate = number(-kMaxPlaneCoordinate, kMaxPlaneCoordinate)](
               const YamlNode& node, ConfigDraft& draft) -> std::optional<PlanePoint> {
             if (node.kind != YamlNode::Kind::kList || node.items.size() != 2) {
-              return draft.complaints.expected(node, "a list of two numbers, [x, y]");
+              return draft.complaints.add_mismatch(node, "a list of two numbers, [x, y]");
             }
             const auto x = coordinate.read(node.items[0], draft);
             const auto y = coordinate.read(node.items[1], draft);
@@ -381,7 +382,7 @@ Codec<std::filesystem::path> obj_file() {
   return restricted(path("an OBJ file"), [](const std::filesystem::path& file, const YamlNode& node,
                                             ConfigDraft& draft) {
     if (mesh_format_of(file) == MeshFormat::kObj) return expect_file(node, file, draft);
-    draft.complaints.expected(node, "a file whose name ends in .obj");
+    draft.complaints.add_mismatch(node, "a file whose name ends in .obj");
     return false;
   });
 }

@@ -157,7 +157,7 @@ Codec<std::vector<Value>> words(const std::string& expected, std::size_t min_cou
   codec.read = [=, read = codec.read](const YamlNode& node,
                                       ConfigDraft& draft) -> std::optional<std::vector<Value>> {
     if (node.kind != YamlNode::Kind::kList || node.items.size() < min_count) {
-      return draft.complaints.expected(node, expected);
+      return draft.complaints.add_mismatch(node, expected);
     }
     refuse_repeated(node, draft.complaints);
     return read(node, draft);

@@ -9,27 +9,27 @@
 
 namespace crowdface {
 
-void Complaints::add(const YamlPlace& place, std::string what, ExitCode exit_code) {
-  complaints_.push_back({place, std::move(what), exit_code});
+void Complaints::add(const YamlPlace& place, std::string message, ExitCode exit_code) {
+  complaints_.push_back({place, std::move(message), exit_code});
 }
 
-void Complaints::add_at(const YamlNode& node, const std::string& what, ExitCode exit_code) {
+void Complaints::add_at(const YamlNode& node, const std::string& message, ExitCode exit_code) {
   if (node.kind == YamlNode::Kind::kRefused) return;
-  add(node.place, node.path.empty() ? what : concat(node.path, ": ", what), exit_code);
+  add(node.place, node.path.empty() ? message : concat(node.path, ": ", message), exit_code);
 }
 
-std::nullopt_t Complaints::expected(const YamlNode& node, const std::string& expected) {
+std::nullopt_t Complaints::add_mismatch(const YamlNode& node, const std::string& expected) {
   add_at(node, concat("expected ", expected, ", found ", describe(node)));
   return std::nullopt;
 }
 
-bool Complaints::expect_list(const YamlNode& node, const std::string& what) {
-  if (node.kind != YamlNode::Kind::kList) expected(node, what);
+bool Complaints::expect_list(const YamlNode& node, const std::string& message) {
+  if (node.kind != YamlNode::Kind::kList) add_mismatch(node, message);
   return node.kind == YamlNode::Kind::kList;
 }
 
-bool Complaints::expect_map(const YamlNode& node, const std::string& what) {
-  if (node.kind != YamlNode::Kind::kMap) expected(node, what);
+bool Complaints::expect_map(const YamlNode& node, const std::string& message) {
+  if (node.kind != YamlNode::Kind::kMap) add_mismatch(node, message);
   return node.kind == YamlNode::Kind::kMap;
 }
 
@@ -42,7 +42,7 @@ void Complaints::report_to(Problems& problems) const {
   };
   std::ranges::stable_sort(sorted, {}, key);
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxReportedComplaints); ++i) {
-    problems.add(sorted[i].exit_code, concat(sorted[i].place.text(), ": ", sorted[i].what));
+    problems.add(sorted[i].exit_code, concat(sorted[i].place.text(), ": ", sorted[i].message));
   }
   if (sorted.size() > kMaxReportedComplaints) {
     problems.add(ExitCode::kUsage,

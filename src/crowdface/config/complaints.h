@@ -15,26 +15,27 @@ class Complaints {
  public:
   struct Complaint {
     YamlPlace place;
-    std::string what;
+    std::string message;
     ExitCode exit_code;
   };
 
-  void add(const YamlPlace& place, std::string what, ExitCode exit_code = ExitCode::kUsage);
+  void add(const YamlPlace& place, std::string message, ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: WHAT" at a node's place in the file, unless the node was already
   /// refused (Kind::kRefused).
-  void add_at(const YamlNode& node, const std::string& what, ExitCode exit_code = ExitCode::kUsage);
+  void add_at(const YamlNode& node, const std::string& message,
+              ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: expected EXPECTED, found …" at a node's place in the file.
   ///
   /// \return `nullopt`, so that a function that reads a value can return the result of this call.
-  std::nullopt_t expected(const YamlNode& node, const std::string& expected);
+  std::nullopt_t add_mismatch(const YamlNode& node, const std::string& expected);
   /// Returns whether the node is a list (expect_list) or a mapping (expect_map). If not, adds the
   /// complaint "expected WHAT".
-  bool expect_list(const YamlNode& node, const std::string& what);
-  bool expect_map(const YamlNode& node, const std::string& what);
+  bool expect_list(const YamlNode& node, const std::string& message);
+  bool expect_map(const YamlNode& node, const std::string& message);
 
   bool empty() const { return complaints_.empty(); }
   std::size_t size() const { return complaints_.size(); }
-  const std::vector<Complaint>& list() const { return complaints_; }
+  const std::vector<Complaint>& all() const { return complaints_; }
 
   /// Reports the first 100 complaints, sorted by line and column. Complaints about the command line
   /// come last. If there are more than 100, one final problem says how many are not shown.

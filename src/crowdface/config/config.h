@@ -145,7 +145,7 @@ struct Config {
   /// How eyes, teeth and lashes follow the skin. The config names such a part by its material, its
   /// group, or as "component N".
   struct Parts {
-    bool follow = true;  ///< false with `parts: none`: everything is blended like skin
+    bool follow_skin = true;  ///< false with `parts: none`: everything is blended like skin
     PartShape shape = PartShape::kTarget;
     std::vector<std::string> skin, rigid, bound;
     /// Groups of parts. The parts of each group move together as one rigid part.

@@ -18,7 +18,7 @@ std::filesystem::path resolve(const std::filesystem::path& folder, const std::st
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what) {
   if (node.text.ends_with('/')) {
-    draft.complaints.expected(node, "a file name without '/' at its end");
+    draft.complaints.add_mismatch(node, "a file name without '/' at its end");
     return false;
   }
   if (path_exists(file)) return true;
@@ -59,7 +59,7 @@ std::vector<std::string> remove_age_tags(std::vector<std::string> tags) {
   return tags;
 }
 
-std::vector<std::size_t> find_parts(const std::string& name, const Config& config) {
+std::vector<std::size_t> find_region_bands(const std::string& name, const Config& config) {
   const std::vector<std::string> regions = config.region_names();
   const std::vector<std::string> bands = config.plan_names().bands;
   const std::vector<std::string> parts = config.region_band_names();

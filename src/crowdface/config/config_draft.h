@@ -37,7 +37,7 @@ struct ConfigDraft {
 /// The name of a region selects all bands of the region. The name of a band selects this band in
 /// all regions. A name such as "top/build" selects one pair. Returns an empty list for an unknown
 /// name.
-std::vector<std::size_t> find_parts(const std::string& name, const Config& config);
+std::vector<std::size_t> find_region_bands(const std::string& name, const Config& config);
 
 /// Returns whether the tags of a head contain all of `tags`.
 bool has_tags(const std::vector<std::string>& head_tags, const std::vector<std::string>& tags);
@@ -51,18 +51,19 @@ std::vector<std::string> remove_age_tags(std::vector<std::string> tags);
 /// links.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
-/// Returns whether a file exists. If it does not, adds a complaint of kind kMissingInput.
+/// Returns whether a file exists. If the file is missing, adds a complaint of kind kMissingInput.
 ///
 /// \param what  text that stands before the file's name in the message.
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what = "the file ");
 
-/// Returns the head with a name. If no head has the name, returns nothing and, if
-/// `are_heads_known`, adds a complaint.
+/// Returns the head with this name. If there is no such head, returns nothing and adds a complaint.
+/// Adds no complaint if the list of heads is invalid (`are_heads_known` is false).
 std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& place,
                                       const std::string& path, ConfigDraft& draft);
 /// Returns the head that has this name, or all heads that have this tag. If there is no such head,
-/// returns an empty list and, if heads and tags are known, adds a complaint.
+/// returns an empty list and adds a complaint. Adds no complaint if the heads or tags are invalid
+/// (`are_heads_known` or `are_tags_known` is false).
 std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& place,
                                      const std::string& path, ConfigDraft& draft);
 

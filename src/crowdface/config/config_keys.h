@@ -85,9 +85,9 @@ struct Key {
     };
     return key;
   }
-  /// Returns a copy of this key with `affects_face_files` false: a new value of the key does not
+  /// Returns a copy of this key with `affects_face_files` false. A new value of such a key does not
   /// make finished face files out of date. (Face files may still depend on the input files that the
-  /// key names, and on the recipes that the key affects; other digests cover both.)
+  /// key names, and on the recipes that the key affects. Other digests cover both.)
   Key not_affecting_face_files() const {
     Key key = *this;
     key.affects_face_files = false;
@@ -301,13 +301,14 @@ Key<Config> changes_key();
 std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);
 /// Writes changes as a mapping whose keys are faces.
 std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context);
-/// Reads a list of parts to lock, as ascending part numbers: region · #bands + band. Each entry of
-/// the list is a region (all its bands), a band (in all regions), or one band of one region.
+/// Reads the list of regions and bands to lock. Returns ascending indices into region_band_names().
+/// Each entry of the list is a region (all its bands), a band (in all regions), or one band of one
+/// region.
 std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& draft);
-/// is_sampled_face_id: whether a sampled face of this config's crowd has this id. is_face:
-/// whether any face of the crowd has this id.
+/// is_sampled_face_id returns whether a sampled face of this config's crowd has this id. is_face_id
+/// returns whether any face of the crowd has this id.
 bool is_sampled_face_id(const std::string& id, const Config& config);
-bool is_face(const std::string& id, const Config& config);
+bool is_face_id(const std::string& id, const Config& config);
 /// Returns the ids of a family's members and of the parents that casting makes for the family.
 std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const std::string& crowd);
 /// Makes the key `hair_colours` of a section: for each named hair colour, the fraction of the faces

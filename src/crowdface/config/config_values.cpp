@@ -25,7 +25,7 @@ std::string unknown_key(const YamlNode& map, const std::string& key,
 /// or has leading zeros.
 std::optional<std::string> number_text(const YamlNode& node, const std::string& expected,
                                        Complaints& out) {
-  if (node.kind != YamlNode::Kind::kScalar) return out.expected(node, expected);
+  if (node.kind != YamlNode::Kind::kScalar) return out.add_mismatch(node, expected);
   if (node.is_quoted && parse_double(node.text)) {
     out.add_at(node, concat("expected ", expected, ", found text, ", quoted(node.text),
                             "; leave the quotes out"));
@@ -92,7 +92,7 @@ std::optional<double> read_number(const YamlNode& node, double low, double high,
   const auto text = number_text(node, expected, out);
   if (!text) return std::nullopt;
   const auto value = parse_double(*text);
-  if (!value || *value < low || *value > high) return out.expected(node, expected);
+  if (!value || *value < low || *value > high) return out.add_mismatch(node, expected);
   return *value == 0 ? 0.0 : *value;  // turn -0 into 0
 }
 
@@ -102,7 +102,7 @@ std::optional<std::uint64_t> read_whole_number(const YamlNode& node, std::uint64
   const auto text = number_text(node, expected, out);
   if (!text) return std::nullopt;
   const auto value = parse_unsigned(*text);
-  if (!value || *value < low || *value > high) return out.expected(node, expected);
+  if (!value || *value < low || *value > high) return out.add_mismatch(node, expected);
   return value;
 }
 
@@ -110,14 +110,14 @@ std::optional<std::string> read_text(const YamlNode& node, const std::string& ex
                                      Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar || node.text.empty() ||
       has_control_character(node.text)) {
-    return out.expected(node, expected);
+    return out.add_mismatch(node, expected);
   }
   return node.text;
 }
 
 std::optional<std::string> read_name(const YamlNode& node, Complaints& out) {
   if (node.kind != YamlNode::Kind::kScalar || !is_name(node.text)) {
-    return out.expected(
+    return out.add_mismatch(
         node, "a name of 1 to 64 letters (a-z), digits, '_', '-' or '.', not starting with '.'");
   }
   return node.text;

@@ -98,8 +98,8 @@ bool read_file_list(const YamlNode& node, std::vector<fs::path>& files,
     }
     is_valid = false;
     if (file)
-      draft.complaints.expected(item,
-                                "a file whose name ends in .obj, .ply, .glb, .gltf, .fbx or .npy");
+      draft.complaints.add_mismatch(
+          item, "a file whose name ends in .obj, .ply, .glb, .gltf, .fbx or .npy");
   }
   return is_valid;
 }
@@ -152,7 +152,7 @@ Codec<Axis> axis() {
   return {[](const YamlNode& node, ConfigDraft& draft) {
             const auto axis = node.kind == YamlNode::Kind::kScalar ? parse_axis(node.text)
                                                                    : std::optional<Axis>();
-            if (!axis) draft.complaints.expected(node, "an axis, +X, -X, +Y, -Y, +Z or -Z");
+            if (!axis) draft.complaints.add_mismatch(node, "an axis, +X, -X, +Y, -Y, +Z or -Z");
             return axis;
           },
           [](const Axis& axis, const WriteContext&) { return name_of(axis); },

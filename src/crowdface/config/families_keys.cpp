@@ -112,7 +112,7 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     const YamlNode* from = map.find(name);
     if (from == nullptr) continue;
     const int parent = word<int>().read(*from, draft).value_or(-1);
-    for (const std::size_t part : find_parts(name, draft.config))
+    for (const std::size_t part : find_region_bands(name, draft.config))
       family.parent_of_band[part] = parent;
   }
 }

@@ -16,8 +16,8 @@ constexpr double kRounding = 1e-9;
 /// equally.
 constexpr double kUnsetShare = -1;
 
-/// Removes the heads for which `wanted` is false from the list of old heads, unless no old head
-/// would remain. Does the same with the list of young heads.
+/// Removes the heads for which `wanted` is false from the list of old heads. Leaves the list
+/// unchanged if no head would remain. Treats the list of young heads in the same way.
 template <class Wanted>
 void restrict_old_and_young_heads(SamplingOptions& sampling, const Wanted& wanted) {
   for (auto* heads : {&sampling.heads_tagged_old, &sampling.heads_tagged_young}) {

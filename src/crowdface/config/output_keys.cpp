@@ -63,7 +63,7 @@ void read_surfaces(const YamlNode& node, Output& output, ConfigDraft& draft) {
     MaterialAppearance& surface = output.surfaces[name];
     if (value.kind == YamlNode::Kind::kScalar && value.text.starts_with('#')) {
       surface.colour = parse_colour(value.text);
-      if (!surface.colour) draft.complaints.expected(value, "a colour such as \"#c0a080\"");
+      if (!surface.colour) draft.complaints.add_mismatch(value, "a colour such as \"#c0a080\"");
     } else {
       surface.kind = word<SurfaceKind>().read(value, draft).value_or(surface.kind);
     }
@@ -94,7 +94,7 @@ void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
         child.kind == YamlNode::Kind::kScalar ? parse_percent(child.text) : std::nullopt;
     if (!percent || (!output.lods.empty() && *percent >= output.lods.back()) ||
         output.lods.size() == kMaxLevels) {
-      draft.complaints.expected(child, kExpected);
+      draft.complaints.add_mismatch(child, kExpected);
       return;
     }
     output.lods.push_back(*percent);

@@ -195,7 +195,7 @@ std::string write_recipes(const Config& config, const WriteContext& context) {
 void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
                        ConfigDraft& draft) {
   if (node.entries.empty()) {
-    draft.complaints.expected(node, "a mapping from heads to weights, {head: weight}");
+    draft.complaints.add_mismatch(node, "a mapping from heads to weights, {head: weight}");
     return;
   }
   double sum = 0;

@@ -37,7 +37,7 @@ void read_mask_image(const YamlNode& node, Regions& regions, ConfigDraft& draft)
 
 void read_masks(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kScalar) return read_mask_image(node, regions, draft);
-  if (node.items.empty()) draft.complaints.expected(node, "an image file or a list of them");
+  if (node.items.empty()) draft.complaints.add_mismatch(node, "an image file or a list of them");
   for (const YamlNode& item : node.items) read_mask_image(item, regions, draft);
 }
 
@@ -65,7 +65,7 @@ void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
 void read_region_names(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
   const std::size_t complaints_before = draft.complaints.size();
   if (node.items.empty() || node.items.size() > kMaxRegions) {
-    draft.complaints.expected(node, concat("a list of 1 to ", kMaxRegions, " names"));
+    draft.complaints.add_mismatch(node, concat("a list of 1 to ", kMaxRegions, " names"));
   } else {
     for (const YamlNode& item : node.items) read_region_name(item, regions, draft.complaints);
   }

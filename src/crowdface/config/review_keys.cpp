@@ -51,7 +51,7 @@ void read_verdict(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
 
 void read_note(const YamlNode& node, ReviewMark& mark, ConfigDraft& draft) {
   if (node.kind != YamlNode::Kind::kScalar || node.text.size() > kLongestNote) {
-    draft.complaints.expected(node, concat("a text of at most ", kLongestNote, " bytes"));
+    draft.complaints.add_mismatch(node, concat("a text of at most ", kLongestNote, " bytes"));
   } else {
     mark.note = node.text;
   }
@@ -95,7 +95,7 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;
     mark.id = entry.key;
-    if (!is_face(entry.key, draft.config)) {
+    if (!is_face_id(entry.key, draft.config)) {
       draft.complaints.add(entry.key_place,
                            concat("no face of this crowd is called ", quoted(entry.key)));
     }
@@ -196,7 +196,7 @@ bool is_sampled_face_id(const std::string& id, const Config& config) {
          id == face_id(config.crowd.name, *index);
 }
 
-bool is_face(const std::string& id, const Config& config) {
+bool is_face_id(const std::string& id, const Config& config) {
   return is_sampled_face_id(id, config) || contains(named_ids(config), id);
 }
 
@@ -206,7 +206,7 @@ std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& dr
   for (const std::string& band : draft.config.plan_names().bands) names.push_back(band);
   const bool banded = names.size() > draft.config.regions.names.size();
   if (node.kind != YamlNode::Kind::kList || node.items.empty()) {
-    draft.complaints.expected(node, "a list of regions or bands to keep, [top]");
+    draft.complaints.add_mismatch(node, "a list of regions or bands to keep, [top]");
     return locked;
   }
   for (const YamlNode& item : node.items) {
@@ -215,7 +215,7 @@ std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& dr
     const auto name = of_both ? std::optional(item.text) : read_name(item, draft.complaints);
     if (!name) continue;
     const std::vector<std::size_t> found =
-        names.empty() ? std::vector<std::size_t>() : find_parts(*name, draft.config);
+        names.empty() ? std::vector<std::size_t>() : find_region_bands(*name, draft.config);
     if (found.empty() && draft.are_regions_known) {
       draft.complaints.add_at(
           item, names.empty()

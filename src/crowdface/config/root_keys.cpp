@@ -34,8 +34,8 @@ const Keys<Config::Smoothing>& smoothing_keys() {
   static constexpr double kMinToleranceMm = 0.005;
   const auto is_held = [](double tolerance_mm, const YamlNode& node, ConfigDraft& draft) {
     if (tolerance_mm >= kMinToleranceMm) return true;
-    draft.complaints.expected(node, concat("a length of at least ", kMinToleranceMm,
-                                           " mm, the resolution of single precision"));
+    draft.complaints.add_mismatch(node, concat("a length of at least ", kMinToleranceMm,
+                                               " mm, the resolution of single precision"));
     return false;
   };
   static const Keys<Smoothing> keys = {
@@ -153,14 +153,14 @@ const Keys<Parts>& parts_keys() {
 void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft) {
   if (node.kind == YamlNode::Kind::kScalar) {
     const Words<bool> words = {{"auto", true}, {"none", false}};
-    config.parts.follow = read_choice(node, words, draft.complaints).value_or(true);
+    config.parts.follow_skin = read_choice(node, words, draft.complaints).value_or(true);
   } else {
     read_keys(node, parts_keys(), config.parts, draft);
   }
 }
 
 std::string write_parts(const Config& config, const WriteContext& context) {
-  if (!config.parts.follow) return "none";
+  if (!config.parts.follow_skin) return "none";
   return block_map(write_keys(parts_keys(), config.parts, context));
 }
 

@@ -32,19 +32,20 @@ std::optional<TraitBound> read_bound(const YamlNode& node, const Measurement& me
              : measurement.kind == Measurement::Kind::kRatio ? "a ratio, such as 0.8,"
                                                              : "an angle in degrees, such as 104,",
              " or a quantile, such as \"70 %\"");
-  if (node.kind != YamlNode::Kind::kScalar) return draft.complaints.expected(node, expected);
+  if (node.kind != YamlNode::Kind::kScalar) return draft.complaints.add_mismatch(node, expected);
   std::string_view text = node.text;
   if (text.ends_with('%')) {
     text.remove_suffix(1);
     while (text.ends_with(' ')) text.remove_suffix(1);
     const auto percent = parse_double(text);
     if (!percent || *percent < 0 || *percent > 100) {
-      return draft.complaints.expected(node, "a quantile from 0 % to 100 %");
+      return draft.complaints.add_mismatch(node, "a quantile from 0 % to 100 %");
     }
     return TraitBound{*percent / 100, true};
   }
   const auto value = is_length ? parse_length_mm(text) : parse_double(text);
-  if (!value || std::abs(*value) > kLargestTrait) return draft.complaints.expected(node, expected);
+  if (!value || std::abs(*value) > kLargestTrait)
+    return draft.complaints.add_mismatch(node, expected);
   return TraitBound{*value, false};
 }
 
@@ -69,12 +70,12 @@ std::optional<TraitLimit> read_limit(const YamlEntry& entry, ConfigDraft& draft)
       limit.at_most = read_bound(*most, measurement, draft);
     }
   } else {
-    return draft.complaints.expected(node, "[least, greatest] or {at_least: …, at_most: …}");
+    return draft.complaints.add_mismatch(node, "[least, greatest] or {at_least: …, at_most: …}");
   }
   if (limit.at_least && limit.at_most &&
       limit.at_least->is_quantile == limit.at_most->is_quantile &&
       limit.at_least->value > limit.at_most->value) {
-    return draft.complaints.expected(node, "a least value that is at most the greatest value");
+    return draft.complaints.add_mismatch(node, "a least value that is at most the greatest value");
   }
   return limit;
 }

@@ -253,7 +253,7 @@ std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& sou
                                    Complaints& out) {
   const YamlText checked(text, source);
   if (const auto problem = checked.find_problem()) {
-    out.add(problem->place, problem->what);
+    out.add(problem->place, problem->message);
     return std::nullopt;
   }
   TreeBuilder builder(checked, out);

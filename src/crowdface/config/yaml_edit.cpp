@@ -136,8 +136,9 @@ void set_value(YamlNode& root, std::string_view assignment, Complaints& out) {
   const bool empty = value.find_first_not_of(' ') == std::string_view::npos;
   Complaints of_value;
   auto node = parse_yaml(empty ? "~" : value, *place.source, of_value);
-  for (const auto& complaint : of_value.list()) {
-    out.add(place, concat("in its value, column ", complaint.place.column, ": ", complaint.what));
+  for (const auto& complaint : of_value.all()) {
+    out.add(place,
+            concat("in its value, column ", complaint.place.column, ": ", complaint.message));
   }
   if (node) put(root, keys, std::move(*node), place, out);
 }

@@ -24,7 +24,7 @@ class YamlText {
 
   struct Problem {
     YamlPlace place;
-    std::string what;
+    std::string message;
   };
   /// Returns the first problem of these kinds: the file is too long, is not UTF-8, contains a
   /// control character, or has a tab in the indentation of a line.

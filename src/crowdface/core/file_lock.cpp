@@ -23,7 +23,7 @@ Descriptor open_lock_file(const fs::path& path) {
 
 }  // namespace
 
-FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void()>& waiting)
+FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void()>& on_waiting)
     : path_(path), file_(open_lock_file(path)) {
   const int operation = (kind == LockKind::kExclusive ? LOCK_EX : LOCK_SH) | LOCK_NB;
   bool told = false;
@@ -39,7 +39,7 @@ FileLock::FileLock(const fs::path& path, LockKind kind, const std::function<void
     if (errno != EWOULDBLOCK && errno != EINTR) {
       throw_with_errno<IoError>(path, "cannot be locked");
     }
-    if (!told && waiting) waiting();
+    if (!told && on_waiting) on_waiting();
     told = true;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }

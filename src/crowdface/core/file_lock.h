@@ -21,10 +21,11 @@ class FileLock {
  public:
   /// Waits until the lock is free.
   /// \param path        an empty file, created if it does not exist; its folder must exist.
-  /// \param waiting  called once if the lock is not free; may be empty.
+  /// \param on_waiting  called once if the lock is not free; may be empty.
   /// \throws CannotCreate if the file cannot be created; IoError if it cannot be locked;
   ///         Interrupted if a signal arrives while waiting.
-  FileLock(const std::filesystem::path& path, LockKind kind, const std::function<void()>& waiting);
+  FileLock(const std::filesystem::path& path, LockKind kind,
+           const std::function<void()>& on_waiting);
   /// Removes the lock file unless another process holds a lock on it.
   ~FileLock();
 

@@ -41,7 +41,7 @@ FileDigest digest_of(const TextPieces& text) {
 }
 
 void read_lines(const std::filesystem::path& path,
-                const std::function<void(std::string_view line, bool ended)>& use) {
+                const std::function<void(std::string_view line, bool has_line_end)>& use) {
   std::string begun;  // the start of a line that continues in the next piece
   read_pieces(path, [&](std::string_view piece) {
     for (std::size_t end = 0; (end = piece.find('\n')) != piece.npos;

@@ -33,8 +33,8 @@ FileDigest write_file(const std::filesystem::path& path, const TextPieces& text)
 /// Reads a file in pieces, from start to end. \throws MissingInput, IoError like read_file.
 void read_pieces(const std::filesystem::path& path, const TakePiece& take);
 /// Calls `use` for each line, without its '\n'.
-/// \param use  `ended` is false for a last line that lacks its '\n'.
+/// \param use  `has_line_end` is false for a last line that lacks its '\n'.
 void read_lines(const std::filesystem::path& path,
-                const std::function<void(std::string_view line, bool ended)>& use);
+                const std::function<void(std::string_view line, bool has_line_end)>& use);
 
 }  // namespace crowdface

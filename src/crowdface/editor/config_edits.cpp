@@ -106,7 +106,7 @@ fs::path put_sections(const fs::path& config, const std::string& sections) {
 
 }  // namespace
 
-fs::path put_recipe(const ManualRecipe& recipe, const Config& config) {
+fs::path save_recipe_in_edits(const ManualRecipe& recipe, const Config& config) {
   const YamlNode node = parsed(format_manual_recipe(recipe, config), "recipe");
   return put_sections(config.file, concat("recipes: [", single_line_yaml(node), "]\n"));
 }

@@ -16,12 +16,12 @@ namespace crowdface {
 /// Saves a recipe in the edits. Replaces a recipe with the same id.
 /// \return the file of the edits.
 /// \throws Error with every problem that the new config would have; in this case no file changes.
-std::filesystem::path put_recipe(const ManualRecipe& recipe, const Config& config);
+std::filesystem::path save_recipe_in_edits(const ManualRecipe& recipe, const Config& config);
 
 /// Saves regions in the edits. These regions replace all regions of the config.
 /// \param config  file of the config.
 /// \return the file of the edits.
-/// \throws Error as put_recipe does, for example if another part of the config names a
+/// \throws Error as save_recipe_in_edits does, for example if another part of the config names a
 ///         region that the new regions lack.
 std::filesystem::path save_regions_in_edits(const std::filesystem::path& config,
                                             const std::vector<std::string>& names,
@@ -31,7 +31,7 @@ std::filesystem::path save_regions_in_edits(const std::filesystem::path& config,
 /// \param config  file of the config.
 /// \param heads   mesh files of the new heads.
 /// \return the file of the edits.
-/// \throws Error as put_recipe does, for example if two heads would have the same name.
+/// \throws Error as save_recipe_in_edits does, for example if two heads would have the same name.
 std::filesystem::path save_heads_in_edits(const std::filesystem::path& config,
                                           const std::vector<std::filesystem::path>& heads);
 
@@ -43,7 +43,7 @@ std::optional<std::string> section_in_edits(const std::filesystem::path& edits,
 
 /// Restores a section of the edits to a value that section_in_edits returned earlier.
 /// \return the file of the edits.
-/// \throws Error as put_recipe does, or if the text `value` contains more than one YAML
+/// \throws Error as save_recipe_in_edits does, or if the text `value` contains more than one YAML
 ///     value.
 std::filesystem::path restore_section(const std::filesystem::path& config,
                                       const std::string& section,

@@ -51,10 +51,10 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/draw", &EditApi::draw},
                                             {"POST", "api/steer", &EditApi::steer},
                                             {"GET", "api/faces/", &EditApi::face_picture},
-                                            {"GET", "api/state", &EditApi::state},
+                                            {"GET", "api/state", &EditApi::saved_state},
                                             {"POST", "api/state", &EditApi::take_over_editing},
                                             {"PUT", "api/state", &EditApi::save_state},
-                                            {"POST", "api/save", &EditApi::save},
+                                            {"POST", "api/save", &EditApi::save_face},
                                             {"POST", "api/recipes", &EditApi::put_recipe},
                                             {"GET", "api/generate", &EditApi::generate_progress},
                                             {"POST", "api/generate", &EditApi::generate},
@@ -127,7 +127,7 @@ HttpAnswer EditApi::attachment(const HttpRequest&, const std::string& rest) {
   return {200, "application/json", std::move(*look)};
 }
 
-FacePlan EditApi::face_of(const Json& body, const std::string& key) const {
+FacePlan EditApi::face_in(const Json& body, const std::string& key) const {
   return face_of_json(body.contains(key) ? body[key] : Json(), session_.casting(),
                       session_.job().config);
 }
@@ -137,7 +137,7 @@ std::vector<std::size_t> EditApi::bands_in(const Json& body, const std::string& 
   if (!body.contains(key)) return parts;
   for (const Json& name : body[key]) {
     const auto found =
-        find_parts(name.is_string() ? name.get<std::string>() : "", session_.job().config);
+        find_region_bands(name.is_string() ? name.get<std::string>() : "", session_.job().config);
     if (found.empty()) throw UsageError(concat(key, ": expected a list of regions or bands"));
     parts.insert(parts.end(), found.begin(), found.end());
   }
@@ -148,8 +148,8 @@ HttpAnswer EditApi::draw(const HttpRequest& request, const std::string&) {
   constexpr double kMaxFaces = 64;
   constexpr std::uint32_t kAttempts = 4096;  // upper limit of the attempts for one request
   const Json body = parse_json_body(request);
-  SampleRequest sampling{face_of(body), bands_in(body, "locked"), std::nullopt};
-  if (body.contains("like") && !body["like"].is_null()) sampling.original = face_of(body, "like");
+  SampleRequest sampling{face_in(body), bands_in(body, "locked"), std::nullopt};
+  if (body.contains("like") && !body["like"].is_null()) sampling.original = face_in(body, "like");
   if (body.contains("amount")) sampling.variation = number_in(body, "amount", 0, 1);
   if (body.contains("count")) {
     sampling.count = static_cast<std::size_t>(number_in(body, "count", 1, kMaxFaces));
@@ -170,7 +170,7 @@ HttpAnswer EditApi::steer(const HttpRequest& request, const std::string&) {
   constexpr double kFarthest = 1e4;
   const Json body = parse_json_body(request);
   const FacePlan face =
-      session_.steer(face_of(body), text_in(body, "trait"),
+      session_.steer(face_in(body), text_in(body, "trait"),
                      number_in(body, "value", -kFarthest, kFarthest), bands_in(body, "locked"));
   Json answer = measures_json(session_.measure(face, opened_id(body)));
   answer["recipe"] = recipe_to_json(face, session_.casting(), session_.job().config);
@@ -236,12 +236,12 @@ std::string EditApi::opened_id(const Json& body) {
 
 HttpAnswer EditApi::measures(const HttpRequest& request, const std::string&) {
   const Json body = parse_json_body(request);
-  return json_answer(measures_json(session_.measure(face_of(body), opened_id(body))));
+  return json_answer(measures_json(session_.measure(face_in(body), opened_id(body))));
 }
 
 /// The visible faults of the whole mesh of a face: {"faults": sentences}.
 HttpAnswer EditApi::faults(const HttpRequest& request, const std::string&) {
-  const FacePlan face = face_of(parse_json_body(request));
+  const FacePlan face = face_in(parse_json_body(request));
   Positions positions;
   {
     const std::lock_guard lock(build_mutex_);
@@ -254,7 +254,7 @@ HttpAnswer EditApi::faults(const HttpRequest& request, const std::string&) {
 HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   constexpr double kMaxTurns = 1e15;
   const Json body = parse_json_body(request);
-  const FacePlan face = face_of(body);
+  const FacePlan face = face_in(body);
   const std::string page = body.contains("page") ? text_in(body, "page") : "";
   const auto turn =
       static_cast<std::uint64_t>(body.contains("turn") ? number_in(body, "turn", 0, kMaxTurns) : 0);
@@ -300,7 +300,7 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
 /// and "colours" have values at the preview's vertices. Omits a key if faces have no textures or
 /// vertex colours of this kind.
 HttpAnswer EditApi::skin(const HttpRequest& request, const std::string&) {
-  const FacePlan face = face_of(parse_json_body(request));
+  const FacePlan face = face_in(parse_json_body(request));
   BinaryAnswer answer;
   const auto add = [&](std::string_view name, std::string_view bytes) {
     answer.add(name, std::span(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()));

@@ -50,7 +50,7 @@ class EditApi {
   Handler job, mesh, light, head, attachment, face, skin, measures, faults, draw, steer,
       face_picture;
   // Handlers of requests that save the editor's state or write other files.
-  Handler state, take_over_editing, save_state, save, put_recipe, review;
+  Handler saved_state, take_over_editing, save_state, save_face, put_recipe, review;
   Handler generate, stop_generate, generate_progress, open_again;
   // Handlers of requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
@@ -70,7 +70,7 @@ class EditApi {
   // These functions read the value of a key from the body of a request.
   // \throws UsageError with the name of the key if the value is not valid.
   std::vector<std::size_t> bands_in(const Json& body, const std::string& key) const;
-  FacePlan face_of(const Json& body, const std::string& key = "recipe") const;
+  FacePlan face_in(const Json& body, const std::string& key = "recipe") const;
   static std::string opened_id(const Json& body);
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json measures_json(const FaceMeasures& measures) const;

@@ -44,14 +44,14 @@ Json file_json(const std::filesystem::path& file) {
 
 }  // namespace
 
-HttpAnswer EditApi::state(const HttpRequest&, const std::string&) {
+HttpAnswer EditApi::saved_state(const HttpRequest&, const std::string&) {
   std::string text = folder_.saved_state();
   return {200, "application/json", text.empty() ? "null" : std::move(text)};
 }
 
 HttpAnswer EditApi::take_over_editing(const HttpRequest& request, const std::string& rest) {
   folder_.set_only_saving_page(text_in(parse_json_body(request), "page"));
-  return state(request, rest);
+  return saved_state(request, rest);
 }
 
 HttpAnswer EditApi::save_state(const HttpRequest& request, const std::string&) {
@@ -71,9 +71,9 @@ EditedFolder::WriteMesh EditApi::mesh_writer() {
   };
 }
 
-HttpAnswer EditApi::save(const HttpRequest& request, const std::string&) {
+HttpAnswer EditApi::save_face(const HttpRequest& request, const std::string&) {
   const Json body = parse_json_body(request);
-  const FacePlan face = face_of(body);
+  const FacePlan face = face_in(body);
   const std::string name = text_in(body, "format");
   const auto format = mesh_format_of("face." + name);
   if (!format) {
@@ -105,7 +105,7 @@ HttpAnswer EditApi::put_recipe(const HttpRequest& request, const std::string&) {
       manual_recipe_of_json(body.contains("recipe") ? body["recipe"] : Json(), config);
   const std::lock_guard lock(build_mutex_);
   require_masks_of_config();
-  return json_answer(file_json(crowdface::put_recipe(recipe, config)));
+  return json_answer(file_json(save_recipe_in_edits(recipe, config)));
 }
 
 HttpAnswer EditApi::generate(const HttpRequest&, const std::string&) {
@@ -302,7 +302,8 @@ HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& res
     std::error_code ignored;
     const auto folder = heads.front().parent_path();
     std::filesystem::remove_all(folder, ignored);
-    std::filesystem::remove(folder.parent_path(), ignored);  // only if it is empty
+    // deletes the folder only if the folder is empty
+    std::filesystem::remove(folder.parent_path(), ignored);
     throw;
   }
 }

@@ -39,10 +39,10 @@ const FaceTextures& EditPictures::textures() {
 std::optional<TextureSet> EditPictures::textures_of(const Recipe& recipe) {
   constexpr int kMaxTexels = 1024;
   const Inputs& inputs = job_.inputs;
-  if (!inputs.textures.are_blended() && !are_any_rendered(inputs.maps)) {
+  if (!inputs.textures.are_blended() && !are_any_rendered(inputs.other_textures)) {
     return texture_set_of_head(inputs.textures, recipe.target, kMaxTexels);
   }
-  FaceTextureSet own(inputs.textures, inputs.maps, recipe.target, kMaxTexels);
+  FaceTextureSet own(inputs.textures, inputs.other_textures, recipe.target, kMaxTexels);
   const FaceTextures& blended = textures();
   parallel_for_each(blended.picture_count(),
                     [&](std::size_t p) { own.add(p, blended.blend(recipe, p)); });

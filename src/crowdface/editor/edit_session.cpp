@@ -107,7 +107,7 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       prepared_(prepare(job_.config, job_.inputs, job_.smoothing, cache)),
       builder_(job_.config, job_.inputs, prepared_),
       faults_(job_, builder_),
-      judging_(std::async(std::launch::async, [this] { return judging(); }).share()),
+      judging_(std::async(std::launch::async, [this] { return make_judging_data(); }).share()),
       casting_(casting_options(job_.config, job_.inputs,
                                job_.config.plane.layout == Layout::kSimilarity
                                    ? judging_.get().space->face_space.head_distances()
@@ -126,7 +126,7 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
   }
 }
 
-EditSession::JudgingData EditSession::judging() const {
+EditSession::JudgingData EditSession::make_judging_data() const {
   auto searched_space =
       std::make_unique<const CastingSpace>(casting_space(job_.config, job_.inputs, prepared_, {}));
   const FaceSpace& space = searched_space->face_space;

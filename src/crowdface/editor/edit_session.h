@@ -136,7 +136,7 @@ class EditSession {
     std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
     std::unique_ptr<const TraitRules> rules;
   };
-  JudgingData judging() const;
+  JudgingData make_judging_data() const;
   /// Finds the nearest face of the crowd, except the faces with the ids `recipe.id` and
   /// `opened_id`.
   /// \param opened_id  id of the crowd's face from which the edit began, or empty

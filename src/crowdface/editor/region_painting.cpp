@@ -130,7 +130,7 @@ void RegionPainting::paint(const Json& body) {
                  mm_per(session_.job().config.faces.units);
   brush.strength = number_in(body, "strength", 0, 1);
   brush.falloff = number_in(body, "falloff", 0, 1);
-  brush.mirror = is_true(body, "mirror");
+  brush.paints_mirror_image = is_true(body, "mirror");
   if (!body.contains("points") || !body["points"].is_array() || body["points"].empty() ||
       body["points"].size() > kMaxPoints) {
     throw UsageError(concat("points: expected a list of 1 to ", kMaxPoints));

@@ -31,7 +31,7 @@ struct FoundTextureFiles {
   TextureKind kind = TextureKind::kColour;
   std::vector<HeadTextureFiles> heads;  ///< #heads
   /// column and row of each polygon's UDIM tile
-  std::vector<std::array<std::int32_t, 2>> tile;
+  std::vector<std::array<std::int32_t, 2>> tile_of_face;
   std::vector<std::string> warnings;  ///< without duplicates; each names the heads that it concerns
 
   bool has_files() const;

@@ -285,7 +285,7 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       const PictureName& name = result.names[p];
       found.warnings.push_back(
           concat(heads.heads[h].name, ": has no ", mtl_statement_of(found.kind).name, " texture",
-                 name.part.empty() ? "" : concat(" for all of ", name.part),
+                 name.material.empty() ? "" : concat(" for all of ", name.material),
                  name.tile == 0 ? "" : concat(" in tile ", name.tile),
                  "; in its place, faces use the textures of their other heads"));
     }

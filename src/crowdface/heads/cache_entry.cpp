@@ -86,7 +86,7 @@ void write_entry(const fs::path& cache, const CacheKey& key,
 }
 
 std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey& key,
-                                           const std::optional<Digest>& known) {
+                                           const std::optional<Digest>& known_checksum) {
   CacheEntry entry;
   entry.path_ = cache_entry(cache, key);
   if (!path_exists(entry.path_)) return std::nullopt;
@@ -95,7 +95,7 @@ std::optional<CacheEntry> CacheEntry::open(const fs::path& cache, const CacheKey
   EntryHeader header;
   entry.require_size_fits(bytes.size() >= sizeof header + sizeof(Digest));
   const std::size_t size = bytes.size() - sizeof(Digest);
-  entry.checksum_ = known ? *known : hash_bytes(bytes.substr(0, size));
+  entry.checksum_ = known_checksum ? *known_checksum : hash_bytes(bytes.substr(0, size));
   if (bytes.substr(size) != as_bytes(&entry.checksum_, sizeof(Digest))) {
     throw InvalidInput(
         concat(entry.path_.string(), ": cache entry is damaged (its checksum is wrong)"));

@@ -139,12 +139,12 @@ bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end);
 /// lives.
 class CacheEntry {
  public:
-  /// \param known  the file's checksum, if it is known; otherwise the function hashes the
+  /// \param known_checksum  the file's checksum, if it is known; otherwise the function hashes the
   ///                        file.
   /// \return nothing if the file does not exist.
   /// \throws InvalidInput if the file is damaged or has another version or another key.
   static std::optional<CacheEntry> open(const std::filesystem::path& cache, const CacheKey& key,
-                                        const std::optional<Digest>& known = {});
+                                        const std::optional<Digest>& known_checksum = {});
 
   const std::shared_ptr<const MappedFile>& file() const { return file_; }
   const Digest& checksum() const { return checksum_; }

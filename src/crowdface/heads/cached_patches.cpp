@@ -42,7 +42,7 @@ CachedPatches cached_patches(const CacheFolder& cache, const Digest& key, Index 
   };
   if (auto found = in_file()) return *std::move(found);
   FieldPatches made = make();
-  if (store(cache, entry_key, arrays_of(made.lists(), kPatchArrays))) {
+  if (store(cache, entry_key, arrays_of(made.arrays(), kPatchArrays))) {
     // use the mapped file, so that the patches do not stay in memory twice
     if (auto found = in_file()) return *std::move(found);
   }

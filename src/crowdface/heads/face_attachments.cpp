@@ -52,7 +52,7 @@ void FaceAttachments::bind_meshes(const Config& config, const std::vector<bool>&
   }
   if (meshes.empty()) return;
   skin_ =
-      std::make_unique<const FittedSkin>(inputs_.head_set.topology, set.fitted_to,
+      std::make_unique<const FittedSkin>(inputs_.head_set.topology, set.fitted_head_positions,
                                          skin_vertices(inputs_), 1 / mm_per(config.faces.units));
   bound_meshes_.resize(meshes.size());
   parallel_for_each(meshes.size(), [&](std::size_t m) {
@@ -73,7 +73,7 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   for (const AttachmentLook& look : inputs_.attachments.looks_of(face)) {
     const BoundMesh& bound =
         bound_meshes_[mesh_of_item_[inputs_.attachments.index(look.item->name)]];
-    placed.push_back({look.item, look.colour, bound.carrier->carry(positions, normals)});
+    placed.push_back({look.item, look.colour, bound.carrier->move_to_face(positions, normals)});
     PlacedAttachment& one = placed.back();
     for (const Displacements& shape : moves) {
       one.moves.push_back(bound.bend

@@ -47,7 +47,7 @@ ShapeSetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t h
   }
   for (const LevelWeights& band : weights_by_level(recipe, region, Extrapolation::kNone)) {
     const double lost = 1 - power(kept, band.level);
-    for (const SourceWeight& part : band.shares) {
+    for (const SourceWeight& part : band.weights) {
       shares[static_cast<std::size_t>(part.head)] -= lost * part.weight;
     }
   }
@@ -88,7 +88,7 @@ std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
 std::vector<Displacements> FaceShapes::shapes_of_face(const Recipe& recipe, const Positions& face,
                                                       std::vector<Index>* crossing) const {
   if (!transfer_) return {};
-  return transfer_->carry(recipe.target, face, shares_of(recipe), crossing);
+  return transfer_->transfer_to_face(recipe.target, face, shares_of(recipe), crossing);
 }
 
 std::optional<std::size_t> FaceShapes::prerequisite_of(std::size_t shape) const {
@@ -99,7 +99,7 @@ std::vector<Displacements> FaceShapes::shapes_of_head(Index head) const {
   if (!transfer_) return {};
   const ShapeSetShares own = {{static_cast<std::uint32_t>(head), 1}};
   const RegionShares everywhere(static_cast<std::size_t>(inputs_.regions.alpha.cols()), own);
-  return transfer_->carry(
+  return transfer_->transfer_to_face(
       head, inputs_.head_set.heads[static_cast<std::size_t>(head)].positions,
       std::vector<RegionShares>(shape_fractions_after_one_iteration_.size(), everywhere));
 }

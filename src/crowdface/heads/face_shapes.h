@@ -22,7 +22,7 @@ class FaceShapes {
   /// The shapes (expressions) of a face built from a recipe: one for each shape of the inputs, or
   /// none if the inputs have no shapes. If the heads have shapes of their own, each region blends
   /// the shapes of the recipe's source heads with the recipe's weights.
-  /// \param crossing  optional output: the crossing_counts of ShapeTransfer::carry
+  /// \param crossing  optional output: the crossing_counts of ShapeTransfer::transfer_to_face
   std::vector<Displacements> shapes_of_face(const Recipe& recipe, const Positions& face,
                                             std::vector<Index>* crossing = nullptr) const;
   /// The shapes of an input head.

@@ -32,7 +32,7 @@ Recipe recipe_of_head(Index head) {
 
 std::vector<PictureName> face_picture_names(const Inputs& inputs) {
   std::vector<PictureName> pictures = inputs.textures.names;
-  for (const HeadTextures& maps : inputs.maps) {
+  for (const HeadTextures& maps : inputs.other_textures) {
     pictures.insert(pictures.end(), maps.names.begin(), maps.names.end());
   }
   return pictures;
@@ -52,7 +52,7 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
 
 void FaceTextures::blend_textures(const Config& config) {
   const Inputs& inputs = inputs_;
-  if (!has_own_textures(inputs) && inputs.colours.empty()) return;
+  if (!has_own_textures(inputs) && inputs.vertex_colours.empty()) return;
   const Topology& topology = inputs.head_set.topology;
   TextureBlendOptions options;
   const auto iterations = [&](double size_mm) {
@@ -68,8 +68,8 @@ void FaceTextures::blend_textures(const Config& config) {
     for (const std::uint32_t vertex : part.vertices)
       options.uses_target_colours_only[vertex] = true;
   }
-  region_area_fractions_ = region_shares(inputs.regions, options.vertex_areas);
-  if (!inputs.colours.empty()) uses_target_colours_only_ = options.uses_target_colours_only;
+  region_area_fractions_ = region_area_fractions(inputs.regions, options.vertex_areas);
+  if (!inputs.vertex_colours.empty()) uses_target_colours_only_ = options.uses_target_colours_only;
   if (!has_own_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
@@ -92,7 +92,7 @@ void FaceTextures::blend_textures(const Config& config) {
     }
   };
   if (inputs.textures.are_blended()) add(inputs.textures);
-  for (const HeadTextures& maps : inputs.maps) add(maps);
+  for (const HeadTextures& maps : inputs.other_textures) add(maps);
 }
 
 BlendedPicture FaceTextures::blend(const Recipe& recipe, std::size_t picture) const {
@@ -100,14 +100,14 @@ BlendedPicture FaceTextures::blend(const Recipe& recipe, std::size_t picture) co
 }
 
 ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
-  if (inputs_.colours.empty()) return ColourRows(0, 3);
+  if (inputs_.vertex_colours.empty()) return ColourRows(0, 3);
   FaceColourWeights weights =
-      face_colour_weights(recipe, inputs_.colours.size(), region_area_fractions_);
+      face_colour_weights(recipe, inputs_.vertex_colours.size(), region_area_fractions_);
   if (!are_blended_) weights.face = weights.target;
-  return blend_vertex_colours(inputs_.colours, weights, uses_target_colours_only_);
+  return blend_vertex_colours(inputs_.vertex_colours, weights, uses_target_colours_only_);
 }
 
-std::vector<double> FaceTextures::colour_fractions(const Recipe& recipe) const {
+std::vector<double> FaceTextures::head_weights_in_mean_colour(const Recipe& recipe) const {
   const std::size_t heads = inputs_.head_set.heads.size();
   if (inputs_.textures.are_blended() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
     return face_colour_weights(recipe, heads, region_area_fractions_).face;
@@ -118,12 +118,12 @@ std::vector<double> FaceTextures::colour_fractions(const Recipe& recipe) const {
 }
 
 BlendedPicture FaceTextures::paint_body(const Recipe& recipe) const {
-  return body_->paint(seam_->optical_densities_at_ring(colour_fractions(recipe)));
+  return body_->paint(seam_->optical_densities_at_ring(head_weights_in_mean_colour(recipe)));
 }
 
 std::optional<Eigen::Array3d> FaceTextures::seam_colour(const Recipe& recipe) const {
   if (!seam_) return std::nullopt;
-  return seam_->mean_colour(colour_fractions(recipe));
+  return seam_->mean_colour(head_weights_in_mean_colour(recipe));
 }
 
 std::uint64_t FaceTextures::memory_bytes() const {
@@ -146,9 +146,9 @@ std::uint64_t texture_bytes(const Inputs& inputs) {
     }
   };
   add(inputs.textures);
-  for (const HeadTextures& textures : inputs.maps) add(textures);
+  for (const HeadTextures& textures : inputs.other_textures) add(textures);
   std::uint64_t bytes = 0;
-  for (const ColourRows& colours : inputs.colours) {
+  for (const ColourRows& colours : inputs.vertex_colours) {
     bytes += static_cast<std::uint64_t>(colours.size());
   }
   for (const TextureMap* map : maps) {

@@ -17,7 +17,7 @@ namespace crowdface {
 std::vector<PictureName> face_picture_names(const Inputs& inputs);
 
 inline bool has_own_textures(const Inputs& inputs) {
-  return inputs.textures.are_blended() || !inputs.maps.empty();
+  return inputs.textures.are_blended() || !inputs.other_textures.empty();
 }
 
 /// A recipe that gives a face exactly the colours of one input head.
@@ -55,7 +55,7 @@ class FaceTextures {
  private:
   void blend_textures(const Config& config);
   /// The weight of each head in the mean colour of the whole face.
-  std::vector<double> colour_fractions(const Recipe& recipe) const;
+  std::vector<double> head_weights_in_mean_colour(const Recipe& recipe) const;
 
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
   struct Picture {

@@ -176,10 +176,10 @@ void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs)
   const HeadSet typical{inputs.head_set.topology,
                         inputs.head_set.uvs,
                         {{"mean", weighted(inputs.mean_head, inputs.parts)}}};
-  inputs.levels.resize(config.output.lods.size());
-  parallel_for_each(inputs.levels.size(), [&](std::size_t l) {
+  inputs.detail_levels.resize(config.output.lods.size());
+  parallel_for_each(inputs.detail_levels.size(), [&](std::size_t l) {
     const double share = config.output.lods[l] / 100;
-    inputs.levels[l] = read_or_make(
+    inputs.detail_levels[l] = read_or_make(
         cache, {"level", key_of(inputs, typical, share, mm)},
         [&] { return measured_level(inputs, typical, share, mm); }, kLevelArrays,
         [&](MeasuredLevel& found, const CacheEntry&) {
@@ -190,8 +190,8 @@ void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs)
 
 std::string describe_levels(const Inputs& inputs) {
   std::vector<std::string> lines;
-  for (std::size_t l = 0; l < inputs.levels.size(); ++l) {
-    const auto& [level, heads, shapes] = inputs.levels[l];
+  for (std::size_t l = 0; l < inputs.detail_levels.size(); ++l) {
+    const auto& [level, heads, shapes] = inputs.detail_levels[l];
     std::string line = concat("LOD", l + 1, ": ", level.topology.face_count(), " triangles, ",
                               level.vertices.size(), " vertices; distance to the heads' surface ",
                               format_fixed(heads.root_mean_square, 2), " mm (rms), ",

@@ -19,8 +19,8 @@ namespace crowdface {
 /// The parts of an image file's name that are the same for all faces. The full name also contains
 /// the face's id.
 struct PictureName {
-  std::string part;  ///< name of the image's material; empty if there is only one
-  int tile = 0;      ///< UDIM tile number; 0: none
+  std::string material;  ///< name of the image's material; empty if there is only one
+  int tile = 0;          ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
   /// Whether every texture file has 8-bit channels, and whether any texture file has floats.
   bool has_only_bytes = true, has_floats = false;

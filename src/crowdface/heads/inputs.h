@@ -59,7 +59,7 @@ struct AttachmentLook {
 struct AttachmentSet {
   /// positions of the head that all attachments are fitted to, #V by 3; no rows if there are no
   /// attachments
-  Positions fitted_to;
+  Positions fitted_head_positions;
   std::vector<Attachment> items;
   Digest digest;  ///< hash of the contents of all files and of the fitted head
 
@@ -100,7 +100,7 @@ struct Inputs {
   std::vector<Digest> head_file_digests;  ///< #heads, hashes of the head files' bytes
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
   /// colours.
-  std::vector<ColourRows> colours;
+  std::vector<ColourRows> vertex_colours;
   Digest colours_digest;
   FaceMaterials materials;  ///< material of each polygon of the first head
   Adjacency adjacency;
@@ -111,8 +111,8 @@ struct Inputs {
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body;
   ShapeSet shapes;
-  Digest shapes_digest;               ///< hash of the shapes, if there are any
-  std::vector<MeasuredLevel> levels;  ///< key `output.lods`
+  Digest shapes_digest;                      ///< hash of the shapes, if there are any
+  std::vector<MeasuredLevel> detail_levels;  ///< key `output.lods`
   PointSet points;
   Digest points_digest;  ///< hash of the points, if there are any
   Rig rig;
@@ -130,8 +130,8 @@ struct Inputs {
   Digest mask_digest;  ///< hash of the masks' weights α
   /// colour textures, if they are blended or rendered; otherwise empty
   HeadTextures textures;
-  std::vector<HeadTextures> maps;     ///< blended textures of all kinds except colour
-  std::vector<std::string> warnings;  ///< in a fixed order; also logged
+  std::vector<HeadTextures> other_textures;  ///< blended textures of all kinds except colour
+  std::vector<std::string> warnings;         ///< in a fixed order; also logged
 
   /// Adds and logs a warning.
   void warn(std::string text);

@@ -65,7 +65,7 @@ void check_place(const Attachment& item, const Positions& head) {
 
 Digest digest_of_attachments(const AttachmentSet& set) {
   Hasher hasher;
-  hasher.add_array(numbers_of(set.fitted_to));
+  hasher.add_array(numbers_of(set.fitted_head_positions));
   for (const Attachment& item : set.items) {
     hasher.add(item.name).add(static_cast<int>(item.moves)).add(item.text_digest);
     if (item.tint != Tint::kNone) hasher.add(static_cast<int>(item.tint));
@@ -119,7 +119,7 @@ void load_attachments(const Config& config, const CacheFolder& cache, Inputs& in
   AttachmentSet set;
   const std::size_t before = problems.size();
   try {
-    set.fitted_to = fitted_mesh(config, inputs);
+    set.fitted_head_positions = fitted_mesh(config, inputs);
   } catch (const RecoverableError& error) {
     problems.add(error);
     return;
@@ -138,7 +138,7 @@ void load_attachments(const Config& config, const CacheFolder& cache, Inputs& in
     throw_if_interrupted();
     try {
       items[i] = item_of(asked[i], std::move(files[i]));
-      check_place(*items[i], set.fitted_to);
+      check_place(*items[i], set.fitted_head_positions);
     } catch (const RecoverableError& error) {
       errors[i] = error;
     }

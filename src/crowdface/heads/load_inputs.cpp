@@ -46,7 +46,7 @@ void take_colours(Inputs& inputs) {
     if (has_none(colours[h])) without.push_back(inputs.head_set.heads[h].name);
   }
   inputs.colours_digest = hasher.digest();
-  inputs.colours = std::move(colours);
+  inputs.vertex_colours = std::move(colours);
   if (without.empty()) return;
   inputs.warn(concat(join(without),
                      ": no vertex colours, although other heads have them; faces take the colours "
@@ -199,8 +199,8 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
           inputs.warn(std::move(*text));
         continue;
       }
-      inputs.maps.push_back(std::move(maps));
-      for (const std::string& text : inputs.maps.back().warnings) inputs.warn(text);
+      inputs.other_textures.push_back(std::move(maps));
+      for (const std::string& text : inputs.other_textures.back().warnings) inputs.warn(text);
     }
   } catch (const RecoverableError& error) {
     problems.add(error);
@@ -317,7 +317,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : ineffective_mask_warnings(config, inputs)) inputs.warn(std::move(text));
   inputs.mask_digest = Hasher().add_array(numbers_of(inputs.regions.alpha)).digest();
   read_textures(config, cache, inputs, problems);
-  if (!config.neck.body_texture.empty() && inputs.colours.empty() &&
+  if (!config.neck.body_texture.empty() && inputs.vertex_colours.empty() &&
       !inputs.textures.has_textures()) {
     problems.add(ExitCode::kUsage, concat(config.file.string(),
                                           ": neck.body_texture: the heads have neither textures "

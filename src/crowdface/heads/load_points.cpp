@@ -28,7 +28,8 @@ std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints
     if (good) position[c] = *number;
   }
   if (good) return position;
-  return complaints.expected(node, concat("a position, [x, y, z], of numbers up to ", kFarthest));
+  return complaints.add_mismatch(node,
+                                 concat("a position, [x, y, z], of numbers up to ", kFarthest));
 }
 
 /// Reads `{name: [x, y, z]}`. \param names  the expected names in order; if empty, the function
@@ -45,7 +46,7 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
       names.push_back(entry.key);
     }
     if (names.empty() || names.size() > kMaxPoints) {
-      complaints.expected(node, concat("1 to ", kMaxPoints, " points"));
+      complaints.add_mismatch(node, concat("1 to ", kMaxPoints, " points"));
     }
   }
   Positions positions(static_cast<Index>(names.size()), 3);
@@ -113,7 +114,7 @@ void read_points_file(const std::filesystem::path& file, const YamlNode& root,
   }
   const YamlEntry *points = root.find("points"), *heads = root.find("heads");
   if ((points == nullptr) == (heads == nullptr)) {
-    complaints.expected(root, kExpected);
+    complaints.add_mismatch(root, kExpected);
   } else if (heads != nullptr) {
     read_head_points(heads->value, inputs, complaints);
   } else {

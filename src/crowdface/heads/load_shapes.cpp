@@ -139,7 +139,8 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
       transfer.emplace(inputs.head_set, inputs.adjacency, inputs.parts, head_axes(config),
                        of_template);
     }
-    const auto carried = transfer->carry(static_cast<Index>(h), inputs.head_set.heads[h].positions);
+    const auto carried =
+        transfer->transfer_to_face(static_cast<Index>(h), inputs.head_set.heads[h].positions);
     for (std::size_t s = 0, i = 0; s < files.size(); ++s) {
       if (config.shapes.template_files[s].empty()) continue;
       if (files[s].empty()) set.head_shapes[h][s] = make_own_shape(carried[i]);

@@ -154,7 +154,7 @@ HeadAxes head_axes(const Config& config) {
 
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems) {
   inputs.skin_components = inputs.components;
-  if (!config.parts.follow) return;
+  if (!config.parts.follow_skin) return;
   const PartOverrides overrides = overrides_of(config, inputs, problems);
   inputs.parts = find_parts(inputs.head_set.topology, inputs.adjacency, inputs.components,
                             inputs.mean_head, overrides, head_axes(config));
@@ -162,7 +162,7 @@ void find_named_parts(const Config& config, Inputs& inputs, Problems& problems) 
 }
 
 std::string describe_parts(const Config& config, const Inputs& inputs) {
-  if (!config.parts.follow) return "none: all components are blended as skin";
+  if (!config.parts.follow_skin) return "none: all components are blended as skin";
   const std::vector<std::string> materials = names_of(inputs.head_files[0].materials, inputs);
   const std::vector<std::string> groups = names_of(inputs.head_files[0].groups, inputs);
   const auto label = [&](std::uint32_t c) {

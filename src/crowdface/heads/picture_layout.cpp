@@ -26,8 +26,8 @@ std::string part_name(const std::string& material) {
 }  // namespace
 
 std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, TextureLayout& layout) {
-  layout.tile_of_face = found.tile;
-  layout.picture_of_face.assign(found.tile.size(), kNoIndex);
+  layout.tile_of_face = found.tile_of_face;
+  layout.picture_of_face.assign(found.tile_of_face.size(), kNoIndex);
   std::vector<PictureSource> first;
   std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> known;
   for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
@@ -62,7 +62,7 @@ std::vector<PictureName> picture_names(const FoundTextureFiles& found,
   std::vector<PictureName> names;
   for (const PictureSource& picture : pictures) {
     const fs::path& file = found.heads[picture.head].files[picture.file_index].name;
-    const auto& tile = found.tile[static_cast<std::size_t>(picture.polygon)];
+    const auto& tile = found.tile_of_face[static_cast<std::size_t>(picture.polygon)];
     const bool tiled = file.native().find(kTileWord) != std::string::npos;
     names.push_back({parts.size() > 1 ? parts.at(file) : "",
                      tiled ? tile_number(tile[0], tile[1]) : 0, found.kind});

@@ -104,8 +104,8 @@ SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
     } else if (!inputs.textures.texture_sets.empty()) {
       head_optical_densities_[h] =
           sampled(inputs.textures.texture_sets[h], heads, around, vertices_);
-    } else if (!inputs.colours.empty()) {
-      head_optical_densities_[h] = densities_at(inputs.colours[h], vertices_);
+    } else if (!inputs.vertex_colours.empty()) {
+      head_optical_densities_[h] = densities_at(inputs.vertex_colours[h], vertices_);
     }
   }
 }

@@ -34,7 +34,7 @@ std::vector<double> skin_tones(const Inputs& inputs) {
 
 HeadColourWeights::HeadColourWeights(const Config& config, const Inputs& inputs)
     : heads_(inputs.head_set.heads.size()),
-      region_area_fractions_(region_shares(
+      region_area_fractions_(region_area_fractions(
           inputs.regions,
           face_vertex_areas(inputs.head_set.topology, inputs.skin_components, inputs.mean_head,
                             FaceArea::kFront, config.faces.front))) {}

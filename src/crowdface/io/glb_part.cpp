@@ -83,9 +83,9 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   shared_data_.append((4 - shared_data_.size() % 4) % 4, '\0');
 }
 
-std::size_t GlbPart::describe(Json& scene, const Positions& positions,
-                              std::span<const Displacements> moves, const PartLook& look,
-                              std::size_t size) const {
+std::size_t GlbPart::add_to_scene(Json& scene, const Positions& positions,
+                                  std::span<const Displacements> moves, const PartLook& look,
+                                  std::size_t size) const {
   require(moves.size() == targets_.size(), "GlbPart: displacements of each target");
   const std::size_t vertices = source_vertices_.size();
   GlbBuffer buffer(scene, size);
@@ -144,8 +144,8 @@ std::size_t GlbPart::describe(Json& scene, const Positions& positions,
   return buffer.size();
 }
 
-void GlbPart::append(EncodedFile& file, const Positions& positions,
-                     std::span<const Displacements> moves, const PartLook& look) const {
+void GlbPart::append_data(EncodedFile& file, const Positions& positions,
+                          std::span<const Displacements> moves, const PartLook& look) const {
   require_finite(positions, topology_.vertex_count, name_);
   Positions normals = vertex_normals(fans_, topology_, positions);
   given_normals_.copy_to(normals);

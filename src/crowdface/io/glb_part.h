@@ -64,13 +64,13 @@ class GlbPart {
   /// \param size  bytes in the buffer so far, a multiple of four.
   /// \param moves  for each morph target, the displacements of this mesh's vertices.
   /// \return the buffer size afterwards, a multiple of four.
-  std::size_t describe(nlohmann::ordered_json& scene, const Positions& positions,
-                       std::span<const Displacements> moves, const PartLook& look,
-                       std::size_t size) const;
-  /// Appends the data that `describe` declares. `file` references memory of this object.
+  std::size_t add_to_scene(nlohmann::ordered_json& scene, const Positions& positions,
+                           std::span<const Displacements> moves, const PartLook& look,
+                           std::size_t size) const;
+  /// Appends the data that `add_to_scene` declares. `file` references memory of this object.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
-  void append(EncodedFile& file, const Positions& positions, std::span<const Displacements> moves,
-              const PartLook& look) const;
+  void append_data(EncodedFile& file, const Positions& positions,
+                   std::span<const Displacements> moves, const PartLook& look) const;
 
   std::size_t memory_bytes() const { return shared_data_.size(); }
   /// Upper bound of the memory needed to encode one file, in bytes. Counts the positions, the

@@ -308,7 +308,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
       images.empty() ? arrays_size : place_images(scene, arrays_size, images);
   std::size_t binary_size = own_size;
   for (const PlacedGlbPart& one : parts) {
-    binary_size = one.part->describe(scene, *one.positions, one.moves, one.look, binary_size);
+    binary_size = one.part->add_to_scene(scene, *one.positions, one.moves, one.look, binary_size);
   }
   std::string json = scene.dump(-1, ' ', false, Json::error_handler_t::replace);
   json.append((4 - json.size() % 4) % 4, ' ');
@@ -354,7 +354,7 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   }
   file.add(std::string(own_size - written, '\0'));
   for (const PlacedGlbPart& one : parts) {
-    one.part->append(file, *one.positions, one.moves, one.look);
+    one.part->append_data(file, *one.positions, one.moves, one.look);
   }
   return file;
 }

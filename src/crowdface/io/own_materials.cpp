@@ -43,13 +43,13 @@ MergedMaterials::MergedMaterials(const std::filesystem::path& mesh,
     for (const std::string_view as_it_stands : split_lines(text)) {
       Line line{std::string(as_it_stands), {}, {}, {}};
       const MaterialStatement statement = material_statement(line.text);
-      line.word = statement.keyword;
-      line.rest = statement.arguments;
-      if (line.word == "newmtl") material = line.rest;
+      line.keyword = statement.keyword;
+      line.arguments = statement.arguments;
+      if (line.keyword == "newmtl") material = line.arguments;
       line.material = material;
-      if (is_texture_statement(line.word) && !folder.empty()) {
-        line.rest.insert(start_of_name(line.rest), folder + '/');
-        line.text = concat(line.word, ' ', line.rest);
+      if (is_texture_statement(line.keyword) && !folder.empty()) {
+        line.arguments.insert(start_of_name(line.arguments), folder + '/');
+        line.text = concat(line.keyword, ' ', line.arguments);
       }
       lines_.push_back(std::move(line));
     }
@@ -60,8 +60,8 @@ std::string MergedMaterials::text(const Replacements& textures) const {
   std::map<std::string, std::string> old_colours;      // first colour texture of each material
   std::map<std::string, std::set<TextureKind>> there;  // key "": lines before the first material
   for (const Line& line : lines_) {
-    const std::optional<TextureKind> kind = texture_kind_of(line.word);
-    if (kind == TextureKind::kColour) old_colours.emplace(line.material, line.rest);
+    const std::optional<TextureKind> kind = texture_kind_of(line.keyword);
+    if (kind == TextureKind::kColour) old_colours.emplace(line.material, line.arguments);
     auto& kinds = there[line.material];
     if (kind) kinds.insert(*kind);
   }
@@ -74,18 +74,19 @@ std::string MergedMaterials::text(const Replacements& textures) const {
     return file == of_kind->second.end() ? nullptr : &file->second;
   };
   const auto replaced = [&](const Line& line) -> std::string {
-    const std::optional<TextureKind> kind = texture_kind_of(line.word);
+    const std::optional<TextureKind> kind = texture_kind_of(line.keyword);
     const std::string* file =
         kind && kind != TextureKind::kColour ? file_of(*kind, line.material) : nullptr;
     if (file != nullptr) {
-      return concat(line.word, ' ', line.rest.substr(0, start_of_name(line.rest)), *file, '\n');
+      return concat(line.keyword, ' ', line.arguments.substr(0, start_of_name(line.arguments)),
+                    *file, '\n');
     }
     const std::string* colour = file_of(TextureKind::kColour, line.material);
     if (colour == nullptr) return line.text + '\n';
     const auto old = old_colours.find(line.material);
-    if (old == old_colours.end()) return line.word == "Kd" ? "" : line.text + '\n';
-    const bool is_it = is_texture_statement(line.word) && line.rest == old->second;
-    return is_it ? concat(line.word, ' ', *colour, '\n') : line.text + '\n';
+    if (old == old_colours.end()) return line.keyword == "Kd" ? "" : line.text + '\n';
+    const bool is_it = is_texture_statement(line.keyword) && line.arguments == old->second;
+    return is_it ? concat(line.keyword, ' ', *colour, '\n') : line.text + '\n';
   };
   const auto added = [&](const std::string& material, const std::set<TextureKind>& kinds) {
     std::string text;
@@ -100,7 +101,7 @@ std::string MergedMaterials::text(const Replacements& textures) const {
   std::string text;
   for (const Line& line : lines_) {
     text += replaced(line);
-    if (line.word == "newmtl") text += added(line.material, there.at(line.material));
+    if (line.keyword == "newmtl") text += added(line.material, there.at(line.material));
   }
   std::set<std::string> missing;
   for (const auto& [kind, files] : textures) {

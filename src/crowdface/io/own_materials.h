@@ -33,10 +33,10 @@ class MergedMaterials {
 
  private:
   struct Line {
-    std::string text;      ///< the whole line
-    std::string word;      ///< the first word; empty: no statement
-    std::string rest;      ///< the line after the first word
-    std::string material;  ///< material that the line belongs to
+    std::string text;       ///< the whole line
+    std::string keyword;    ///< the first word; empty: no statement
+    std::string arguments;  ///< the line after the first word
+    std::string material;   ///< material that the line belongs to
   };
   std::vector<Line> lines_;
 };

@@ -18,9 +18,9 @@ constexpr std::ptrdiff_t kVerticesPerBlock = 1024;
 double distance_to(const Positions& rows, const Triangle& triangle, const Eigen::Vector3d& point) {
   const double to_corner = (point - row3(rows, triangle[0])).norm();
   if (triangle[0] == triangle[1]) return to_corner;
-  const auto shares = nearest_in_triangle(row3(rows, triangle[0]), row3(rows, triangle[1]),
-                                          row3(rows, triangle[2]), point);
-  const double distance = (point - point_on(rows, triangle, shares)).norm();
+  const auto barycentric = nearest_in_triangle(row3(rows, triangle[0]), row3(rows, triangle[1]),
+                                               row3(rows, triangle[2]), point);
+  const double distance = (point - point_on(rows, triangle, barycentric)).norm();
   return std::isnan(distance) ? to_corner : distance;
 }
 
@@ -32,8 +32,9 @@ double walk(const DetailLevel& level, const VertexFaces& around, const Positions
   constexpr int kMaxSteps = 16;
   SurfacePoint best = nearest_point_around(level.topology, around, rows, start, point);
   for (int step = 0; step < kMaxSteps; ++step) {
-    const auto most = std::ranges::max_element(best.shares);
-    const std::uint32_t vertex = best.corners[static_cast<std::size_t>(most - best.shares.begin())];
+    const auto most = std::ranges::max_element(best.barycentric);
+    const std::uint32_t vertex =
+        best.corners[static_cast<std::size_t>(most - best.barycentric.begin())];
     const SurfacePoint next = nearest_point_around(level.topology, around, rows, vertex, point);
     if (!(next.distance < best.distance)) break;
     best = next;

@@ -101,7 +101,7 @@ struct OrderedRim {
 /// together.
 /// \param fit  the rigid fit of the rims, in the order of the match
 std::string fault_of(const Positions& head, const Positions& body, const RigidFit& fit,
-                     double reach_mm) {
+                     double max_distance_mm) {
   const Positions from = centred(head), to = centred(body);
   const double radius = root_mean_square(from), found = root_mean_square(to);
   const double off = (centroid(body) - centroid(head)).norm();
@@ -110,13 +110,13 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
                   " off: its radius is ", mm_text(found), ", that of the heads' rim ",
                   mm_text(radius), " (scaled, in another unit, or at another end of the body?)");
   }
-  if (off > reach_mm) return concat("lies elsewhere, ", mm_text(off), " off the heads' rim");
+  if (off > max_distance_mm) return concat("lies elsewhere, ", mm_text(off), " off the heads' rim");
   if (fit.degrees > kMaxTurnDegrees) {
     return concat("is turned by ", format_fixed(fit.degrees, 0), " degrees, ",
                   mm_text(2 * radius * std::sin(fit.degrees * std::numbers::pi / 360)),
                   " along the heads' rim");
   }
-  if (fit.rms_mm <= reach_mm / 3) return {};
+  if (fit.rms_mm <= max_distance_mm / 3) return {};
   if (nearest_rms(from, to) < fit.rms_mm / 2) {
     return concat("has its vertices in another order: one after the other they lie ",
                   mm_text(fit.rms_mm), " (rms) off those of the heads' rim");
@@ -183,7 +183,7 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
 }
 
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
-                    double reach_mm, RimOrder order) {
+                    double max_distance_mm, RimOrder order) {
   // An order assigns the vertices of the body's rim to the vertices of the head's rim. If the head
   // is rotated, the order with the smallest distances may be wrong. After a rotation is fitted for
   // each order, the true order fits much better than a wrong order.
@@ -206,17 +206,17 @@ RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positi
   match.rim = best->order;
   const Positions points = body_positions(match.rim, kAllColumns);
   match.centroid_distance_mm = (centroid(points) - centroid(head_rim)).norm();
-  match.mismatch_reason = fault_of(head_rim, points, best->fit, reach_mm);
+  match.mismatch_reason = fault_of(head_rim, points, best->fit, max_distance_mm);
   return match;
 }
 
 Rim find_matching_rim(const Positions& head_rim, const std::vector<Rim>& body_rims,
-                      const Positions& body_positions, double reach_mm, RimOrder order) {
+                      const Positions& body_positions, double max_distance_mm, RimOrder order) {
   const auto count = static_cast<std::size_t>(head_rim.rows());
   std::vector<RimMatch> found, fitting;
   for (const Rim& rim : body_rims) {
     if (rim.size() == count) {
-      found.push_back(match_rims(head_rim, rim, body_positions, reach_mm, order));
+      found.push_back(match_rims(head_rim, rim, body_positions, max_distance_mm, order));
       if (found.back().mismatch_reason.empty()) fitting.push_back(found.back());
     } else {
       const Positions points = body_positions(rim, kAllColumns);

@@ -34,15 +34,15 @@ struct RimMatch {
 /// If another order then has a much smaller distance than this order, takes the other order.
 /// \param head_rim  the heads' rim, #rim by 3, in mm, in order
 /// \param body_positions  positions of the whole body, in mm
-/// \param reach_mm  largest distance between the rims; callers pass the falloff
+/// \param max_distance_mm  largest distance between the rims; callers pass the falloff
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
-                    double reach_mm, RimOrder order = RimOrder::kFree);
+                    double max_distance_mm, RimOrder order = RimOrder::kFree);
 
 /// Finds the rim of a body that matches the heads' rim.
 /// \throws InvalidInput if no rim matches or if several match. The message lists the vertex counts
 ///         and offsets of the nearest rims.
 Rim find_matching_rim(const Positions& head_rim, const std::vector<Rim>& body_rims,
-                      const Positions& body_positions, double reach_mm,
+                      const Positions& body_positions, double max_distance_mm,
                       RimOrder order = RimOrder::kFree);
 
 }  // namespace crowdface

@@ -85,8 +85,8 @@ class HeadRays {
     const Triangle& t = triangles_[found->primitive];
     const double u = found->u, v = found->v;
     hit.place.corners = t;
-    hit.place.shares = {1 - u - v, u, v};
-    hit.place.position = point_on(positions_, t, hit.place.shares);
+    hit.place.barycentric = {1 - u - v, u, v};
+    hit.place.position = point_on(positions_, t, hit.place.barycentric);
     hit.at = in_head(hit.place.position);
     hit.is_skin = is_skin_[found->primitive];
     return hit;

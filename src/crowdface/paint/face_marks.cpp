@@ -297,7 +297,7 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
 FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& match) {
   FaceMarks marks;
   marks.axes = match.axes;
-  const double mm = match.scale, eyes = match.eye_midpoint.dot(match.frame.up);
+  const double mm = match.scale, eyes = match.eye_midpoint.dot(match.fitted_axes.up);
   // The middle of the skin gives the symmetry plane more accurately than the relief does, but hair
   // or a cap may shift this middle.
   marks.symmetry_offset = symmetry_offset(topology, head, marks.axes);
@@ -306,8 +306,8 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
     marks.symmetry_offset = of_relief;
   // Heights in the profile are along the upright axis of the face, so that the orientation of the
   // head has no effect.
-  const double across = match.eye_midpoint.dot(match.frame.side());
-  const Outline outline(topology, head.positions, head.is_skin, match.frame, across, mm);
+  const double across = match.eye_midpoint.dot(match.fitted_axes.side());
+  const Outline outline(topology, head.positions, head.is_skin, match.fitted_axes, across, mm);
   const Outline closed = outline.without_slits(kMaxSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
@@ -326,7 +326,8 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
                                   [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
   const auto [mouth, chin] = mouth_and_chin(outline, tip, mm, match.stretch, prior);
   const auto place = [&](double h) -> Eigen::Vector3d {
-    return across * match.frame.side() + h * match.frame.up + closed.at(h) * match.frame.front;
+    return across * match.fitted_axes.side() + h * match.fitted_axes.up +
+           closed.at(h) * match.fitted_axes.front;
   };
   const auto height = [&](double h) { return place(h).dot(marks.axes.up); };
   marks.tip_height = height(tip);

@@ -128,7 +128,8 @@ class Refinement {
     std::vector<Index> near;
     for (Index i = 0; i < samples.rows(); ++i) {
       const Eigen::Vector3d off = (row3(samples, i) - first.eye_midpoint) / first.scale;
-      if (off.norm() < kAroundMm && off.dot(first.frame.front) > -kBehindMm) near.push_back(i);
+      if (off.norm() < kAroundMm && off.dot(first.fitted_axes.front) > -kBehindMm)
+        near.push_back(i);
     }
     if (const std::size_t step = near.size() / kMax; step > 1) {
       for (std::size_t i = 0; i * step < near.size(); ++i) near[i] = near[i * step];
@@ -145,19 +146,19 @@ class Refinement {
     ReliefMatch best = best_;
     double highest = kWorst;
     for (const ReliefMatch& start : starts_in_symmetry_plane()) {
-      restart(start, start.frame);
+      restart(start, start.fitted_axes);
       for (int round = 0; round < kRounds && make_upright() >= kSteadyDegrees; ++round) {
       }
       if (score_ <= highest) continue;
       highest = score_;
       best = best_;
     }
-    restart(best, best.frame);
+    restart(best, best.fitted_axes);
     for (int round = 0; round < kRounds; ++round) {
-      const HeadAxes before = best_.frame;
+      const HeadAxes before = best_.fitted_axes;
       make_symmetric();
       make_upright();
-      if (angle_between(before, best_.frame) < kSteadyDegrees) break;
+      if (angle_between(before, best_.fitted_axes) < kSteadyDegrees) break;
     }
     place();
     return best_;
@@ -184,7 +185,7 @@ class Refinement {
     const ReliefMatch middle = best_;
     std::vector<Start> found = {{score_, best_}};
     for (const double pitch : {-20, -10, 0, 10, 20}) {
-      const HeadAxes axes = turned(middle.frame, middle.frame.side(), pitch);
+      const HeadAxes axes = turned(middle.fitted_axes, middle.fitted_axes.side(), pitch);
       for (int grow = -4; grow <= 4; ++grow) {
         ReliefMatch next = middle;
         next.scale = middle.scale * std::pow(1 + kGrow, grow);
@@ -192,7 +193,7 @@ class Refinement {
         for (int up = -5; up <= 5; ++up) {
           for (int stretch = -2; stretch <= 2; ++stretch) {
             next = middle;
-            next.frame = axes;
+            next.fitted_axes = axes;
             next.eye_midpoint += up * kMoveMm * middle.scale * axes.up;
             next.scale = middle.scale * std::pow(1 + kGrow, grow);
             next.stretch = 1 + stretch * kGrow;
@@ -207,7 +208,8 @@ class Refinement {
     for (const Start& start : found) {
       const bool is_new = std::ranges::none_of(starts, [&](const ReliefMatch& other) {
         const double up =
-            (start.match.eye_midpoint - other.eye_midpoint).dot(middle.frame.up) / middle.scale;
+            (start.match.eye_midpoint - other.eye_midpoint).dot(middle.fitted_axes.up) /
+            middle.scale;
         return std::abs(std::log(start.match.scale / other.scale)) < kOtherSize &&
                std::abs(up) < kOtherHeightMm;
       });
@@ -221,7 +223,7 @@ class Refinement {
   double make_upright() {
     place();
     const double pitch = std::atan(slope_up_) / kRadians;
-    restart(best_, turned(best_.frame, best_.frame.side(), pitch));
+    restart(best_, turned(best_.fitted_axes, best_.fitted_axes.side(), pitch));
     return std::abs(pitch);
   }
 
@@ -236,7 +238,7 @@ class Refinement {
   /// Replaces the best match by a match that has the same position but other axes.
   void restart(const ReliefMatch& match, const HeadAxes& axes) {
     ReliefMatch next = match;
-    next.frame = axes;
+    next.fitted_axes = axes;
     score_ = kWorst;
     try_match(next);
     if (score_ <= kWorst) best_ = next;
@@ -265,7 +267,7 @@ class Refinement {
     constexpr int kSteps = 8;
     constexpr double kDegrees = 2, kMm = 2;  // step sizes for numerical derivatives
     constexpr double kMaxSteps = 4, kSteadySteps = 0.05, kMinMm = 1;
-    HeadAxes axes = best_.frame;
+    HeadAxes axes = best_.fitted_axes;
     Eigen::Vector3d middle = best_.eye_midpoint;
     for (int step = 0; step < kSteps; ++step) {
       const auto moved = [&](const Eigen::Vector3d& by) {
@@ -316,7 +318,7 @@ class Refinement {
       for (int grow = -3; grow <= 3; ++grow) {
         for (int stretch = -2; stretch <= 2; ++stretch) {
           ReliefMatch next = first;
-          next.eye_midpoint += up * kMoveMm * first.scale * first.frame.up;
+          next.eye_midpoint += up * kMoveMm * first.scale * first.fitted_axes.up;
           next.scale *= 1 + grow * 0.5 * kGrow;
           next.stretch = 1 + stretch * kGrow;
           try_match(next);
@@ -331,23 +333,23 @@ class Refinement {
   void step_all(double step, bool turns) {
     for (const double sign : {1.0, -1.0}) {
       if (!turns) break;
-      const HeadAxes axes = best_.frame;
+      const HeadAxes axes = best_.fitted_axes;
       ReliefMatch next = best_;
-      next.frame = turned(axes, axes.up, sign * step * kTurnDegrees);
+      next.fitted_axes = turned(axes, axes.up, sign * step * kTurnDegrees);
       try_match(next);
       next = best_;
-      next.frame = turned(axes, axes.front, sign * step * kTurnDegrees);
+      next.fitted_axes = turned(axes, axes.front, sign * step * kTurnDegrees);
       try_match(next);
     }
     for (const double sign : {1.0, -1.0}) {
       const double move = sign * step * kMoveMm * best_.scale;
       ReliefMatch next = best_;
       if (turns) {
-        next.eye_midpoint += move * best_.frame.side();
+        next.eye_midpoint += move * best_.fitted_axes.side();
         try_match(next);
         next = best_;
       }
-      next.eye_midpoint += move * best_.frame.up;
+      next.eye_midpoint += move * best_.fitted_axes.up;
       try_match(next);
       next = best_;
       next.scale *= 1 + sign * step * kGrow;
@@ -361,12 +363,13 @@ class Refinement {
   /// Makes a match the new best match if the match has a higher score than the old best match and a
   /// plausible stretch.
   void try_match(const ReliefMatch& match) {
-    if (!map_ || match.frame.front != map_axes_.front || match.frame.up != map_axes_.up) {
-      map_.emplace(near_, match.frame, square_).smooth();
-      map_axes_ = match.frame;
+    if (!map_ || match.fitted_axes.front != map_axes_.front ||
+        match.fitted_axes.up != map_axes_.up) {
+      map_.emplace(near_, match.fitted_axes, square_).smooth();
+      map_axes_ = match.fitted_axes;
     }
-    Candidate candidate{match.eye_midpoint.dot(match.frame.side()),
-                        match.eye_midpoint.dot(match.frame.up),
+    Candidate candidate{match.eye_midpoint.dot(match.fitted_axes.side()),
+                        match.eye_midpoint.dot(match.fitted_axes.up),
                         match.scale,
                         match.stretch,
                         {},
@@ -379,7 +382,7 @@ class Refinement {
                          kAmplitudePenalty * height * height;
     if (std::abs(stretch) < kMaxStretch && score > score_) {
       score_ = score;
-      best_ = match_of(candidate, match.frame);
+      best_ = match_of(candidate, match.fitted_axes);
       slope_up_ = candidate.fit.slope_up / match.stretch;
     }
   }
@@ -465,9 +468,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     match.rotation_degrees = angle_between(match.axes, asked);
     // Compensate a small pitch of the match.
     const double pitch =
-        std::asin(std::clamp(match.frame.up.dot(asked.front), -1.0, 1.0)) / kRadians;
+        std::asin(std::clamp(match.fitted_axes.up.dot(asked.front), -1.0, 1.0)) / kRadians;
     if (std::abs(pitch) < kMinPitch) {
-      match.axes = turned(match.frame, match.frame.side(), -pitch);
+      match.axes = turned(match.fitted_axes, match.fitted_axes.side(), -pitch);
     }
     if (angle_between(match.axes, asked) < kStraight) match.axes = asked;
     return match;

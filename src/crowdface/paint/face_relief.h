@@ -36,7 +36,7 @@ struct ReliefMatch {
   HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
   /// Axes of the face: in these axes the face is symmetric and as upright as the mean face. Small
   /// rotations from the requested axes are due to the posture and shape of the face.
-  HeadAxes frame;
+  HeadAxes fitted_axes;
   Eigen::Vector3d eye_midpoint;  ///< point on the surface between the eyes
   double scale = 1;    ///< horizontal: units of the positions per millimetre of the mean face
   double stretch = 1;  ///< vertical scale as a multiple of `scale`

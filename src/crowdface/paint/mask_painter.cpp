@@ -141,7 +141,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
           "paint: region ", region, ", radius ", brush.radius, ", strength ", brush.strength,
           ", falloff ", brush.falloff);
   std::vector<SurfacePoint> all = places;
-  if (brush.mirror) {
+  if (brush.paints_mirror_image) {
     for (const SurfacePoint& place : places) {
       all.push_back(surface_.nearest(mirror_.mirrored(place.position)));
     }

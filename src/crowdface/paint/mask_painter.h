@@ -26,7 +26,7 @@ struct Brush {
   /// 0: constant strength up to the rim; 1: the strength falls off from the centre on.
   double falloff = 1;
   /// whether each stroke also paints on the other half of the head
-  bool mirror = false;
+  bool paints_mirror_image = false;
 };
 
 /// Regions of a mesh that the user paints by hand. At every vertex the weights are not negative and

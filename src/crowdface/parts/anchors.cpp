@@ -40,7 +40,7 @@ Anchors::Anchors(const Topology& topology, const VertexFaces& faces, const Posit
     const auto [entry, is_new] =
         known.emplace(place.corners, static_cast<std::uint32_t>(skin_triangles_.size()));
     triangle_indices_.push_back(entry->second);
-    shares_.push_back(place.shares);
+    barycentric_.push_back(place.barycentric);
     if (!is_new) continue;
     const std::vector<std::uint32_t> ring = ring_of(topology, faces, place.corners);
     const Eigen::Vector3d middle = centre_of(positions, ring);
@@ -72,7 +72,7 @@ Anchors::Frame Anchors::frame_at(std::size_t triangle_index, const Positions& po
 }
 
 Eigen::Vector3d Anchors::origin(std::size_t i, const Positions& positions) const {
-  return point_on(positions, skin_triangles_[triangle_indices_[i]], shares_[i]);
+  return point_on(positions, skin_triangles_[triangle_indices_[i]], barycentric_[i]);
 }
 
 bool Anchors::is_unmoved(std::size_t triangle_index, const Positions& before,

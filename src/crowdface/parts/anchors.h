@@ -55,7 +55,7 @@ class Anchors {
   std::vector<std::uint32_t> bound_vertices_;    ///< ascending
   std::vector<std::uint32_t> triangle_indices_;  ///< per bound vertex: index into `skin_triangles_`
   /// per bound vertex: barycentric coordinates of its anchor
-  std::vector<std::array<double, 3>> shares_;
+  std::vector<std::array<double, 3>> barycentric_;
   std::vector<Triangle> skin_triangles_;  ///< triangles of the skin
   CompressedRows<RingVertex> rings_;      ///< the skin around each of `skin_triangles_`
 };

@@ -67,7 +67,7 @@ PartContact::PartContact(const Topology& topology, const VertexFaces& faces,
         nearest_point_around(topology, faces, positions, nearest.vertex, point);
     if (place.distance > reach) continue;
     const std::uint32_t start = place.corners[0];
-    pairs_.push_back({v, place.corners, place.shares, {start, start, start}, 1e300});
+    pairs_.push_back({v, place.corners, place.barycentric, {start, start, start}, 1e300});
     sum += height(pairs_.size() - 1, point, positions).height > 0 ? 1 : -1;
   }
   // The majority determines the sign of the normals: most vertices of a part are outside the skin,
@@ -169,14 +169,14 @@ void PartContact::find_clusters(const Positions& positions, const std::vector<He
 
 double PartContact::approximate_height(const Pair& pair, const Eigen::Vector3d& point,
                                        const Positions& skin) const {
-  const Eigen::Vector3d place = point_on(skin, pair.corners, pair.shares);
+  const Eigen::Vector3d place = point_on(skin, pair.corners, pair.barycentric);
   return normal_sign_ * area_vector(skin, pair.corners).normalized().dot(point - place);
 }
 
 Eigen::Vector3d PartContact::normal_near(const SurfacePoint& place, const Positions& skin) const {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) {
-    if (place.shares[k] <= 0) continue;
+    if (place.barycentric[k] <= 0) continue;
     Eigen::Vector3d at_corner = Eigen::Vector3d::Zero();
     for (const std::uint32_t f : faces_->items_of(place.corners[k])) {
       const auto face = topology_->face(f);
@@ -185,7 +185,7 @@ Eigen::Vector3d PartContact::normal_near(const SurfacePoint& place, const Positi
         at_corner += (row3(skin, face[j]) - first).cross(row3(skin, face[j + 1]) - first);
       }
     }
-    normal += place.shares[k] * at_corner.normalized();
+    normal += place.barycentric[k] * at_corner.normalized();
   }
   return normal_sign_ * normal.normalized();
 }

@@ -58,7 +58,7 @@ class PartContact {
   struct Pair {
     std::uint32_t vertex;
     Triangle corners;
-    std::array<double, 3> shares;
+    std::array<double, 3> barycentric;
     /// Vertices at which the search for the nearest skin starts. If both lips are near, some of
     /// these vertices lie on each lip.
     SearchStarts search_starts;

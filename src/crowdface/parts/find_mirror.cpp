@@ -170,8 +170,8 @@ class PlaceFinder {
       const SurfacePoint place =
           nearest_point_from(topology_, vertex_faces_, mean_, near.vertex, point);
       found.map.corners[v] = place.corners;
-      found.map.barycentric[v] = place.shares;
-      if (place.shares[0] == 1) mark_unpaired(found.map, v);
+      found.map.barycentric[v] = place.barycentric;
+      if (place.barycentric[0] == 1) mark_unpaired(found.map, v);
       distances[i] = place.distance;
     });
     for (std::size_t i = 0; i < here.size(); ++i) {

@@ -241,7 +241,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
   }
 }
 
-void PartFollower::follow(Index target, Positions& result) const {
+void PartFollower::move_parts(Index target, Positions& result) const {
   const auto t = static_cast<std::size_t>(target);
   const Positions& before = state_->heads.heads[t].positions;
   // Parts can be processed in parallel: each reads only skin, and writes only its own vertices.

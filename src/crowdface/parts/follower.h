@@ -32,7 +32,7 @@ class PartFollower {
   ///
   /// \param target  The head that the face is built on.
   /// \param result  #V by 3, blended; the skin is left unchanged.
-  void follow(Index target, Positions& result) const;
+  void move_parts(Index target, Positions& result) const;
 
  private:
   struct State;

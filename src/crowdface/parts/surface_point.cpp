@@ -23,14 +23,14 @@ void try_face(std::span<const std::uint32_t> face, const Positions& positions,
               const Eigen::Vector3d& point, SurfacePoint& best) {
   for (std::size_t k = 1; k + 1 < face.size(); ++k) {
     const Triangle corners = {face[0], face[k], face[k + 1]};
-    const std::array<double, 3> shares =
+    const std::array<double, 3> barycentric =
         nearest_in_triangle(row3(positions, corners[0]), row3(positions, corners[1]),
                             row3(positions, corners[2]), point);
-    const Eigen::Vector3d place = point_on(positions, corners, shares);
+    const Eigen::Vector3d place = point_on(positions, corners, barycentric);
     const double distance = (point - place).norm();
     if (std::isnan(distance)) continue;  // a triangle without area
     if (distance < best.distance || best.corners[0] == best.corners[1]) {
-      best = {corners, shares, place, distance};
+      best = {corners, barycentric, place, distance};
     }
   }
 }
@@ -38,9 +38,10 @@ void try_face(std::span<const std::uint32_t> face, const Positions& positions,
 }  // namespace
 
 Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
-                         const std::array<double, 3>& shares) {
-  return shares[0] * row3(positions, corners[0]) + shares[1] * row3(positions, corners[1]) +
-         shares[2] * row3(positions, corners[2]);
+                         const std::array<double, 3>& barycentric) {
+  return barycentric[0] * row3(positions, corners[0]) +
+         barycentric[1] * row3(positions, corners[1]) +
+         barycentric[2] * row3(positions, corners[2]);
 }
 
 SurfacePoint nearest_point_around(const Topology& topology, const VertexFaces& faces,
@@ -94,7 +95,7 @@ SurfacePoint nearest_point_from(const Topology& topology, const VertexFaces& fac
     }
     std::size_t most = 0;
     for (std::size_t k = 1; k < 3; ++k) {
-      if (best.shares[k] > best.shares[most]) most = k;
+      if (best.barycentric[k] > best.barycentric[most]) most = k;
     }
     if (best.corners[most] == vertex) break;
     before = std::exchange(vertex, best.corners[most]);

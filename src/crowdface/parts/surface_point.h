@@ -13,14 +13,14 @@ namespace crowdface {
 /// corner.
 struct SurfacePoint {
   Triangle corners = {};
-  std::array<double, 3> shares = {};  ///< barycentric coordinates
+  std::array<double, 3> barycentric = {};  ///< barycentric coordinates
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double distance = 0;  ///< distance from the query point
 };
 
 /// Returns the point with these barycentric coordinates on a triangle.
 Eigen::Vector3d point_on(const Positions& positions, const Triangle& corners,
-                         const std::array<double, 3>& shares);
+                         const std::array<double, 3>& barycentric);
 
 /// Returns the point of the surface that is nearest to `point`. Considers only the polygons around
 /// a vertex and around the neighbours of this vertex.

@@ -20,7 +20,7 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
   std::map<std::string, LandmarkFile::Place> places;
   if (node == nullptr || node->kind == YamlNode::Kind::kNothing) return places;
   if (node->kind != YamlNode::Kind::kMap) {
-    out.expected(*node, "a mapping of names to vertices, such as {chin: 966}");
+    out.add_mismatch(*node, "a mapping of names to vertices, such as {chin: 966}");
     return places;
   }
   if (node->entries.size() > kMax) {
@@ -33,7 +33,7 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
     place.file_location = entry.value.place.text();
     if (entry.value.kind == YamlNode::Kind::kList) {
       if (entry.value.items.size() != 3) {
-        out.expected(entry.value, "a vertex number or [x, y, z]");
+        out.add_mismatch(entry.value, "a vertex number or [x, y, z]");
         continue;
       }
       bool whole = true;
@@ -81,7 +81,7 @@ LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarkMesh mesh
   }
   const std::optional<YamlNode> root = read_yaml(path.string(), complaints);
   if (root && root->kind != YamlNode::Kind::kMap) {
-    complaints.expected(*root, "a mapping with the keys template and scan");
+    complaints.add_mismatch(*root, "a mapping with the keys template and scan");
   } else if (root) {
     const MapReader map(*root, {"template", "scan"}, complaints);
     file.template_places = read_places(map.find("template"), complaints);

@@ -24,7 +24,7 @@ PoseHint guess_bearing(const Scan& scan) {
   const std::vector<Triangle> reduced = reduce_triangles(scan.triangles, scan.positions, kEnough);
   HeadShape head;
   head.positions = scan.positions;
-  head.is_skin = used_vertices({scan.positions, reduced});
+  head.is_skin = is_vertex_used({scan.positions, reduced});
   const auto orientation = find_orientation(topology_of(reduced, scan.positions.rows()), head);
   if (!orientation) return {Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()};
   return {unit_vector(orientation->up), unit_vector(orientation->front)};

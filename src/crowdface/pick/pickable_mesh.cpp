@@ -62,11 +62,11 @@ PickableMesh::PickableMesh(Positions positions, std::vector<Triangle> skin,
       tree_(positions_, skin_) {}
 
 PickedPlace PickableMesh::place_in_triangle(const Triangle& corners,
-                                            const std::array<double, 3>& shares) const {
+                                            const std::array<double, 3>& barycentric) const {
   PickedPlace place;
   for (std::size_t k = 0; k < 3; ++k) {
-    place.point += shares[k] * row3(positions_, corners[k]);
-    place.normal += shares[k] * row3(normals_, corners[k]);
+    place.point += barycentric[k] * row3(positions_, corners[k]);
+    place.normal += barycentric[k] * row3(normals_, corners[k]);
   }
   place.normal = place.normal.normalized();
   place.vertex = *std::ranges::min_element(corners, {}, [&](std::uint32_t corner) {
@@ -95,7 +95,8 @@ std::optional<PickedPlace> PickableMesh::cast_ray(const Eigen::Vector3d& origin,
   if (!hit) return std::nullopt;
   if (hit->is_skin) {
     const Triangle& corners = skin_[hit->triangle];
-    return place_in_triangle(corners, nearest_on_triangle(positions_, corners, hit->point).shares);
+    return place_in_triangle(corners,
+                             nearest_on_triangle(positions_, corners, hit->point).barycentric);
   }
   return nearest(hit->point, -direction.normalized(), 0, max_skin_distance);
 }
@@ -105,7 +106,7 @@ std::optional<PickedPlace> PickableMesh::nearest(const Eigen::Vector3d& point,
                                                  double reach) const {
   const SurfaceHit hit = tree_.nearest_facing(point, facing, min_cosine, reach);
   if (hit.triangle == kNoIndex) return std::nullopt;
-  return place_in_triangle(skin_[hit.triangle], hit.shares);
+  return place_in_triangle(skin_[hit.triangle], hit.barycentric);
 }
 
 PickedPlace PickableMesh::place_at_vertex(std::uint32_t vertex) const {
@@ -115,7 +116,7 @@ PickedPlace PickableMesh::place_at_vertex(std::uint32_t vertex) const {
 PickedPlace PickableMesh::place_at_point(const Eigen::Vector3d& point) const {
   const SurfaceHit hit = tree_.nearest(point, std::numeric_limits<double>::infinity());
   if (hit.triangle == kNoIndex) return {kNoIndex, point, Eigen::Vector3d::Zero()};
-  PickedPlace place = place_in_triangle(skin_[hit.triangle], hit.shares);
+  PickedPlace place = place_in_triangle(skin_[hit.triangle], hit.barycentric);
   place.point = point;
   return place;
 }

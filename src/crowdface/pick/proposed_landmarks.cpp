@@ -18,7 +18,7 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_
       find_face_landmarks(wrap_template.topology, wrap_template.components, wrap_template.parts,
                           head_shape(wrap_template), *wrap_template.face_match);
   for (const auto& [name, place] : found.points) {
-    const auto nearest = std::ranges::max_element(place.shares) - place.shares.begin();
+    const auto nearest = std::ranges::max_element(place.barycentric) - place.barycentric.begin();
     proposals[name] = place.corners[static_cast<std::size_t>(nearest)];
   }
   return proposals;

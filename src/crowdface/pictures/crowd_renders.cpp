@@ -40,7 +40,7 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
     return std::pair<Eigen::Array3d, Eigen::Array3d>(positions.colwise().minCoeff().transpose(),
                                                      positions.colwise().maxCoeff().transpose());
   };
-  const auto [low, high] = box_of(attachments.fitted_to);
+  const auto [low, high] = box_of(attachments.fitted_head_positions);
   std::vector<Eigen::Vector3d> reach;
   for (const Head& head : head_set.heads) {
     const auto [own_low, own_high] = box_of(head.positions);
@@ -93,7 +93,7 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
                          .extra_points = extent_of(inputs.attachments, inputs.head_set)};
   if (mesh.has_body()) {
     options.bottom_cut_fraction = -PicturedMesh::kShoulderHeight;
-    options.extra_points.push_back(mesh.lowest_shown());
+    options.extra_points.push_back(mesh.lowest_shown_point());
   }
   return fit_cameras(heads, frame, sheet.views, options);
 }
@@ -154,8 +154,8 @@ std::optional<BlendedPicture> CrowdRenders::blend_body_texture(const Recipe& rec
 
 std::optional<VertexColours> CrowdRenders::colours_of(Index head,
                                                       const TextureSet* texture_set) const {
-  if (inputs_.colours.empty()) return std::nullopt;
-  return shown_colours(inputs_.colours[static_cast<std::size_t>(head)], texture_set);
+  if (inputs_.vertex_colours.empty()) return std::nullopt;
+  return shown_colours(inputs_.vertex_colours[static_cast<std::size_t>(head)], texture_set);
 }
 
 Rgb8Image CrowdRenders::render_front(const Positions& positions,
@@ -165,9 +165,10 @@ Rgb8Image CrowdRenders::render_front(const Positions& positions,
 }
 
 std::optional<FaceTextureSet> CrowdRenders::face_texture_set(Index target) const {
-  if (!shows_textures_ || !(inputs_.textures.are_blended() || are_any_rendered(inputs_.maps)))
+  if (!shows_textures_ ||
+      !(inputs_.textures.are_blended() || are_any_rendered(inputs_.other_textures)))
     return std::nullopt;
-  return FaceTextureSet(inputs_.textures, inputs_.maps, target, max_texels_);
+  return FaceTextureSet(inputs_.textures, inputs_.other_textures, target, max_texels_);
 }
 
 std::optional<FaceTextureSet> CrowdRenders::face_texture_set(const FaceTextures& textures,
@@ -182,11 +183,12 @@ std::optional<FaceTextureSet> CrowdRenders::face_texture_set(const FaceTextures&
 std::optional<TextureSet> CrowdRenders::texture_set_of(Index head) const {
   if (!shows_textures_) return std::nullopt;
   std::optional<TextureSet> texture_set = texture_set_of_head(inputs_.textures, head, max_texels_);
-  if (!texture_set && are_any_rendered(inputs_.maps)) {
+  if (!texture_set && are_any_rendered(inputs_.other_textures)) {
     texture_set.emplace().texture_of_face.assign(
         static_cast<std::size_t>(inputs_.head_set.topology.face_count()), TextureLayer::kNone);
   }
-  if (texture_set) add_shading_maps_of_head(inputs_.maps, head, max_texels_, *texture_set);
+  if (texture_set)
+    add_shading_maps_of_head(inputs_.other_textures, head, max_texels_, *texture_set);
   return texture_set;
 }
 

@@ -193,8 +193,8 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
     box_max_ = box_max_.cwiseMax(head->colwise().maxCoeff().transpose());
   }
   if (shown.has_body()) {
-    box_min_ = box_min_.cwiseMin(shown.lowest_shown());
-    box_max_ = box_max_.cwiseMax(shown.lowest_shown());
+    box_min_ = box_min_.cwiseMin(shown.lowest_shown_point());
+    box_max_ = box_max_.cwiseMax(shown.lowest_shown_point());
   }
   add_shapes(surfaces, mean);
 }

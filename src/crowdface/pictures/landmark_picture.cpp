@@ -69,9 +69,9 @@ std::string landmark_picture(const CrowdRenders& renders, const Topology& topolo
     Rgb8Image& image = views.emplace_back(renders.render(head, camera));
     for (const LabelledPoint& labelled : points) {
       const SurfacePoint& place = labelled.place;
-      const Eigen::Vector3d point = point_on(head, place.corners, place.shares);
+      const Eigen::Vector3d point = point_on(head, place.corners, place.barycentric);
       const Eigen::Vector3d to_camera = (camera.position() - point).normalized();
-      const Eigen::Vector3d normal = point_on(normals, place.corners, place.shares);
+      const Eigen::Vector3d normal = point_on(normals, place.corners, place.barycentric);
       if (normal.dot(to_camera) < kTurnedAway) continue;
       const Pixel at = project(camera, point, image.width);
       draw_dot(at, image.width / 250.0, image);

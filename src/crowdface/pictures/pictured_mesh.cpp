@@ -106,7 +106,7 @@ Surfaces PicturedMesh::surfaces() const {
   return surfaces;
 }
 
-Eigen::Vector3d PicturedMesh::lowest_shown() const {
+Eigen::Vector3d PicturedMesh::lowest_shown_point() const {
   const Eigen::Vector3d up = unit_vector(config_.faces.up);
   const Eigen::VectorXd heights = inputs_.mean_head * up;
   const Eigen::Vector3d middle = inputs_.heads_on_body->seam.positions.colwise().mean().transpose();

@@ -37,7 +37,7 @@ class PicturedMesh {
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }
 
   /// The lowest point of the body that images of faces must show. Requires has_body().
-  Eigen::Vector3d lowest_shown() const;
+  Eigen::Vector3d lowest_shown_point() const;
 
   /// Adds the body to a face. Requires has_body().
   Positions add_body(const Positions& face) const;

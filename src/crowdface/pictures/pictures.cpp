@@ -103,8 +103,8 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
   }
 }
 
-WrittenSheets CrowdPictures::finish(const std::vector<FacePlan>& crowd,
-                                    const CrowdLikeness& likeness) const {
+WrittenSheets CrowdPictures::write_sheets_and_gallery(const std::vector<FacePlan>& crowd,
+                                                      const CrowdLikeness& likeness) const {
   std::vector<std::string> ids;
   for (const FacePlan& face : crowd) ids.push_back(face.id);
   const PlanNames names = config_.plan_names();

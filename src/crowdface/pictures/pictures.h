@@ -40,7 +40,8 @@ class CrowdPictures {
                      const Recipe& recipe) const;
 
   /// Writes the contact sheets and the gallery from the renders in the crowd's folder.
-  WrittenSheets finish(const std::vector<FacePlan>& crowd, const CrowdLikeness& likeness) const;
+  WrittenSheets write_sheets_and_gallery(const std::vector<FacePlan>& crowd,
+                                         const CrowdLikeness& likeness) const;
 
  private:
   /// Writes the gallery except the scripts of faces: the page, the recipes, the heads.

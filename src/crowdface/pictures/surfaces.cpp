@@ -127,7 +127,7 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
       surfaces.kinds[f] = SurfaceKind::kEye;
     }
   }
-  if (inputs.textures.has_textures() || are_any_rendered(inputs.maps))
+  if (inputs.textures.has_textures() || are_any_rendered(inputs.other_textures))
     surfaces.uvs = inputs.head_set.uvs;
   return surfaces;
 }

@@ -33,9 +33,9 @@ HWY_INLINE Numbers turn(const Corner& a, const Corner& b) {
 
 /// Depth test of a triangle at several sample positions.
 /// \param a, b, c        partial areas opposite to the corners
-/// \param n_a, n_b, n_c  nearness of the corners
+/// \param n_a, n_b, n_c  inverse_depth of the corners
 HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n_b, float n_c,
-                             std::uint32_t front, float* nearness, std::uint32_t* fronts) {
+                             std::uint32_t front, float* inverse_depth, std::uint32_t* fronts) {
   const Lanes lanes;
   const hn::Rebind<std::uint32_t, Lanes> whole;
   const Numbers zero = hn::Zero(lanes);
@@ -47,9 +47,9 @@ HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n
       hn::Add(hn::Add(hn::Mul(a, hn::Set(lanes, n_a)), hn::Mul(b, hn::Set(lanes, n_b))),
               hn::Mul(c, hn::Set(lanes, n_c)));
   const Numbers near = hn::Div(sum, area);  // NaN if the area is 0: fails the test
-  const Numbers before = hn::LoadU(lanes, nearness);
+  const Numbers before = hn::LoadU(lanes, inverse_depth);
   const auto nearer = hn::And(inside, hn::Gt(near, before));
-  hn::StoreU(hn::IfThenElse(nearer, near, before), lanes, nearness);
+  hn::StoreU(hn::IfThenElse(nearer, near, before), lanes, inverse_depth);
   hn::StoreU(hn::IfThenElse(hn::RebindMask(whole, nearer), hn::Set(whole, front),
                             hn::LoadU(whole, fronts)),
              whole, fronts);
@@ -58,7 +58,8 @@ HWY_INLINE void put_triangle(Numbers a, Numbers b, Numbers c, float n_a, float n
 /// Depth-tests a quad at all samples of one pixel.
 HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad,
                              const ProjectedVertex* placed, float left, float top,
-                             const SampledPixel& pixel, float* nearness, std::uint32_t* fronts) {
+                             const SampledPixel& pixel, float* inverse_depth,
+                             std::uint32_t* fronts) {
   const Lanes lanes;
   const ProjectedVertex* const vertices[] = {placed + quad[0], placed + quad[1], placed + quad[2],
                                              placed + quad[3]};
@@ -71,19 +72,20 @@ HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad,
       c[k] = {hn::Sub(hn::Set(lanes, vertices[k]->x), x),
               hn::Sub(hn::Set(lanes, vertices[k]->y), y)};
     }
-    float* const near = nearness + pixel.first_sample + i;
+    float* const near = inverse_depth + pixel.first_sample + i;
     std::uint32_t* const front = fronts + pixel.first_sample + i;
     const Numbers across = turn(c[1], c[3]);
-    put_triangle(across, turn(c[3], c[0]), turn(c[0], c[1]), vertices[0]->nearness,
-                 vertices[1]->nearness, vertices[3]->nearness, 2 * on.quad, near, front);
-    put_triangle(hn::Neg(across), turn(c[1], c[2]), turn(c[2], c[3]), vertices[2]->nearness,
-                 vertices[3]->nearness, vertices[1]->nearness, 2 * on.quad + 1, near, front);
+    put_triangle(across, turn(c[3], c[0]), turn(c[0], c[1]), vertices[0]->inverse_depth,
+                 vertices[1]->inverse_depth, vertices[3]->inverse_depth, 2 * on.quad, near, front);
+    put_triangle(hn::Neg(across), turn(c[1], c[2]), turn(c[2], c[3]), vertices[2]->inverse_depth,
+                 vertices[3]->inverse_depth, vertices[1]->inverse_depth, 2 * on.quad + 1, near,
+                 front);
   }
 }
 
 void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Quad* quads,
                      const ProjectedVertex* placed, int corner_x, int corner_y,
-                     const SampledPixel* pixels, float* nearness, std::uint32_t* fronts) {
+                     const SampledPixel* pixels, float* inverse_depth, std::uint32_t* fronts) {
   constexpr std::ptrdiff_t kQuadsAhead = 16, kCornersAhead = 8;
   for (; begin != end; ++begin) {
     // Prefetch: on a large mesh, quads and vertices are not in the caches.
@@ -98,7 +100,7 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
         const SampledPixel& pixel = pixels[y * kRimmedSide + x];
         if (pixel.positions == nullptr) continue;
         put_in_pixel(*begin, quads[begin->quad], placed, static_cast<float>(corner_x + x),
-                     static_cast<float>(corner_y + y), pixel, nearness, fronts);
+                     static_cast<float>(corner_y + y), pixel, inverse_depth, fronts);
       }
     }
   }
@@ -247,7 +249,7 @@ PixelSamples::PixelSamples(std::vector<Eigen::Vector2f> positions)
 }
 
 DepthBuffer::DepthBuffer(std::size_t samples)
-    : nearness(samples + kMaxLanes, 0.0F), front_quads(samples + kMaxLanes, kNothing) {}
+    : inverse_depth(samples + kMaxLanes, 0.0F), front_quads(samples + kMaxLanes, kNothing) {}
 
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
                     std::span<const ProjectedVertex> placed, int squares_per_row,
@@ -261,7 +263,7 @@ void rasterize_quads(std::span<const QuadOnPixels> some, std::span<const Quad> q
                      std::span<const SampledPixel> pixels, DepthBuffer& fronts) {
   HWY_DYNAMIC_DISPATCH(rasterize_quads)
   (some.data(), some.data() + some.size(), quads.data(), placed.data(), corner[0], corner[1],
-   pixels.data(), fronts.nearness.data(), fronts.front_quads.data());
+   pixels.data(), fronts.inverse_depth.data(), fronts.front_quads.data());
 }
 
 }  // namespace crowdface

@@ -28,7 +28,7 @@ struct alignas(16) ProjectedVertex {
   float x, y;  ///< in pixels; x is infinite for vertices behind the camera
   /// 1/t for the vertex at parameter t of its camera ray, where t is 0 at the camera and 1 at the
   /// plane z = 0.
-  float nearness;
+  float inverse_depth;
 };
 
 /// A quad that overlaps a square of the image or the square's rim, and the quad's bounding box in
@@ -77,7 +77,7 @@ struct SampledPixel {
 /// A depth buffer: the nearest quad at each sample. The lists are padded by kMaxLanes.
 struct DepthBuffer {
   static constexpr std::uint32_t kNothing = 0xffffffffU;
-  std::vector<float> nearness;             ///< 0: no quad
+  std::vector<float> inverse_depth;        ///< 0: no quad
   std::vector<std::uint32_t> front_quads;  ///< 2 · quad index, plus 1 for the second triangle
 
   explicit DepthBuffer(std::size_t samples);

@@ -29,9 +29,9 @@ void ScreenQuads::project(const std::vector<float>& points, const std::vector<Qu
   projected_.resize(points.size() / 3);
   parallel_for_each(projected_.size(), kVerticesPerTask, [&](std::size_t v) {
     const float* p = points_ + 3 * v;
-    const float nearness = distance / (distance - p[2]);
-    projected_[v] = {half_side * (1 + p[0] * nearness), half_side * (1 - p[1] * nearness),
-                     nearness};
+    const float inverse_depth = distance / (distance - p[2]);
+    projected_[v] = {half_side * (1 + p[0] * inverse_depth), half_side * (1 - p[1] * inverse_depth),
+                     inverse_depth};
     if (p[2] >= distance) projected_[v].x = std::numeric_limits<float>::infinity();
   });
   squares_per_row_ = (size + kSquareSide - 1) / kSquareSide;
@@ -99,8 +99,9 @@ RayHit ScreenQuads::hit(std::uint32_t front_quad, const Eigen::Array2f& pixel_po
   };
   const Eigen::Array3f areas(cross(from(b), from(c)), cross(from(c), from(a)),
                              cross(from(a), from(b)));
-  // Perspective-correct interpolation: weights are areas times nearness.
-  const Eigen::Array3f shares = areas * Eigen::Array3f(a.nearness, b.nearness, c.nearness);
+  // Perspective-correct interpolation: weights are areas times inverse_depth.
+  const Eigen::Array3f shares =
+      areas * Eigen::Array3f(a.inverse_depth, b.inverse_depth, c.inverse_depth);
   const float sum = shares.sum();
   const float u = shares[1] / sum, v = shares[2] / sum;
   const auto point = [&](std::uint32_t vertex) {

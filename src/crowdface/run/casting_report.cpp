@@ -22,9 +22,9 @@ Json to_json(const Quartiles& q) {
   if (q.count == 0) return nullptr;
   return {{"pairs", q.count},
           {"min", rounded(q.min)},
-          {"quarter", rounded(q.lower)},
+          {"quarter", rounded(q.lower_quartile)},
           {"median", rounded(q.median)},
-          {"three_quarters", rounded(q.upper)},
+          {"three_quarters", rounded(q.upper_quartile)},
           {"max", rounded(q.max)}};
 }
 

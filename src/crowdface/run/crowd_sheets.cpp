@@ -131,7 +131,7 @@ std::size_t make_sheets(const Job& job, const CrowdDirectory& directory,
     write_founders(crowd_plan.founders, builder.get(), pictures.get());
   }
   builder.release();  // frees memory for the sheets
-  const WrittenSheets sheets = pictures.get().finish(crowd, likeness);
+  const WrittenSheets sheets = pictures.get().write_sheets_and_gallery(crowd, likeness);
   std::vector<std::string> files = sheet_files(directory, sheets);
   if (!has_gallery(job.config)) {  // the ledger then removes the files of an earlier gallery
     const std::string folder = directory.relative(directory.gallery()) + '/';
@@ -181,7 +181,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
   pictures.set_head_traits(head_traits_of_config(job.config, job.inputs));
-  const WrittenSheets sheets = pictures.finish(crowd, likeness);
+  const WrittenSheets sheets = pictures.write_sheets_and_gallery(crowd, likeness);
   ledger.record_remade_files(kItem, sheet_files(directory, sheets), {"renders", "gallery"});
   lock.require_same_folder();
   log_info(concat(sheets.pages, sheets.pages == 1 ? " sheet" : " sheets", " in ",

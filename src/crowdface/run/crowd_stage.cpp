@@ -88,8 +88,8 @@ std::string format_stage(const Config& config, const Inputs& inputs,
   const CrowdDirectory here{".", config.output.faces_per_folder.value_or(0)};
   UsdaNames names;
   for (std::size_t i = 0; i < crowd.size(); ++i) {
-    text +=
-        face_text(here, names.add(crowd[i].id), crowd[i].id, inputs.levels.size(), rows.place(i));
+    text += face_text(here, names.add(crowd[i].id), crowd[i].id, inputs.detail_levels.size(),
+                      rows.place(i));
   }
   return text + "}\n";
 }

@@ -110,7 +110,7 @@ void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
                                mirrored_weight(recipe.asymmetry, false));
   }
   correct_contacts(recipe, face);
-  if (follower_) follower_->follow(recipe.target, face);
+  if (follower_) follower_->move_parts(recipe.target, face);
   if (const auto turn = motion_to_body(recipe)) move_rows(*turn, face);
   if (recipe.mirrored) face = mirrored(mirror(), face);
   if (inputs_.heads_on_body) inputs_.heads_on_body->seam.bend_to_seam(face);

@@ -120,8 +120,8 @@ void FaceEncoders::prepare(FinishedFace& face) const {
     return needs_normals(format, levels_.size() - 1, target);
   });
   if (need_normals) face.normals = normals_of(face.positions);
-  if (points_) face.points = points_->carry(target, face.positions);
-  if (joints_) face.joints = joints_->carry(target, face.positions);
+  if (points_) face.points = points_->place_points(target, face.positions);
+  if (joints_) face.joints = joints_->place_points(target, face.positions);
   if (holds_textures()) face.images = own_textures_->glb_images(*face.textures);
   face.image_names = own_texture_names(config_, inputs_, face.face.id);
   for (std::size_t level = 0; level < levels_.size(); ++level) {

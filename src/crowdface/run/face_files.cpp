@@ -25,7 +25,7 @@ class MeshFileList {
 
   std::vector<FaceFile> files() {
     if (options_.formats.empty()) return {};
-    const std::size_t levels = options_.includes_all_variants ? inputs_.levels.size() : 0;
+    const std::size_t levels = options_.includes_all_variants ? inputs_.detail_levels.size() : 0;
     for (std::size_t level = 0; level <= levels; ++level) add_meshes(level);
     if (options_.includes_all_variants && !inputs_.points.empty()) {
       add(kPointsFollowingFaceFile, {}, "following_points",

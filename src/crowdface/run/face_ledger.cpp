@@ -37,11 +37,11 @@ Digest digest_of_common(const Job& job) {
   if (!inputs.points.empty()) hasher.add(kPointsVersion).add(inputs.points_digest);
   if (!inputs.rig.empty()) hasher.add(kRigVersion).add(inputs.rig.digest);
   if (!inputs.attachments.empty()) hasher.add(kAttachmentsVersion).add(inputs.attachments.digest);
-  if (!inputs.levels.empty()) hasher.add(kLevelsVersion);
+  if (!inputs.detail_levels.empty()) hasher.add(kLevelsVersion);
   if (has_own_textures(inputs)) hasher.add(kTextureVersion);
   hasher.add(inputs.textures.digest).add(materials_digest(inputs));
-  if (!inputs.colours.empty()) hasher.add(inputs.colours_digest);
-  for (const HeadTextures& maps : inputs.maps) {
+  if (!inputs.vertex_colours.empty()) hasher.add(inputs.colours_digest);
+  for (const HeadTextures& maps : inputs.other_textures) {
     hasher.add(static_cast<int>(maps.names.front().kind)).add(maps.digest);
   }
   return hasher.digest();

@@ -193,12 +193,12 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   std::uint64_t of_thread =
       encoders_.encoding_memory_bytes() + attachments.placement_memory_bytes();
   // Vertex colours: the face's own colours, and the colours for rendering.
-  if (!inputs.colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
+  if (!inputs.vertex_colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.has_textures()) {
     fixed_bytes += textures_.memory_bytes();
     of_thread += textures_.blend_bytes();
     if (config.output.contact_sheet) {
-      of_thread += FaceTextureSet::memory_bytes(inputs.textures, inputs.maps,
+      of_thread += FaceTextureSet::memory_bytes(inputs.textures, inputs.other_textures,
                                                 max_rendered_texels(*config.output.contact_sheet));
     }
   }

@@ -125,7 +125,7 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
     if (!landmarks_.surface_points[l]) continue;
     for (std::size_t c = 0; c < 3; ++c) {
       rows[l].samples[c] = row_of(few, landmarks_.surface_points[l]->corners[c]);
-      rows[l].weights[c] = landmarks_.surface_points[l]->shares[c];
+      rows[l].weights[c] = landmarks_.surface_points[l]->barycentric[c];
     }
   }
   measurer_.emplace(heads_at(config, inputs, prepared, few), std::move(rows),

@@ -101,7 +101,7 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
   if (inputs.rig.empty()) return influences;
   const Positions& points = item.file.positions;
   const bool is_body = inputs.heads_on_body && inputs.heads_on_body->is_body(item);
-  const PointGrid grid(is_body ? inputs.mean_head : inputs.attachments.fitted_to,
+  const PointGrid grid(is_body ? inputs.mean_head : inputs.attachments.fitted_head_positions,
                        skin_vertices(inputs));
   const auto nearest = [&](const Eigen::Vector3d& point) {
     return inputs.rig.skin.influences.items_of(grid.nearest(point).vertex);

@@ -88,7 +88,7 @@ std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const 
                                          : std::vector<std::uint32_t>();
   }
   first = inputs.textures.names.size();
-  for (const HeadTextures& maps : inputs.maps) {
+  for (const HeadTextures& maps : inputs.other_textures) {
     if (maps.names.front().kind == kind) return of_textures(maps);
     first += maps.names.size();
   }
@@ -158,7 +158,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
         {held[i].format == TextureFormat::kJpeg ? "image/jpeg" : "image/png", stem.substr(1)});
   }
   const Surfaces surfaces = surfaces_of(config, inputs);
-  options.has_colours = !inputs.colours.empty();
+  options.has_colours = !inputs.vertex_colours.empty();
   if (!options.has_colours) options.overlay = painted_eyes(config, inputs, surfaces);
   add_materials(inputs, held, surfaces, options);
   return options;

@@ -49,7 +49,7 @@ Positions HeadLandmarks::landmark_positions(const Positions& mesh, double mm_per
     if (!surface_points[l]) continue;
     points.row(static_cast<Index>(l)) =
         mm_per_unit *
-        point_on(mesh, surface_points[l]->corners, surface_points[l]->shares).transpose();
+        point_on(mesh, surface_points[l]->corners, surface_points[l]->barycentric).transpose();
   }
   return points;
 }

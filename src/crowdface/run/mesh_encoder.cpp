@@ -133,7 +133,7 @@ std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshForm
                 .uv_count = static_cast<std::uint64_t>(inputs.head_set.uvs.rows()),
                 .shape_count = inputs.shapes.shapes.size()};
   double levels = 1;
-  for (const MeasuredLevel& level : inputs.levels) levels += level.level.share;
+  for (const MeasuredLevel& level : inputs.detail_levels) levels += level.level.share;
   for (const Shape& shape : inputs.shapes.shapes)
     size.displacement_count += shape.moves.vertices.size();
   for (const ObjFile& file : inputs.head_files) size.obj_bytes += file.file.bytes().size();

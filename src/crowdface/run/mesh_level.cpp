@@ -61,13 +61,13 @@ std::vector<PlacedAttachment> MeshLevel::reduced_attachments(
 
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
                                    bool with_body) {
-  std::vector<MeshLevel> levels(1 + inputs.levels.size());
+  std::vector<MeshLevel> levels(1 + inputs.detail_levels.size());
   const Attachment* const body = with_body ? inputs.heads_on_body->body.get() : nullptr;
   for (MeshLevel& level : levels) level.body = body;
-  if (inputs.levels.empty()) return levels;
+  if (inputs.detail_levels.empty()) return levels;
   for (std::size_t l = 1; l < levels.size(); ++l) {
     levels[l].level_number = l;
-    levels[l].face_level = &inputs.levels[l - 1].level;
+    levels[l].face_level = &inputs.detail_levels[l - 1].level;
   }
   std::set<std::string> names;
   for (const FacePlan& face : crowd) names.insert(face.attachments.begin(), face.attachments.end());
@@ -79,7 +79,7 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
     // The reduced body keeps every vertex of the ring at the neck, because faces join the body at
     // this ring.
     const Borders borders = items[i] == body ? Borders::kKeep : Borders::kCollapse;
-    of_items[i] = levels_of(*items[i], inputs.levels, borders);
+    of_items[i] = levels_of(*items[i], inputs.detail_levels, borders);
   });
   for (std::size_t i = 0; i < items.size(); ++i) {
     for (std::size_t l = 1; l < levels.size(); ++l) {

@@ -101,7 +101,7 @@ MeshEncoder whole_encoder(const MeshSource& source) {
   }
   parallel_for_each(targets.size(), [&](std::size_t t) {
     made[t].emplace(source.inputs.head_files[static_cast<std::size_t>(targets[t])],
-                    source.inputs.head_set.topology, !source.inputs.colours.empty(), fixed);
+                    source.inputs.head_set.topology, !source.inputs.vertex_colours.empty(), fixed);
   });
   const auto forms = std::make_shared<std::map<Index, ObjTemplate>>();
   for (std::size_t t = 0; t < targets.size(); ++t) forms->emplace(targets[t], std::move(*made[t]));
@@ -149,7 +149,7 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
             if (face.colours->rows() == 0) return plain;
             return EncodedFile(with_colours(plain.text(), *face.colours));
           },
-          memory, inputs.colours.empty() ? encode : 3 * encode + 2 * memory};
+          memory, inputs.vertex_colours.empty() ? encode : 3 * encode + 2 * memory};
 }
 
 }  // namespace

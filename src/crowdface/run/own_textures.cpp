@@ -24,7 +24,7 @@ std::string_view ending_of(TextureFormat format) {
 std::string file_name(const std::string& id, const PictureName& picture, std::string_view tile,
                       TextureFormat format) {
   const bool is_colour = picture.kind == TextureKind::kColour;
-  return concat(kBlendedFolder, '/', id, picture.part.empty() ? "" : ".", picture.part,
+  return concat(kBlendedFolder, '/', id, picture.material.empty() ? "" : ".", picture.material,
                 is_colour ? "" : concat('.', mtl_statement_of(picture.kind).name),
                 tile.empty() ? "" : ".", tile, ending_of(format));
 }
@@ -171,7 +171,7 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
       first += textures.names.size();
     };
     add(inputs.textures);
-    for (const HeadTextures& maps : inputs.maps) add(maps);
+    for (const HeadTextures& maps : inputs.other_textures) add(maps);
     materials_of_target_.emplace(target, std::move(materials));
   }
 }
@@ -223,7 +223,7 @@ std::uint64_t OwnTextures::encoding_memory_bytes() const {
     }
   };
   add(inputs_.textures);
-  for (const HeadTextures& maps : inputs_.maps) add(maps);
+  for (const HeadTextures& maps : inputs_.other_textures) add(maps);
   return bytes + kChannels * sizeof(float) * largest;
 }
 

@@ -98,7 +98,7 @@ Json error_to_json(const LevelError& error) {
 
 Json lods_to_json(const Inputs& inputs) {
   Json lods = Json::array();
-  for (const auto& [level, heads, shapes] : inputs.levels) {
+  for (const auto& [level, heads, shapes] : inputs.detail_levels) {
     lods.push_back({{"share", level.share},
                     {"triangles", level.topology.face_count()},
                     {"vertices", level.vertices.size()},
@@ -217,7 +217,7 @@ Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_pl
   report["reached"] = {{"faces", crowd_plan.crowd.size()}, {"sheets", sheets}};
   report["settings"] = job.settings.hex();
   report["topology"] = topology_to_json(job.inputs);
-  if (!job.inputs.levels.empty()) report["lods"] = lods_to_json(job.inputs);
+  if (!job.inputs.detail_levels.empty()) report["lods"] = lods_to_json(job.inputs);
   report["smoothing"] = smoothing_to_json(job, prepared, crowd_plan);
   report["heads"] = heads_to_json(job, crowd_plan);
   if (job.inputs.heads_on_body) report["neck"] = neck_to_json(job);
@@ -275,7 +275,7 @@ std::vector<std::pair<std::string, Digest>> digests_without_heads_and_masks(cons
       {"rig", inputs.rig.digest},
       {"attachments", inputs.attachments.digest},
       {"neck", inputs.heads_on_body ? inputs.heads_on_body->digest : Digest()}};
-  for (const HeadTextures& maps : inputs.maps) {
+  for (const HeadTextures& maps : inputs.other_textures) {
     const TextureKind kind = maps.names.front().kind;
     digests.emplace_back(concat(mtl_statement_of(kind).name, " maps"), maps.digest);
   }

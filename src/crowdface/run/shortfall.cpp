@@ -129,8 +129,8 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
                       "within max_distance of a founder, min_distance apart and nearer to each ",
                       "other than to all other faces (most candidates violate ",
                       asked_of(config, remedy.binding_constraint), ")");
-  } else if (!shortfall.recipe.empty()) {
-    message += concat("the recipe ", shortfall.recipe,
+  } else if (!shortfall.manual_face.empty()) {
+    message += concat("the recipe ", shortfall.manual_face,
                       " cannot be drawn: ", asked_of(config, remedy.binding_constraint),
                       ", cannot be met");
   } else if (!shortfall.changed_face.empty()) {
@@ -146,7 +146,7 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
         ", cannot be met; reached ", shortfall.cast_count, " of ", config.crowd.count, " faces");
   }
   if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
-      shortfall.recipe.empty()) {
+      shortfall.manual_face.empty()) {
     message += concat(" (for the next face ", by_main, " of ", rejected,
                       " candidates were rejected for this reason)");
   }

@@ -27,7 +27,7 @@ constexpr const char* kSkinMaterial = "skin";
 /// "anna.colour.PART.1001.png".
 std::string map_name(const std::string& head, std::string_view kind, const PictureName& picture,
                      std::string_view tile) {
-  return concat(head, '.', kind, picture.part.empty() ? "" : ".", picture.part,
+  return concat(head, '.', kind, picture.material.empty() ? "" : ".", picture.material,
                 picture.tile == 0 ? "" : ".", picture.tile == 0 ? "" : tile, ".png");
 }
 

@@ -53,12 +53,12 @@ std::optional<PointCarrier::TrianglePoint> PointCarrier::point_on_surface(
     const auto [low, high] =
         std::minmax({mesh(corners[0], 0), mesh(corners[1], 0), mesh(corners[2], 0)});
     if (low > point.x() + least || high < point.x() - least) continue;
-    const auto shares = nearest_in_triangle(row3(mesh, corners[0]), row3(mesh, corners[1]),
-                                            row3(mesh, corners[2]), point);
-    const double distance = (point_on(mesh, corners, shares) - point).norm();
+    const auto barycentric = nearest_in_triangle(row3(mesh, corners[0]), row3(mesh, corners[1]),
+                                                 row3(mesh, corners[2]), point);
+    const double distance = (point_on(mesh, corners, barycentric) - point).norm();
     if (!(distance < least)) continue;  // also a triangle without area
     least = distance;
-    found = TrianglePoint{corners, shares};
+    found = TrianglePoint{corners, barycentric};
   }
   return found;
 }
@@ -98,13 +98,13 @@ Socket PointCarrier::find_carrying_vertices(const Eigen::Vector3d& point, const 
   return anchor;
 }
 
-Positions PointCarrier::carry(Index target, const Positions& face) const {
+Positions PointCarrier::place_points(Index target, const Positions& face) const {
   const std::size_t m = points_.meshes.size() > 1 ? static_cast<std::size_t>(target) : 0;
   Positions carried(static_cast<Index>(points_.names.size()), 3);
   for (Index p = 0; p < carried.rows(); ++p) {
     const Anchor& anchor = anchors_[m][static_cast<std::size_t>(p)];
     if (const auto* on_surface = std::get_if<TrianglePoint>(&anchor)) {
-      carried.row(p) = point_on(face, on_surface->corners, on_surface->shares).transpose();
+      carried.row(p) = point_on(face, on_surface->corners, on_surface->barycentric).transpose();
       continue;
     }
     const auto& socket = std::get<Socket>(anchor);

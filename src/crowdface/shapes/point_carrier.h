@@ -46,12 +46,12 @@ class PointCarrier {
   ///                head's points are used.
   /// \param face    #V by 3.
   /// \return        #names by 3.
-  Positions carry(Index target, const Positions& face) const;
+  Positions place_points(Index target, const Positions& face) const;
 
  private:
   struct TrianglePoint {
     Triangle corners;
-    std::array<double, 3> shares;  ///< barycentric coordinates
+    std::array<double, 3> barycentric;  ///< barycentric coordinates
   };
   /// What a point follows: a fixed position on a triangle, or the rigid motion of a vertex group.
   using Anchor = std::variant<TrianglePoint, Socket>;

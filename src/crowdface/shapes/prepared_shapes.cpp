@@ -254,7 +254,7 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
     if (nearest.vertex == kNoIndex) continue;
     const SurfacePoint place = nearest_point_around(head_set.topology, vertex_faces,
                                                     shape_set.neutral, nearest.vertex, point);
-    LidFollower follower{row, {}, place.shares};
+    LidFollower follower{row, {}, place.barycentric};
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t corner = index_in_list(moves.vertices, place.corners[k]);

@@ -51,7 +51,7 @@ struct LidFollower {
   /// The vertex is bound to a skin triangle. `rows` has the rows of the triangle's corners in the
   /// shape; kNoIndex for a corner that is not corrected.
   std::array<std::uint32_t, 3> rows;
-  std::array<double, 3> shares;  ///< barycentric coordinates in this triangle
+  std::array<double, 3> barycentric;  ///< barycentric coordinates in this triangle
 };
 
 /// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's

@@ -278,7 +278,7 @@ void CarriedShape::follow_lids(const Positions& carried) {
       const std::uint32_t on = follower.rows[k];
       if (on == kNoIndex) continue;
       result_.moves.row(follower.row) +=
-          follower.shares[k] * (result_.moves.row(on) - carried.row(next));
+          follower.barycentric[k] * (result_.moves.row(on) - carried.row(next));
     }
   }
 }
@@ -293,9 +293,9 @@ ShapeTransfer::ShapeTransfer(const HeadSet& head_set, const Adjacency& adjacency
 
 ShapeTransfer::~ShapeTransfer() = default;
 
-std::vector<Displacements> ShapeTransfer::carry(Index target, const Positions& face,
-                                                std::span<const RegionShares> shares,
-                                                std::vector<Index>* crossing) const {
+std::vector<Displacements> ShapeTransfer::transfer_to_face(Index target, const Positions& face,
+                                                           std::span<const RegionShares> shares,
+                                                           std::vector<Index>* crossing) const {
   const FaceFrames face_frames = prepared_->make_face_frames(face);
   const auto face_eyes = placed_eyes(*prepared_, static_cast<std::size_t>(target), face);
   const RegionShares none;

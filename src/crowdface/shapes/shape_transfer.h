@@ -50,9 +50,9 @@ class ShapeTransfer {
   ///                  intersect other skin in this face's shape, but neither in the template's
   ///                  shape nor in the face at rest.
   /// \return          For each shape: displacements of the same vertices as in the ShapeSet.
-  std::vector<Displacements> carry(Index target, const Positions& face,
-                                   std::span<const RegionShares> shares = {},
-                                   std::vector<Index>* crossing_counts = nullptr) const;
+  std::vector<Displacements> transfer_to_face(Index target, const Positions& face,
+                                              std::span<const RegionShares> shares = {},
+                                              std::vector<Index>* crossing_counts = nullptr) const;
 
   /// Returns the index of the shape with which this corrective shape is applied, see
   /// find_prerequisites; nothing for other shapes.

@@ -246,12 +246,12 @@ bool are_patches(std::span<const std::uint32_t> vertices, std::size_t count) {
 
 }  // namespace
 
-std::optional<FieldPatches> FieldPatches::from_arrays(PatchArrays lists, Index vertex_count,
+std::optional<FieldPatches> FieldPatches::from_arrays(PatchArrays arrays, Index vertex_count,
                                                       std::span<const Index> head_field_counts) {
   const auto vertices = static_cast<std::size_t>(vertex_count);
   const std::size_t patches = patch_count(vertices);
-  if (!are_patches(lists.vertices, vertices) || lists.stored_vertex_counts.size() != patches ||
-      lists.field_counts.size() != patches * head_field_counts.size()) {
+  if (!are_patches(arrays.vertices, vertices) || arrays.stored_vertex_counts.size() != patches ||
+      arrays.field_counts.size() != patches * head_field_counts.size()) {
     return std::nullopt;
   }
   FieldPatches result;
@@ -260,11 +260,11 @@ std::optional<FieldPatches> FieldPatches::from_arrays(PatchArrays lists, Index v
   Patch end{};
   for (std::size_t i = 0; i < patches; ++i) {
     const std::size_t here = std::min(kPatchVertices, vertices - i * kPatchVertices);
-    const std::size_t skeleton = lists.stored_vertex_counts[i];
+    const std::size_t skeleton = arrays.stored_vertex_counts[i];
     if (skeleton > here) return std::nullopt;
     end.field_count = 0;
     for (std::size_t h = 0; h < head_field_counts.size(); ++h) {
-      const std::uint32_t count = lists.field_counts[i * head_field_counts.size() + h];
+      const std::uint32_t count = arrays.field_counts[i * head_field_counts.size() + h];
       if (count > static_cast<std::uint64_t>(head_field_counts[h])) return std::nullopt;
       end.field_count += count;
     }
@@ -273,14 +273,14 @@ std::optional<FieldPatches> FieldPatches::from_arrays(PatchArrays lists, Index v
     end.first_value += end.field_count * FieldPatch::values_per_field(skeleton);
     if (skeleton < here) end.first_weight += skeleton * kPatchVertices;
   }
-  if (end.first_field != lists.quantization_steps.size() ||
-      end.first_value != lists.quantized_values.size() ||
-      end.first_weight != lists.weights.size() ||
-      !std::ranges::all_of(lists.quantization_steps, is_step) ||
-      !std::ranges::all_of(lists.weights, [](float weight) { return std::isfinite(weight); })) {
+  if (end.first_field != arrays.quantization_steps.size() ||
+      end.first_value != arrays.quantized_values.size() ||
+      end.first_weight != arrays.weights.size() ||
+      !std::ranges::all_of(arrays.quantization_steps, is_step) ||
+      !std::ranges::all_of(arrays.weights, [](float weight) { return std::isfinite(weight); })) {
     return std::nullopt;
   }
-  result.lists_ = std::move(lists);
+  result.arrays_ = std::move(arrays);
   return result;
 }
 
@@ -289,13 +289,13 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
   const std::size_t first = patch * kPatchVertices;
   FieldPatch result;
   result.vertices =
-      lists_.vertices.subspan(first, std::min(kPatchVertices, lists_.vertices.size() - first));
-  result.field_counts = lists_.field_counts.subspan(patch * heads_, heads_);
+      arrays_.vertices.subspan(first, std::min(kPatchVertices, arrays_.vertices.size() - first));
+  result.field_counts = arrays_.field_counts.subspan(patch * heads_, heads_);
   result.field_count = place.field_count;
-  result.stored_vertex_count = lists_.stored_vertex_counts[patch];
-  result.quantization_steps = lists_.quantization_steps.data() + place.first_field;
-  result.quantized_values = lists_.quantized_values.data() + place.first_value;
-  if (!result.is_whole()) result.weights = lists_.weights.data() + place.first_weight;
+  result.stored_vertex_count = arrays_.stored_vertex_counts[patch];
+  result.quantization_steps = arrays_.quantization_steps.data() + place.first_field;
+  result.quantized_values = arrays_.quantized_values.data() + place.first_value;
+  if (!result.is_whole()) result.weights = arrays_.weights.data() + place.first_weight;
   return result;
 }
 

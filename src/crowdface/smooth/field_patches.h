@@ -83,20 +83,20 @@ class FieldPatches {
   /// \return       nothing if the lists are invalid. In valid lists, each vertex occurs once, the
   ///               lengths and counts agree with each other and with `head_field_counts`, and all
   ///               numbers are finite.
-  static std::optional<FieldPatches> from_arrays(PatchArrays lists, Index vertex_count,
+  static std::optional<FieldPatches> from_arrays(PatchArrays arrays, Index vertex_count,
                                                  std::span<const Index> head_field_counts);
 
   std::size_t size() const { return patches_.size(); }
-  Index vertex_count() const { return static_cast<Index>(lists_.vertices.size()); }
+  Index vertex_count() const { return static_cast<Index>(arrays_.vertices.size()); }
   std::size_t head_count() const { return heads_; }
   FieldPatch operator[](std::size_t patch) const;
-  const PatchArrays& lists() const { return lists_; }
+  const PatchArrays& arrays() const { return arrays_; }
 
  private:
   struct Patch {
     std::size_t field_count, first_field, first_value, first_weight;
   };
-  PatchArrays lists_;
+  PatchArrays arrays_;
   std::size_t heads_ = 0;
   std::vector<Patch> patches_;
 };

@@ -25,7 +25,7 @@ struct Sample {
   std::uint32_t texel = 0;  ///< row · width + column
   /// The covering triangle's vertices, and the barycentric coordinates of the texel's centre.
   std::array<std::uint32_t, 3> vertices = {};
-  std::array<float, 3> shares = {};
+  std::array<float, 3> barycentric = {};
 };
 
 /// The decoded values of a texel; 0 for channels that the map does not have.
@@ -69,8 +69,8 @@ void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_
       for (const SurfaceTexels::Span& span : all[p].row(y)) {
         for (int x = (span.begin + step - 1) / step * step; x < span.end; x += step) {
           visit(p, y, x, span, [&](const Sample& sample) {
-            const auto nearest = static_cast<std::size_t>(std::ranges::max_element(sample.shares) -
-                                                          sample.shares.begin());
+            const auto nearest = static_cast<std::size_t>(
+                std::ranges::max_element(sample.barycentric) - sample.barycentric.begin());
             has_any[sample.vertices[nearest]] = true;
             put(sample.vertices[nearest], sample);
           });
@@ -180,7 +180,7 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
           if (map != nullptr) {
             difference = numbers_at(*map, sample.texel);
             for (std::size_t c = 0; c < 3; ++c) {
-              difference -= sample.shares[c] *
+              difference -= sample.barycentric[c] *
                             statistics.coarse_values[h].row(sample.vertices[c]).array().transpose();
             }
           }

@@ -40,10 +40,11 @@ HeadWeights mean_of(const HeadWeights& a, const HeadWeights& b) {
 /// The weights W of TextureBlender: half the target's weights plus half the area-weighted mean of
 /// the regions' weights.
 HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWeights>& regions,
-                             const std::vector<double>& region_shares) {
+                             const std::vector<double>& region_area_fractions) {
   HeadWeights mean(target.size(), 0.0);
   for (std::size_t k = 0; k < regions.size(); ++k) {
-    for (std::size_t h = 0; h < mean.size(); ++h) mean[h] += region_shares[k] * regions[k][h];
+    for (std::size_t h = 0; h < mean.size(); ++h)
+      mean[h] += region_area_fractions[k] * regions[k][h];
   }
   return mean_of(target, mean);
 }
@@ -75,10 +76,10 @@ struct FaceWeights {
 
 FaceWeights face_weights(const Recipe& recipe,
                          const std::vector<std::shared_ptr<const TextureMap>>& maps,
-                         const std::vector<double>& region_shares) {
+                         const std::vector<double>& region_area_fractions) {
   const HeadWeights target = shares_by_head(recipe, maps.size());
   const std::vector<HeadWeights> regions = colour_weights(recipe, maps.size());
-  const HeadWeights face = weights_of_whole(target, regions, region_shares);
+  const HeadWeights face = weights_of_whole(target, regions, region_area_fractions);
   FaceWeights weights{
       normalized_over_painted({&target, &face}, maps), normalized_over_painted({&face}, maps), {}};
   for (const HeadWeights& region : regions) {
@@ -155,8 +156,8 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
   return weights;
 }
 
-std::vector<double> region_shares(const RegionWeights& regions,
-                                  const std::vector<double>& vertex_areas) {
+std::vector<double> region_area_fractions(const RegionWeights& regions,
+                                          const std::vector<double>& vertex_areas) {
   std::vector<double> shares(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
   double total = 0;
   for (std::size_t v = 0; v < vertex_areas.size(); ++v) {
@@ -171,9 +172,9 @@ std::vector<double> region_shares(const RegionWeights& regions,
 }
 
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
-                                      const std::vector<double>& region_shares) {
+                                      const std::vector<double>& region_area_fractions) {
   const HeadWeights target = shares_by_head(recipe, heads);
-  return {weights_of_whole(target, colour_weights(recipe, heads), region_shares), target};
+  return {weights_of_whole(target, colour_weights(recipe, heads), region_area_fractions), target};
 }
 
 TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
@@ -199,7 +200,7 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
     return surface_statistics(filter, texels_, textures.maps, options_.statistics_scale);
   });
 
-  region_area_fractions_ = region_shares(regions, options_.vertex_areas);
+  region_area_fractions_ = region_area_fractions(regions, options_.vertex_areas);
 }
 
 PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& recipe) const {

@@ -80,8 +80,8 @@ class TextureBlender {
 
 /// For each region, the fraction of the face's area that the region covers.
 /// \param vertex_areas  #V: weight of each vertex.
-std::vector<double> region_shares(const RegionWeights& regions,
-                                  const std::vector<double>& vertex_areas);
+std::vector<double> region_area_fractions(const RegionWeights& regions,
+                                          const std::vector<double>& vertex_areas);
 
 /// Colour weights of the heads: `face` for the skin (W of TextureBlender), `target` for eyes and
 /// teeth.
@@ -89,7 +89,7 @@ struct FaceColourWeights {
   std::vector<double> face, target;  ///< #heads, each summing to one
 };
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
-                                      const std::vector<double>& region_shares);
+                                      const std::vector<double>& region_area_fractions);
 
 /// Colour weights of the heads in each region: the recipe's colour weights, if the recipe has
 /// colour weights. Otherwise the weights of the region's finest band; if these sum to less than one

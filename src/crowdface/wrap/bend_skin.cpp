@@ -27,7 +27,7 @@ constexpr double kEndMm = 200, kRimReachMm = 15;
 /// The point that corresponds to a vertex of the skin (or to a sampled point of the scan) on the
 /// other surface.
 struct Correspondence {
-  bool found = false;
+  bool is_found = false;
   Eigen::Vector3d normal, offset;  ///< normal of the scan; vector from the skin to the scan
   double weight = 0;
 };
@@ -41,7 +41,7 @@ double robust(double distance, double spread) {
 double spread_of(const std::vector<Correspondence>& correspondences, double reach) {
   std::vector<double> distances;
   for (const Correspondence& correspondence : correspondences) {
-    if (correspondence.found)
+    if (correspondence.is_found)
       distances.push_back(std::abs(correspondence.normal.dot(correspondence.offset)));
   }
   return outlier_distance(std::move(distances), reach);
@@ -92,7 +92,7 @@ class Bending {
  private:
   void choose_scan_points() {
     std::vector<std::uint32_t> inside;
-    const std::vector<bool> used = used_vertices(scan_.scan());
+    const std::vector<bool> used = is_vertex_used(scan_.scan());
     for (std::uint32_t v = 0; v < used.size(); ++v) {
       if (used[v] && !scan_.is_boundary_vertex()[v]) inside.push_back(v);
     }
@@ -165,13 +165,13 @@ class Bending {
           const auto place =
               scan_.nearest(point, row3(normals, v), kMinNormalCosine, reach, found_on_scan_[v]);
           found_on_scan_[v] = place.triangle;
-          if (place.found)
+          if (place.is_found)
             correspondences[v] = {true, place.normal, place.point - point, areas_(v) * seen};
         });
     const double spread = spread_of(correspondences, reach);
     for (std::uint32_t v = 0; v < correspondences.size(); ++v) {
       const Correspondence& correspondence = correspondences[v];
-      if (!correspondence.found) continue;
+      if (!correspondence.is_found) continue;
       const double weight = correspondence.weight * robust(correspondence.offset.norm(), spread);
       data_terms.add(v, correspondence.normal, weight * (1 - tangential), weight * tangential,
                      correspondence.offset + row3(displacements_, v));
@@ -197,11 +197,11 @@ class Bending {
     const double spread = spread_of(correspondences, reach);
     for (std::size_t i = 0; i < correspondences.size(); ++i) {
       const Correspondence& correspondence = correspondences[i];
-      if (!correspondence.found) continue;
+      if (!correspondence.is_found) continue;
       const double weight = correspondence.weight * robust(correspondence.offset.norm(), spread);
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t v = skin_.triangles[hits[i].triangle][k];
-        const double share = weight * hits[i].shares[k] * visibility_weights_[v];
+        const double share = weight * hits[i].barycentric[k] * visibility_weights_[v];
         if (share == 0) continue;
         data_terms.add(v, correspondence.normal, share * (1 - tangential), share * tangential,
                        correspondence.offset + row3(displacements_, v));
@@ -211,7 +211,7 @@ class Bending {
 
   bool at_rim(const SurfaceHit& hit) const {
     for (std::size_t k = 0; k < 3; ++k) {
-      if (hit.shares[k] > 0 && !skin_.adjacency.boundary[skin_.triangles[hit.triangle][k]])
+      if (hit.barycentric[k] > 0 && !skin_.adjacency.boundary[skin_.triangles[hit.triangle][k]])
         return false;
     }
     return true;

@@ -109,7 +109,7 @@ TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const P
       const Eigen::Vector3d point = row3(positions, v), normal = row3(normals, v);
       const auto place = scan.nearest(point, normal, kMinNormalCosine, kReachMm, before);
       before = place.triangle;
-      if (!place.found) continue;
+      if (!place.is_found) continue;
       const double off = (place.point - point).dot(place.normal) / normal.dot(place.normal);
       const double share = off / kReachMm;
       asked.values(v) = off;

@@ -38,7 +38,7 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest_positions, const H
       extent_of(rest_positions,
                 std::vector<bool>(static_cast<std::size_t>(rest_positions.rows()), true), from);
   const Eigen::AlignedBox3d found =
-      extent_of(scan.scan().positions, used_vertices(scan.scan()), to);
+      extent_of(scan.scan().positions, is_vertex_used(scan.scan()), to);
   const ShapeFitOptions options{.search_radii_mm = {40, 30, 20, 12}, .steps_per_round = 4};
   ShapeFit best;
   best.median_distance_mm = 1e300;

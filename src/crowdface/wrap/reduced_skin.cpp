@@ -46,7 +46,8 @@ std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
     if (best.triangle == kNoIndex) best = tree.nearest(point, 1e300);
     auto& place = vertex_positions[static_cast<std::size_t>(v)];
     place.triangle = best.triangle;
-    for (std::size_t k = 0; k < 3; ++k) place.shares[k] = static_cast<float>(best.shares[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      place.barycentric[k] = static_cast<float>(best.barycentric[k]);
   });
   return vertex_positions;
 }
@@ -59,7 +60,7 @@ Positions ReducedSkin::interpolate(const Positions& values, const SkinMesh& larg
     const Triangle& corners = mesh.triangles[vertex_positions[v].triangle];
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k)
-      sum += vertex_positions[v].shares[k] * values.row(corners[k]);
+      sum += vertex_positions[v].barycentric[k] * values.row(corners[k]);
     carried.row(static_cast<Index>(v)) = sum;
   }
   const SmoothingOperator lazy(large.adjacency, Boundary::kFree, OperatorKind::kLazy);
@@ -71,7 +72,7 @@ std::vector<double> ReducedSkin::interpolate(const std::vector<double>& values) 
   for (std::size_t v = 0; v < vertex_positions.size(); ++v) {
     const Triangle& corners = mesh.triangles[vertex_positions[v].triangle];
     for (std::size_t k = 0; k < 3; ++k)
-      carried[v] += vertex_positions[v].shares[k] * values[corners[k]];
+      carried[v] += vertex_positions[v].barycentric[k] * values[corners[k]];
   }
   return carried;
 }

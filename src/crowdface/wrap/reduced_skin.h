@@ -15,7 +15,7 @@ struct ReducedSkin {
   /// coordinates.
   struct BarycentricPoint {
     std::uint32_t triangle;
-    std::array<float, 3> shares;
+    std::array<float, 3> barycentric;
   };
   std::vector<BarycentricPoint> vertex_positions;  ///< one per vertex of the original skin
   int smoothing_steps = 0;  ///< number of smoothing steps after interpolation

@@ -85,7 +85,7 @@ void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept)
   if (!scan.file_triangle_indices.empty()) scan.file_triangle_indices.resize(kept);
 }
 
-std::vector<bool> used_vertices(const Scan& scan) {
+std::vector<bool> is_vertex_used(const Scan& scan) {
   std::vector<bool> used(static_cast<std::size_t>(scan.positions.rows()), false);
   for (const Triangle& t : scan.triangles) {
     for (const std::uint32_t v : t) used[v] = true;

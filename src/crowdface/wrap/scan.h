@@ -25,7 +25,7 @@ struct Scan {
 void keep_triangles(Scan& scan, const std::function<bool(std::size_t)>& is_kept);
 
 /// For each vertex: whether a triangle uses the vertex.
-std::vector<bool> used_vertices(const Scan& scan);
+std::vector<bool> is_vertex_used(const Scan& scan);
 
 /// How far a surface is from being closed: the length of the sum of the triangles' area vectors,
 /// divided by the sum of their areas. 0 for a closed surface, less than 0.2 for a head with its

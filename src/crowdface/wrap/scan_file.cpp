@@ -30,7 +30,7 @@ bool has_area(const Scan& scan) {
 /// to single precision turns the surface into steps.
 void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
   constexpr double kMaxOfSize = 1e-3;
-  const std::vector<bool> used = used_vertices(scan);
+  const std::vector<bool> used = is_vertex_used(scan);
   Eigen::AlignedBox3d box;
   double farthest = 0;
   for (Index v = 0; v < scan.positions.rows(); ++v) {

@@ -33,12 +33,12 @@ ScanSurface::ClosestPoint ScanSurface::closest_point_of(const SurfaceHit& hit) c
   place.distance = hit.distance;
   bool rim = true;  // all corners with a nonzero coordinate are on the boundary
   for (std::size_t k = 0; k < 3; ++k) {
-    place.normal += hit.shares[k] * normals_.row(corners[k]).transpose();
-    if (hit.shares[k] > kRounded && !is_boundary_vertex_[corners[k]]) rim = false;
+    place.normal += hit.barycentric[k] * normals_.row(corners[k]).transpose();
+    if (hit.barycentric[k] > kRounded && !is_boundary_vertex_[corners[k]]) rim = false;
   }
   place.normal = place.normal.normalized();
   place.is_on_boundary = rim;
-  place.found = !rim && !place.normal.isZero();
+  place.is_found = !rim && !place.normal.isZero();
   return place;
 }
 

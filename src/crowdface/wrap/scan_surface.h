@@ -25,7 +25,7 @@ class ScanSurface {
     /// unit normal, interpolated from the vertex normals
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     double distance = 0;
-    bool found = false;  ///< whether a point is within reach and not on the scan's boundary
+    bool is_found = false;  ///< whether a point is within reach and not on the scan's boundary
     bool is_on_boundary = false;  ///< whether the point lies on the scan's boundary
     std::uint32_t triangle = kNoIndex;
   };

@@ -46,7 +46,7 @@ std::vector<Match> find_matches(const Positions& placed, const Positions& normal
     const Eigen::Vector3d point = row3(placed, v);
     const auto place = scan.nearest(point, row3(normals, v), kMinNormalCosine, reach, found[i]);
     found[i] = place.triangle;
-    if (place.found) matches[i] = {v, place.point - point, place.normal, place.distance};
+    if (place.is_found) matches[i] = {v, place.point - point, place.normal, place.distance};
   });
   std::erase_if(matches, [](const Match& match) { return match.vertex == kNoIndex; });
   return matches;

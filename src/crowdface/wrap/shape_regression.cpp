@@ -142,7 +142,7 @@ std::vector<Observation> observe_scan(const SkinMesh& skin, const ShapeModel& mo
   parallel_for_each(places.size(), 64, [&](std::size_t i) {
     const std::uint32_t v = places[i];
     const auto place = scan.nearest(row3(positions, v), row3(normals, v), kMinNormalCosine, reach);
-    if (!place.found) return;
+    if (!place.is_found) return;
     const double off = place.normal.dot(place.point - row3(positions, v));
     observations[i] = {v, place.normal, place.normal.dot(place.point - row3(model.mean, v)), off};
   });

@@ -21,7 +21,7 @@ SurfaceHit nearest_on_triangle(const Positions& positions, const Triangle& corne
                         c = row3(positions, corners[2]);
   const auto [u, v, w] = nearest_in_triangle(a, b, c, point);
   SurfaceHit hit;
-  hit.shares = {std::max(0.0, 1 - v - w), v, w};
+  hit.barycentric = {std::max(0.0, 1 - v - w), v, w};
   hit.point = a + v * (b - a) + w * (c - a);
   hit.distance = (point - hit.point).norm();
   return hit;

@@ -14,8 +14,8 @@ namespace crowdface {
 
 /// A point on a triangle mesh.
 struct SurfaceHit {
-  std::uint32_t triangle = kNoIndex;  ///< kNoIndex: nothing found
-  std::array<double, 3> shares = {};  ///< barycentric coordinates, not negative, with sum 1
+  std::uint32_t triangle = kNoIndex;       ///< kNoIndex: nothing found
+  std::array<double, 3> barycentric = {};  ///< barycentric coordinates, not negative, with sum 1
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double distance = 0;
 };

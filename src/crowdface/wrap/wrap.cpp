@@ -242,7 +242,7 @@ static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeMod
     result.positions.row(skin.vertices[static_cast<std::size_t>(v)]) = wrapped.row(v);
   }
   const HeadSet faces{wrap_template.topology, {}, {{"template", wrap_template.positions}}};
-  PartFollower(faces, wrap_template.parts, wrap_template.axes).follow(0, result.positions);
+  PartFollower(faces, wrap_template.parts, wrap_template.axes).move_parts(0, result.positions);
   return result;
 }
 
