@@ -9,16 +9,17 @@
 
 namespace crowdface {
 
-/// Warns about heads whose expression does not seem neutral. Mouth and eyes of each head are fitted
-/// to the vertex-wise median of all heads. At the mouth the lengths of edges are compared with
-/// those of the median, at the eyes also the positions of vertices. A head is named if its differences
-/// are large compared with those of the other heads at the same edges and vertices. On heads of the
-/// ICT model this finds an open, smiling or pursed mouth, full cheeks and closed lids; a wrinkled
-/// nose and moved brows are not larger than the differences between people. With fewer than four
-/// heads there are no warnings, because an outlier cannot be determined.
+/// Warns about heads whose expression does not seem neutral: an open or pursed mouth, raised or
+/// lowered corners of the mouth, puffed cheeks, closed or widely opened eyes, and raised brows.
+/// Each of these movements is measured as the displacement of a feature from the vertex-wise
+/// median of all heads, minus the displacement of the skin around the feature. A head is named if
+/// its value is large compared with the values of the other heads. Of the ICT model's expressions
+/// at full strength, smiles, open mouths, closed lids and raised brows are found on every head or
+/// nearly every head, pursed mouths and puffed cheeks on most heads. Lowered brows and a wrinkled
+/// nose are not larger than the differences between people. With fewer than four heads there are
+/// no warnings, because an outlier cannot be determined.
 /// \param skin  #V, whether each vertex is skin
-/// \param mm    millimetres per file unit
 std::vector<std::string> odd_expressions(const HeadSet& heads, const std::vector<bool>& skin,
-                                         const HeadAxes& axes, double mm);
+                                         const HeadAxes& axes);
 
 }  // namespace crowdface

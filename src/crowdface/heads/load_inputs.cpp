@@ -290,9 +290,9 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : same_person_warnings(inputs, mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
-  for (std::string& text : odd_expressions(
-           inputs.head_set, skin_of(inputs),
-           axes_of(Orientation{config.faces.up, config.faces.front}), mm_per(config.faces.units))) {
+  for (std::string& text :
+       odd_expressions(inputs.head_set, skin_of(inputs),
+                       axes_of(Orientation{config.faces.up, config.faces.front}))) {
     inputs.warn(std::move(text));
   }
   if (auto text = unknown_surfaces(config, inputs)) inputs.warn(std::move(*text));
