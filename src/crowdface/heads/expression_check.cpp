@@ -2,13 +2,11 @@
 #include "crowdface/heads/expression_check.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numeric>
-#include <span>
+#include <optional>
 #include <utility>
 
 #include "crowdface/core/parallel.h"
@@ -22,40 +20,112 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMinHeads = 4, kMinVertices = 50;
-constexpr std::size_t kMaxItems = 20'000;  ///< largest number of edges or vertices measured per box
+constexpr std::size_t kMinHeads = 4, kMinFitted = 50;
+/// Lengths in this file are millimetres of a face with this distance from the mouth to the eyes.
+constexpr double kEyesAboveMouth = 65;
 
-/// A box around a facial feature. Lengths are multiples of the distance from mouth to eyes.
-struct Box {
-  double height;      ///< height of the centre above the mouth
-  double up, across;  ///< half extents
+/// Weights of a Gaussian window over the skin. `across` is the distance of the centre from the
+/// symmetry plane, `above_mouth` its height.
+struct Window {
+  double across, above_mouth;
+  double width = 4, height = 3.5;  ///< standard deviations
 };
-constexpr Box kMouth = {0, 0.45, 0.6}, kEyes = {1, 0.25, 0.75};
-constexpr double kDepth = 0.6;  ///< depth of a box behind its foremost point
 
-std::vector<Index> vertices_in(const Box& box, const FaceMarks& marks, const HeadShape& head,
-                               const HeadAxes& axes) {
-  const double face = marks.eye_to_mouth();
-  std::vector<Index> inside;
-  double foremost = -std::numeric_limits<double>::max();
-  for (Index v = 0; v < head.positions.rows(); ++v) {
-    if (!head.is_skin[static_cast<std::size_t>(v)]) continue;
-    const Eigen::Vector3d place = row3(head.positions, v);
-    const double above = place.dot(axes.up) - marks.mouth_height - box.height * face;
-    const double aside = place.dot(axes.side()) - marks.symmetry_offset;
-    if (std::abs(above) > box.up * face || std::abs(aside) > box.across * face) continue;
-    inside.push_back(v);
-    foremost = std::max(foremost, place.dot(axes.front));
-  }
-  std::erase_if(inside, [&](Index v) {
-    return row3(head.positions, v).dot(axes.front) < foremost - kDepth * face;
-  });
-  return inside;
+enum class Direction { kOutwards, kUp, kForwards };
+
+/// The mean displacement in a window, times a factor.
+struct Term {
+  double factor;
+  Window window;
+  Direction direction;
+};
+
+/// A local movement of the face: a feature's displacement minus the displacement of the skin around
+/// the feature. Longer, wider or more prominent faces displace both.
+struct Movement {
+  std::vector<Term> terms;
+  double usual_mm;          ///< standard deviation among neutral heads (synthetic, ICT, MakeHuman)
+  const char *more, *less;  ///< begin of the warning for a positive and a negative value; null if
+                            ///< neutral heads differ as much
+};
+
+/// The windows and factors are chosen so that the movements of the ICT model's expressions are
+/// large compared with the differences between neutral heads.
+const std::vector<Movement>& mouth_movements() {
+  constexpr Window kUpperLip{0, 4, 6, 2.5}, kLowerLip{0, -5, 6, 2.5}, kUpperSide{18, 5},
+      kLowerSide{18, -5}, kCorner{26, 0}, kOuterCorner{30, 0, 5, 4}, kCheek{32, 14},
+      kOuterCheek{44, 0}, kHighCheek{45, 15}, kJowl{34, -14}, kPhiltrum{0, 14}, kNoseBase{0, 22},
+      kChinCrease{0, -16};
+  constexpr Direction kUp = Direction::kUp, kForwards = Direction::kForwards,
+                      kOutwards = Direction::kOutwards;
+  static const std::vector<Movement> movements = {
+      {{{1, kUpperLip, kUp}, {-1, kLowerLip, kUp}},
+       1,
+       "its mouth is open, the lips are apart by",
+       nullptr},
+      {{{1, kOuterCorner, kUp},
+        {-0.25, kUpperLip, kUp},
+        {-0.5, kLowerLip, kUp},
+        {-0.25, kPhiltrum, kUp},
+        {0.2, kOuterCorner, kOutwards},
+        {-0.2, kUpperSide, kForwards},
+        {-0.2, kCorner, kForwards},
+        {0.2, kUpperLip, kForwards},
+        {0.2, kJowl, kForwards}},
+       0.7,
+       "the corners of its mouth are higher by",
+       "the corners of its mouth are lower by"},
+      {{{0.5, kUpperSide, kForwards},
+        {0.5, kLowerSide, kForwards},
+        {-0.5, kChinCrease, kForwards},
+        {-0.2, kJowl, kForwards},
+        {-0.3, kNoseBase, kForwards},
+        {-0.5, kCheek, kOutwards},
+        {-0.5, kJowl, kOutwards},
+        {0.3, kJowl, kUp},
+        {-0.3, kChinCrease, kUp}},
+       1.5,
+       "its mouth is pursed, the lips are farther in front by",
+       nullptr},
+      {{{0.17, kUpperSide, kForwards},
+        {0.17, kLowerSide, kForwards},
+        {0.16, kCorner, kForwards},
+        {-0.25, kUpperLip, kForwards},
+        {-0.25, kLowerLip, kForwards},
+        {0.3, kOuterCheek, kOutwards},
+        {0.2, kCheek, kUp},
+        {0.2, kHighCheek, kUp},
+        {-0.2, kUpperLip, kUp},
+        {-0.2, kPhiltrum, kUp}},
+       0.7,
+       "its cheeks are puffed beside the mouth by",
+       nullptr}};
+  return movements;
 }
 
-double median(std::vector<double> values) {
-  const std::size_t rank = values.size() / 2;
-  return nth_smallest(std::move(values), rank);
+const std::vector<Movement>& eye_movements() {
+  constexpr Window kUpperLid{31, 70, 7, 2.5}, kLidFold{31, 82, 7, 3}, kLowerLid{31, 58, 7, 3},
+      kInnerCorner{14, 65}, kOuterCorner{48, 65}, kEye{31, 65, 7, 7}, kBelowBrow{31, 78},
+      kInnerBrow{16, 86}, kBrow{26, 90}, kNoseBridge{0, 74}, kForehead{10, 106, 15, 4};
+  constexpr Direction kUp = Direction::kUp;
+  static const std::vector<Movement> movements = {{{{1, kUpperLid, kUp},
+                                                    {-0.25, kLidFold, kUp},
+                                                    {-0.25, kLowerLid, kUp},
+                                                    {-0.25, kInnerCorner, kUp},
+                                                    {-0.25, kOuterCorner, kUp}},
+                                                   0.6,
+                                                   "its upper lids are higher by",
+                                                   "its upper lids are lower by"},
+                                                  {{{0.4, kInnerBrow, kUp},
+                                                    {0.3, kBrow, kUp},
+                                                    {0.3, kNoseBridge, kUp},
+                                                    {-0.33, kBelowBrow, kUp},
+                                                    {-0.33, kEye, kUp},
+                                                    {-0.34, kForehead, kUp}},
+                                                   0.45,
+                                                   "its brows are raised by",
+                                                   nullptr}};
+  return movements;
 }
 
 /// The vertex-wise median of all heads. A single odd head hardly changes this median.
@@ -67,210 +137,201 @@ Positions middle_head(const HeadSet& head_set) {
       for (const Head& head : head_set.heads) {
         values.push_back(head.positions(static_cast<Index>(v), c));
       }
-      middle(static_cast<Index>(v), c) = median(std::move(values));
+      middle(static_cast<Index>(v), c) = nth_smallest(values, values.size() / 2);
     }
   });
   return middle;
 }
 
-/// A part of the face on all heads, each after a similarity fit of the part to `middle`.
-struct AlignedPart {
-  Positions middle;              ///< #vertices by 3, the vertex-wise median of all heads
-  std::vector<Positions> heads;  ///< #heads, each #vertices by 3
+/// A linear function of the displacements of some vertices: the sum of the dot products with
+/// `weights`.
+struct LinearForm {
+  std::vector<Index> vertices;
+  std::vector<Eigen::Vector3d> weights;
 };
 
-AlignedPart align(const HeadSet& head_set, const Positions& middle,
-                  const std::vector<Index>& vertices) {
-  AlignedPart part{middle(vertices, kAllColumns), std::vector<Positions>(head_set.heads.size())};
-  parallel_for_each(part.heads.size(), [&](std::size_t h) {
-    const Positions own = head_set.heads[h].positions(vertices, kAllColumns);
-    part.heads[h] = fit_similarity(own, part.middle, ScaleFit::kUniform).apply(own);
-  });
-  return part;
-}
-
-/// An edge of the mesh: two indices into the vertices of a part, ascending.
-using Edge = std::array<Index, 2>;
-
-std::vector<Edge> edges_between(const Topology& topology, const std::vector<Index>& vertices) {
-  std::vector<Index> index_in_part(static_cast<std::size_t>(topology.vertex_count), -1);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    index_in_part[static_cast<std::size_t>(vertices[i])] = static_cast<Index>(i);
-  }
-  std::vector<Edge> edges;
-  for (Index f = 0; f < topology.face_count(); ++f) {
-    const std::span<const std::uint32_t> polygon = topology.face(f);
-    for (std::size_t c = 0; c < polygon.size(); ++c) {
-      const Index a = index_in_part[polygon[c]],
-                  b = index_in_part[polygon[(c + 1) % polygon.size()]];
-      // Each edge inside the skin belongs to two polygons, which list its ends in opposite order.
-      // Thus only one of these polygons has a < b.
-      if (a >= 0 && a < b) edges.push_back({a, b});
+/// The coordinates of the skin of a head in its face.
+class FaceSkin {
+ public:
+  FaceSkin(const HeadShape& head, const FaceMarks& marks)
+      : axes_(marks.axes), mm_(marks.eye_to_mouth() / kEyesAboveMouth) {
+    for (Index v = 0; v < head.positions.rows(); ++v) {
+      if (!head.is_skin[static_cast<std::size_t>(v)]) continue;
+      const Eigen::Vector3d place = row3(head.positions, v);
+      vertices_.push_back({v, (place.dot(axes_.side()) - marks.symmetry_offset) / mm_,
+                           (place.dot(axes_.up) - marks.mouth_height) / mm_,
+                           place.dot(axes_.front) / mm_});
     }
   }
-  return edges;
-}
 
-double mean_length(const Positions& positions, const std::vector<Edge>& edges) {
+  /// The vertices of nose, cheeks and eyes: expressions move this part of the face least.
+  std::vector<Index> middle_of_face() const {
+    constexpr double kAcross = 55, kCentre = 47.5, kHalfHeight = 32.5, kDepth = 60;
+    std::vector<Index> indices;
+    for (const Vertex& v : vertices_near(0, kCentre, kAcross, kHalfHeight, kDepth)) {
+      indices.push_back(v.index);
+    }
+    return indices;
+  }
+
+  /// The function that measures a movement, in millimetres, on the left (`side` is 1) or right (−1)
+  /// half of the face; nothing if a window contains too few vertices.
+  std::optional<LinearForm> form_of(const Movement& movement, int side) const {
+    LinearForm form;
+    for (const Term& term : movement.terms) {
+      constexpr double kReach = 2.4, kDepth = 15, kMinWeight = 0.5;
+      const Window& window = term.window;
+      const auto near = vertices_near(side * window.across, window.above_mouth,
+                                      kReach * window.width, kReach * window.height, kDepth);
+      std::vector<double> weights;
+      for (const Vertex& v : near) {
+        weights.push_back(std::exp(-(square((v.across - side * window.across) / window.width) +
+                                     square((v.above_mouth - window.above_mouth) / window.height)) /
+                                   2));
+      }
+      const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+      if (sum < kMinWeight) return std::nullopt;
+      const Eigen::Vector3d direction = vector_of(term.direction, side);
+      for (std::size_t i = 0; i < near.size(); ++i) {
+        form.vertices.push_back(near[i].index);
+        form.weights.emplace_back(term.factor * weights[i] / (sum * mm_) * direction);
+      }
+    }
+    return form;
+  }
+
+ private:
+  struct Vertex {
+    Index index;
+    double across, above_mouth, front;
+  };
+  static double square(double x) { return x * x; }
+
+  /// The vertices in a rectangle, seen from the front, up to `depth` behind the foremost of them.
+  std::vector<Vertex> vertices_near(double across, double above_mouth, double half_width,
+                                    double half_height, double depth) const {
+    std::vector<Vertex> inside;
+    double foremost = -std::numeric_limits<double>::max();
+    for (const Vertex& v : vertices_) {
+      if (std::abs(v.across - across) > half_width) continue;
+      if (std::abs(v.above_mouth - above_mouth) > half_height) continue;
+      inside.push_back(v);
+      foremost = std::max(foremost, v.front);
+    }
+    std::erase_if(inside, [&](const Vertex& v) { return v.front < foremost - depth; });
+    return inside;
+  }
+  Eigen::Vector3d vector_of(Direction direction, int side) const {
+    if (direction == Direction::kOutwards) return side * axes_.side();
+    return direction == Direction::kUp ? axes_.up : axes_.front;
+  }
+
+  HeadAxes axes_;
+  double mm_;  ///< the unit of `Vertex` in the unit of the positions
+  std::vector<Vertex> vertices_;
+};
+
+/// The displacements of all heads from their median, each after a similarity fit of `fitted`.
+class HeadDisplacements {
+ public:
+  HeadDisplacements(const HeadSet& heads, const Positions& middle, const std::vector<Index>& fitted)
+      : heads_(heads), middle_(middle) {
+    const Positions to = middle(fitted, kAllColumns);
+    for (const Head& head : heads.heads) {
+      fits_.push_back(fit_similarity(head.positions(fitted, kAllColumns), to, ScaleFit::kUniform));
+    }
+  }
+
+  /// The value of a form on each head, minus the median of these values.
+  std::vector<double> deviations(const LinearForm& form) const {
+    std::vector<double> values;
+    for (std::size_t h = 0; h < fits_.size(); ++h) {
+      const Positions moved =
+          fits_[h].apply(heads_.heads[h].positions(form.vertices, kAllColumns)) -
+          middle_(form.vertices, kAllColumns);
+      double value = 0;
+      for (std::size_t i = 0; i < form.weights.size(); ++i) {
+        value += form.weights[i].dot(row3(moved, static_cast<Index>(i)));
+      }
+      values.push_back(value);
+    }
+    const double middle = nth_smallest(values, values.size() / 2);
+    for (double& value : values) value -= middle;
+    return values;
+  }
+
+ private:
+  const HeadSet& heads_;
+  const Positions& middle_;
+  std::vector<Similarity> fits_;
+};
+
+/// The largest deviation of a head from the others, as a multiple of the usual deviation.
+struct Oddity {
+  double times_usual = 0;
+  double mm = 0, usual_mm = 0;
+  const char* text = nullptr;
+};
+
+/// Replaces each head's oddity by that of this movement where the latter is larger. The usual
+/// deviation is the root of the mean square of the other heads' deviations and of `usual_mm`, which
+/// counts like kHeads heads.
+void compare(const Movement& movement, const FaceSkin& skin, const HeadDisplacements& displacements,
+             std::vector<Oddity>& oddities) {
+  constexpr double kHeads = 6;
+  std::vector<std::vector<double>> sides;
+  for (const int side : {1, -1}) {
+    const auto form = skin.form_of(movement, side);
+    if (!form) return;
+    sides.push_back(displacements.deviations(*form));
+  }
+  const auto squares = [&](std::size_t h) {
+    return (sides[0][h] * sides[0][h] + sides[1][h] * sides[1][h]) / 2;
+  };
   double sum = 0;
-  for (const auto& [a, b] : edges) sum += (positions.row(a) - positions.row(b)).norm();
-  return sum / static_cast<double>(edges.size());
-}
-
-/// Applies `times` smoothing steps. A step replaces each row by the average of the row and the mean
-/// of its neighbours.
-void smooth(Positions& rows, const std::vector<Edge>& edges, int times) {
-  Eigen::VectorXd neighbours = Eigen::VectorXd::Zero(rows.rows());
-  for (const auto& [a, b] : edges) {
-    neighbours[a] += 1;
-    neighbours[b] += 1;
-  }
-  for (int i = 0; i < times; ++i) {
-    Positions sum = Positions::Zero(rows.rows(), 3);
-    for (const auto& [a, b] : edges) {
-      sum.row(a) += rows.row(b);
-      sum.row(b) += rows.row(a);
-    }
-    for (Index v = 0; v < rows.rows(); ++v) {
-      if (neighbours[v] > 0) rows.row(v) = 0.5 * (rows.row(v) + sum.row(v) / neighbours[v]);
+  for (std::size_t h = 0; h < oddities.size(); ++h) sum += squares(h);
+  for (std::size_t h = 0; h < oddities.size(); ++h) {
+    const double others = static_cast<double>(oddities.size() - 1);
+    const double usual = std::sqrt(
+        (sum - squares(h) + kHeads * movement.usual_mm * movement.usual_mm) / (others + kHeads));
+    for (const std::vector<double>& side : sides) {
+      const double times = std::abs(side[h]) / usual;
+      const char* const text = side[h] > 0 ? movement.more : movement.less;
+      if (text != nullptr && times > oddities[h].times_usual) {
+        oddities[h] = {times, std::abs(side[h]), usual, text};
+      }
     }
   }
-}
-
-/// Differences between each head and the other heads: #heads by #items, not negative.
-using Differences = Eigen::MatrixXd;
-
-/// Measures how far the edges are stretched or compressed: |log(length / length on the median)|.
-/// Another person's proportions change lengths over wide areas; the similarity fit removes most of
-/// this change. A smile, a pursed or an open mouth stretches only the skin near the mouth.
-/// \param mm  millimetres per file unit
-Differences edge_strains(AlignedPart part, const std::vector<Edge>& edges, double mm) {
-  // Displacements of dense meshes are smoothed over kPatchMm. Otherwise pores and the noise of a
-  // scan change the lengths of short edges more than an expression does.
-  constexpr double kPatchMm = 2;
-  const double ratio = kPatchMm / (mm * mean_length(part.middle, edges));
-  const int times = static_cast<int>(std::clamp(ratio * ratio - 1, 0.0, 60.0));
-  const std::vector<Edge> measured = evenly_spaced_items(edges, kMaxItems);
-  Differences strains(part.heads.size(), measured.size());
-  parallel_for_each(part.heads.size(), [&](std::size_t h) {
-    Positions& head = part.heads[h];
-    head -= part.middle;
-    smooth(head, edges, times);
-    head += part.middle;
-    for (std::size_t e = 0; e < measured.size(); ++e) {
-      const auto& [a, b] = measured[e];
-      const double length = (head.row(a) - head.row(b)).norm();
-      const double middle = (part.middle.row(a) - part.middle.row(b)).norm();
-      strains(static_cast<Index>(h), static_cast<Index>(e)) =
-          length > 0 && middle > 0 ? std::abs(std::log(length / middle)) : 0;
-    }
-  });
-  return strains;
-}
-
-/// For each head, the distances between its vertices and the same vertices of the median head, in
-/// millimetres.
-Differences vertex_distances(const AlignedPart& part, double mm) {
-  std::vector<Index> rows(static_cast<std::size_t>(part.middle.rows()));
-  std::iota(rows.begin(), rows.end(), Index{0});
-  rows = evenly_spaced_items(rows, kMaxItems);
-  Differences distances(part.heads.size(), rows.size());
-  for (std::size_t h = 0; h < part.heads.size(); ++h) {
-    distances.row(static_cast<Index>(h)) =
-        mm * (part.heads[h] - part.middle)(rows, kAllColumns).rowwise().norm().transpose();
-  }
-  return distances;
-}
-
-/// Limits beyond which a head counts as different from the other heads.
-struct OutlierLimits {
-  /// A head's difference is this quantile of the differences of its edges or vertices.
-  double quantile;
-  /// added to the denominator of each relative difference, so that a tiny difference is not an
-  /// outlier where all heads are almost equal; in the unit of the differences
-  double min_difference;
-  double min_score;              ///< smallest score of an outlier
-  double min_score_over_median;  ///< smallest ratio of an outlier's score to the median score
-};
-constexpr OutlierLimits kMouthStrain = {0.7, 0.2, 0.57, 1.5};
-// Closed lids move far and stretch the skin. Eyes of another size or depth move far
-// but stretch the skin little.
-constexpr OutlierLimits kEyeDistance = {0.98, 0.5, 2.7, 1.5}, kEyeStrain = {0.9, 0.2, 0.72, 1};
-
-double quantile(const Eigen::VectorXd& values, double share) {
-  const auto rank = static_cast<std::size_t>(share * static_cast<double>(values.size()));
-  return nth_smallest({values.begin(), values.end()}, rank);
-}
-
-/// A head that differs from the others.
-struct Outlier {
-  std::size_t head;
-  double difference;  ///< quantile of the head's differences
-  double usual;       ///< median of `difference` over all heads
-};
-
-/// Finds the heads whose differences are large compared with those of the other heads at the same
-/// places.
-std::vector<Outlier> outliers(const Differences& differences, const OutlierLimits& limits) {
-  const Index count = differences.rows();
-  const Eigen::RowVectorXd squares = differences.colwise().squaredNorm();
-  std::vector<double> scores(static_cast<std::size_t>(count)), plain(scores);
-  for (Index h = 0; h < count; ++h) {
-    const Eigen::RowVectorXd own = differences.row(h);
-    const Eigen::RowVectorXd others =
-        ((squares - own.cwiseAbs2()).cwiseMax(0) / static_cast<double>(count - 1)).cwiseSqrt();
-    const Eigen::RowVectorXd relative = own.array() / (others.array() + limits.min_difference);
-    scores[static_cast<std::size_t>(h)] = quantile(relative.transpose(), limits.quantile);
-    plain[static_cast<std::size_t>(h)] = quantile(own.transpose(), limits.quantile);
-  }
-  const double usual_score = median(scores), usual = median(plain);
-  std::vector<Outlier> found;
-  for (std::size_t h = 0; h < scores.size(); ++h) {
-    if (scores[h] < limits.min_score || scores[h] < limits.min_score_over_median * usual_score) {
-      continue;
-    }
-    found.push_back({h, plain[h], usual});
-  }
-  return found;
 }
 
 }  // namespace
 
 std::vector<std::string> odd_expression_warnings(const HeadSet& head_set,
                                                  const std::vector<bool>& skin,
-                                                 const HeadAxes& axes, double mm) {
+                                                 const HeadAxes& axes) {
+  constexpr double kTold = 3.8;  // times the usual deviation
   if (head_set.heads.size() < kMinHeads) return {};
-  const HeadShape head{middle_head(head_set), skin, {}};
+  HeadShape head = mean_head_shape({head_set.topology, {}, {{"", middle_head(head_set)}}});
+  head.is_skin = skin;
   const auto marks = find_face_marks(head_set.topology, head, axes);
   if (!marks) return {};
+  const FaceSkin face(head, *marks);
+  const std::vector<Index> fitted = face.middle_of_face();
+  if (fitted.size() < kMinFitted) return {};
+  const HeadDisplacements displacements(head_set, head.positions, fitted);
   std::vector<std::string> warnings;
-  const auto warn = [&](std::size_t h, const std::string& difference) {
-    warnings.push_back(
-        concat(head_set.heads[h].name, ": ", difference,
-               ": is its expression neutral? Faces built from this head take over its expression"));
-  };
-  const std::vector<Index> mouth = vertices_in(kMouth, *marks, head, axes);
-  const std::vector<Edge> edges = edges_between(head_set.topology, mouth);
-  if (mouth.size() >= kMinVertices && !edges.empty()) {
-    const AlignedPart part = align(head_set, head.positions, mouth);
-    for (const auto& [h, strain, usual] : outliers(edge_strains(part, edges, mm), kMouthStrain)) {
-      warn(h, concat("the skin around its mouth is stretched or compressed by ",
-                     format_fixed(100 * strain, 0),
-                     " % compared with the median of all heads, the "
-                     "others' by ",
-                     format_fixed(100 * usual, 0), " %"));
-    }
-  }
-  const std::vector<Index> eyes = vertices_in(kEyes, *marks, head, axes);
-  const std::vector<Edge> eye_edges = edges_between(head_set.topology, eyes);
-  if (eyes.size() >= kMinVertices && !eye_edges.empty()) {
-    const AlignedPart part = align(head_set, head.positions, eyes);
-    const std::vector<Outlier> stretched = outliers(edge_strains(part, eye_edges, mm), kEyeStrain);
-    for (const auto& [h, distance, usual] : outliers(vertex_distances(part, mm), kEyeDistance)) {
-      if (std::ranges::find(stretched, h, &Outlier::head) == stretched.end()) continue;
-      warn(h,
-           concat("its lids are up to ", format_fixed(distance, 1),
-                  " mm from the median of all heads, the others' ", format_fixed(usual, 1), " mm"));
+  for (const auto* movements : {&mouth_movements(), &eye_movements()}) {
+    std::vector<Oddity> oddities(head_set.heads.size());
+    for (const Movement& movement : *movements) compare(movement, face, displacements, oddities);
+    for (std::size_t h = 0; h < oddities.size(); ++h) {
+      const Oddity& odd = oddities[h];
+      if (odd.times_usual < kTold) continue;
+      warnings.push_back(
+          concat(head_set.heads[h].name, ": ", odd.text, " ", format_fixed(odd.mm, 1),
+                 " mm compared with the median of all heads, where the others usually differ by ",
+                 format_fixed(odd.usual_mm, 1),
+                 " mm: is its expression neutral? Faces built from this head take over its "
+                 "expression"));
     }
   }
   return warnings;

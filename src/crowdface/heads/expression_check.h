@@ -9,18 +9,18 @@
 
 namespace crowdface {
 
-/// Warns about heads whose expression does not seem neutral. Mouth and eyes of each head are fitted
-/// to the vertex-wise median of all heads. At the mouth and the eyes, the check compares the
-/// lengths of edges with the lengths on the median. At the eyes, it also compares the positions of
-/// vertices. It names a head whose differences are large compared with the differences of the other
-/// heads at the same edges and vertices. On heads of the ICT model, the check finds an open,
-/// smiling or pursed mouth, full cheeks and closed lids. It does not find a wrinkled nose or moved
-/// brows, because the differences between people are as large. With fewer than four heads there are
+/// Warns about heads whose expression does not seem neutral: an open or pursed mouth, raised or
+/// lowered corners of the mouth, puffed cheeks, closed or widely opened eyes, and raised brows.
+/// Each of these movements is measured as the displacement of a feature from the vertex-wise
+/// median of all heads, minus the displacement of the skin around the feature. A head is named if
+/// its value is large compared with the values of the other heads. Of the ICT model's expressions
+/// at full strength, smiles, open mouths, closed lids and raised brows are found on every head or
+/// nearly every head, pursed mouths and puffed cheeks on most heads. Lowered brows and a wrinkled
+/// nose are not larger than the differences between people. With fewer than four heads there are
 /// no warnings, because an outlier cannot be determined.
-/// \param skin  for each vertex, whether it is skin
-/// \param mm    millimetres per file unit
+/// \param skin  #V, whether each vertex is skin
 std::vector<std::string> odd_expression_warnings(const HeadSet& heads,
                                                  const std::vector<bool>& skin,
-                                                 const HeadAxes& axes, double mm);
+                                                 const HeadAxes& axes);
 
 }  // namespace crowdface

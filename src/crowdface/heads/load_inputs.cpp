@@ -291,9 +291,9 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : same_person_warnings(inputs, mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
-  for (std::string& text : odd_expression_warnings(
-           inputs.head_set, skin_of(inputs),
-           axes_of(Orientation{config.faces.up, config.faces.front}), mm_per(config.faces.units))) {
+  for (std::string& text :
+       odd_expression_warnings(inputs.head_set, skin_of(inputs),
+                               axes_of(Orientation{config.faces.up, config.faces.front}))) {
     inputs.warn(std::move(text));
   }
   if (auto text = unknown_surfaces(config, inputs)) inputs.warn(std::move(*text));
