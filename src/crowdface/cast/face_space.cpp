@@ -15,7 +15,7 @@ namespace {
 
 /// How far a displacement field may lie outside the span of the basis: rms over the face in mm.
 constexpr double kFieldTolerance = 0.004;
-/// largest number of basis functions (FaceSpaceTables::functions) for each orientation (unmirrored
+/// largest number of basis functions (FaceSpaceTables::basis_functions) for each orientation (unmirrored
 /// and mirrored)
 constexpr Index kMaxBasisFunctions = 400;
 /// How far a training face may lie outside the span of the principal directions, in millimetres.

@@ -14,7 +14,7 @@ struct FaceSpaceTables {
   /// #functions by #P: each row is one scalar function on the skin, given by its coefficients in an
   /// orthonormal basis of P functions. Each coordinate of a face (x, y or z) is a linear
   /// combination of the rows.
-  FloatRows functions;
+  FloatRows basis_functions;
   FloatRows principal_directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
   std::vector<FloatRows> region_metrics;

@@ -59,7 +59,7 @@ std::uint64_t level_bytes(const Prepared& prepared) {
   for (const StoredLevels& levels : prepared.levels) {
     if (!levels.mapped_file) bytes += levels.fields.quantized_values.size_bytes();
   }
-  const PatchArrays& patches = prepared.patches.patches.lists();
+  const PatchArrays& patches = prepared.patches.patches.arrays();
   if (!prepared.patches.mapped_file) {
     bytes += patches.weights.size_bytes() + patches.quantized_values.size_bytes();
   }
