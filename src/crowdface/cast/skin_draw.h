@@ -16,7 +16,7 @@ namespace crowdface {
 struct SkinOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> head_names;  ///< names of the heads; some parents of families are heads
-  HeadTags tags;                        ///< the tags of each head
+  HeadTags tags;                        ///< the tags of each head, or empty
   /// #heads: tone of each head, which is the mean optical density of its colour texture
   std::vector<double> tones;
   /// Returns the weights of the heads in a face's colours, #heads, summing to one.
