@@ -96,6 +96,15 @@ double weight_of(const FacePlan& face, Index begin, Index end) {
   return sum;
 }
 
+TEST(SkinDraw, HeadsMayHaveNoTags) {
+  SkinOptions draw = draw_of();
+  draw.tags.clear();
+  std::vector<FacePlan> crowd = {child_of("girl", "a", "h", 1)};
+  choose_skin_colours_of_children(draw, crowd);
+  EXPECT_GE(tone_of(crowd[0]), 9 - 1e-9);
+  EXPECT_LE(tone_of(crowd[0]), 21 + 1e-9);
+}
+
 TEST(SkinDraw, AnotherAgeLendsAsLittleAsPossibleIfNoLikeHeadIsDarkEnough) {
   SkinOptions draw = draw_of();
   draw.tags[2] = draw.tags[3] = {"female", "old"};  // young women have the tones 0 and 10

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -41,10 +42,23 @@ TEST(HairCards, AreTheSameOnEveryMachine) {
   const Mesh& bob = cards_of(cut_named("bob"));
   const auto values = static_cast<std::size_t>(bob.positions.size());
   EXPECT_EQ(Hasher().add_array(std::span(bob.positions.data(), values)).digest().hex(),
-            "84c35f967f01b5ac4c49fd6635eb9a57");
+            "bcc7754015bc27906664944c700b9af3");
   const std::vector<std::uint8_t> picture = hair_picture(64, {0.5, 0.4, 0.3}, true);
   EXPECT_EQ(Hasher().add_array(std::span(picture)).digest().hex(),
             "d6aafade76db6c9f2f59bcc060ab8781");
+}
+
+// Single locks stood off the others beside the neck.
+TEST(HairCards, HangTogetherBesideTheNeck) {
+  for (const char* name : {"long", "waves"}) {
+    std::vector<double> sideways;
+    for (const auto& p : cards_of(cut_named(name)).positions.rowwise()) {
+      if (p.y() < -8) sideways.push_back(std::abs(p.x()));
+    }
+    ASSERT_GT(sideways.size(), 100U) << name;
+    std::ranges::sort(sideways);
+    EXPECT_LT(sideways.back() - sideways[sideways.size() * 95 / 100], 1) << name << ", in cm";
+  }
 }
 
 TEST(HairCards, RecedeMostBesideTheForehead) {

@@ -19,9 +19,10 @@ namespace {
 constexpr double kLightest = 0.3, kDarkest = 0.7;
 
 /// Returns how much the skins of two heads differ in sex and age: the number of tags of sex and age
-/// that only one of the two heads has.
+/// that only one of the two heads has. 0 if `tags` is empty.
 int differing_tag_count(Index a, Index b, const HeadTags& tags) {
   int count = 0;
+  if (tags.empty()) return count;
   for (const std::string_view tag : {"female", "male", "young", "adult", "old"}) {
     count += contains(tags[static_cast<std::size_t>(a)], tag) !=
              contains(tags[static_cast<std::size_t>(b)], tag);

@@ -16,7 +16,7 @@ namespace crowdface {
 struct SkinOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
-  HeadTags tags;                        ///< the tags of each head
+  HeadTags tags;                        ///< the tags of each head, or empty
   /// tone of each head: the mean optical density of the head's colour texture
   std::vector<double> tones;
   /// Returns one weight per head: the head's share in a face's colours. The weights sum to one.

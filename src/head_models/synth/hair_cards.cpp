@@ -95,7 +95,10 @@ class Grower {
       const double step = grown - along(static_cast<double>(i) / pieces_) * length;
       const double held = cut_.is_tied ? smooth_step(-3, -6, p.z()) : 1;
       const double falls = held * smooth_step(0.5, 5, grown);
-      const double combed = (0.95 - 0.7 * falls) * (1 - falls * smooth_step(1, -3, p.y()));
+      const double hangs = falls * smooth_step(1, -3, p.y());
+      const double combed = (0.95 - 0.7 * falls) * (1 - hangs);
+      // A lock that hangs loses its sideways motion; otherwise single locks stand off the others.
+      direction.x() *= 1 - 0.6 * hangs;
       direction += combed * combing_direction(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
       Vector3d next = p + step * direction.normalized();
       const double swing = cut_.wave_amplitude * smooth_step(0, 0.4, t);

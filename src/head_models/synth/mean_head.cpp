@@ -76,7 +76,7 @@ Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   // the pocket does not protrude from blended lids, which may be thinner than the heads' lids.
   const Vector3d spoke = foot / radius, gaze(0, 0, 1);
   const Vector3d back = (spoke * spoke.z() - gaze).normalized();
-  return eye_centre() + radius * (spoke + 0.2 * t * back).normalized();
+  return eye_centre() + radius * (spoke + 0.14 * t * back).normalized();
 }
 
 Vector3d into_opening(SkinPatch patch, const Vector3d& edge, const Vector2d& c, double b) {
