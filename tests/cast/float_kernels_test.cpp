@@ -23,13 +23,16 @@ std::vector<float> random_floats(std::size_t count) {
 class FloatKernels : public ::testing::TestWithParam<std::size_t> {};
 
 TEST_P(FloatKernels, HaveTheBitsOfPlainLoops) {
-  const std::size_t width = GetParam(), count = 13;
-  const std::vector<float> factors = random_floats(count), rows = random_floats(count * width),
-                           start = random_floats(width);
+  const std::size_t width = GetParam(), count = 113;
+  const std::vector<float> factors = random_floats(3 * count), rows = random_floats(count * width),
+                           start = random_floats(3 * width);
   std::vector<float> sums = start, plain = start;
-  add_scaled_rows(factors.data(), count, rows.data(), width, sums.data());
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t d = 0; d < width; ++d) plain[d] += factors[i] * rows[i * width + d];
+  add_product(factors.data(), 3, count, rows.data(), width, sums.data());
+  for (std::size_t v = 0; v < 3; ++v) {
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t d = 0; d < width; ++d)
+        plain[v * width + d] += factors[v * count + i] * rows[i * width + d];
+    }
   }
   EXPECT_EQ(sums, plain);
 

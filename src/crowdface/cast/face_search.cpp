@@ -40,9 +40,12 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
 /// Returns whether to generate another candidate. With limits on measurements, a face may need many
 /// more attempts than otherwise. So after the usual number of attempts, one acceptable candidate is
 /// enough.
-bool FaceSearch::needs_candidates() const {
-  if (candidates_.size() >= wanted_candidate_count_ || next_attempt_ >= attempts_end_) return false;
-  return candidates_.empty() || next_attempt_ < initial_attempts_end_;
+///
+/// \param unchecked_count  number of generated candidates that are not checked yet
+bool FaceSearch::needs_candidates(std::size_t unchecked_count) const {
+  const std::size_t count = candidates_.size() + unchecked_count;
+  if (count >= wanted_candidate_count_ || next_attempt_ >= attempts_end_) return false;
+  return count == 0 || next_attempt_ < initial_attempts_end_;
 }
 
 /// If measurements are limited, measures a candidate and checks the limits. Each candidate that
@@ -61,21 +64,30 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
   return false;
 }
 
-/// Generates candidates until there are enough candidates or no attempts are left.
+/// Generates candidates until there are enough candidates or no attempts are left. Computes the
+/// points of as many candidates at once as are still needed.
 void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
-  while (needs_candidates()) {
-    Candidate candidate;
-    const std::uint32_t earlier = next_attempt_ - first_attempt_;
-    candidate.face = generate_candidate_(next_attempt_++);
-    if (!meets_limits(candidate)) continue;
-    candidate.point = judge_.space().point(candidate.face.recipe);
-    if (const auto reason =
-            judge_.check_candidate(candidate.face.recipe, candidate.point, earlier)) {
-      rejections_.add(*reason);
-    } else if (!is_far_from_crowd(candidate, crowd)) {
-      rejections_.add(Reason::kMinDistance);
-    } else {
-      candidates_.push_back(std::move(candidate));
+  while (needs_candidates(0)) {
+    std::vector<Candidate> unchecked;
+    std::vector<const Recipe*> recipes;
+    while (needs_candidates(unchecked.size())) {
+      Candidate candidate{generate_candidate_(next_attempt_++)};
+      if (meets_limits(candidate)) unchecked.push_back(std::move(candidate));
+    }
+    for (const Candidate& candidate : unchecked) recipes.push_back(&candidate.face.recipe);
+    std::vector<FaceSpace::Point> points = judge_.space().points(recipes);
+    for (std::size_t i = 0; i < unchecked.size(); ++i) {
+      Candidate& candidate = unchecked[i];
+      candidate.point = std::move(points[i]);
+      if (const auto reason =
+              judge_.check_candidate(candidate.face.recipe, candidate.point,
+                                     candidate.face.notes.attempt - first_attempt_)) {
+        rejections_.add(*reason);
+      } else if (!is_far_from_crowd(candidate, crowd)) {
+        rejections_.add(Reason::kMinDistance);
+      } else {
+        candidates_.push_back(std::move(candidate));
+      }
     }
   }
   compared_face_count_ = crowd.size();

@@ -57,7 +57,7 @@ class FaceSearch {
  private:
   struct Candidate {
     FacePlan face;
-    FaceSpace::Point point;
+    FaceSpace::Point point = {};
     Positions landmarks = {};
     /// distance to the nearest face of the crowd, or an upper bound of this distance
     double distance_to_crowd_mm = HUGE_VAL;
@@ -67,7 +67,7 @@ class FaceSearch {
     std::optional<Reason> violated_constraint = std::nullopt;
   };
 
-  bool needs_candidates() const;
+  bool needs_candidates(std::size_t unchecked_count) const;
   bool meets_limits(Candidate& candidate);
   void find_candidates(const CrowdSoFar& crowd);
   bool is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;

@@ -34,6 +34,15 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
   return sum;
 }
 
+/// Returns whether a band has an extrapolation factor other than 1.
+bool is_extrapolated(const Recipe& recipe) {
+  const auto is_extrapolated_band = [](const BandRecipe& band) { return band.extrapolation != 1; };
+  return std::ranges::any_of(recipe.regions, [&](const RegionRecipe& region) {
+    return is_extrapolated_band(region) ||
+           std::ranges::any_of(region.finer_bands, is_extrapolated_band);
+  });
+}
+
 }  // namespace
 
 /// The order of the basis functions in the rows of a matrix: first the mean head, then each head's
@@ -53,7 +62,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
   const FloatRows basis = compute_basis_functions();
   compute_head_shapes_and_fields();
   find_principal_directions(bands);
-  directions_transposed_ = tables_.principal_directions.transpose();
+  transpose_directions();
   if (heads_.region_weights.cols() == 1) return;
   compute_region_area_fractions();
   find_region_metrics(basis);
@@ -64,7 +73,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, Fac
   require(have_matching_sizes(tables_, heads_), "face space: tables of other heads");
   choose_nonzero_weight_samples(weights);
   compute_head_shapes_and_fields();
-  directions_transposed_ = tables_.principal_directions.transpose();
+  transpose_directions();
   if (heads_.region_weights.cols() > 1) compute_region_area_fractions();
 }
 
@@ -225,52 +234,61 @@ const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
   return fields_.data() + at * mean_shape_.size();
 }
 
-FaceSpace::Shape FaceSpace::shape_of(const Recipe& recipe, Extrapolation extrapolation) const {
+/// Returns the shape of a recipe's face with the recipe's extrapolation factors. If not all factors
+/// are 1, returns a second shape, with all factors 1.
+std::vector<FaceSpace::Shape> FaceSpace::shapes_of(const Recipe& recipe) const {
   const double w = mirrored_weight(recipe);
-  if (w == 0) return shape_of_mirror_variant(recipe, extrapolation, 0);
-  require(mirror_variant_count() == 2, "a mirrored face, and no mirror images of heads");
-  if (w == 1) return shape_of_mirror_variant(recipe, extrapolation, 1);
-  return static_cast<float>(1 - w) * shape_of_mirror_variant(recipe, extrapolation, 0) +
-         static_cast<float>(w) * shape_of_mirror_variant(recipe, extrapolation, 1);
+  require(w == 0 || mirror_variant_count() == 2, "a mirrored face, and no mirror images of heads");
+  std::vector<Shape> shapes = shapes_of_mirror_variant(recipe, w == 1 ? 1 : 0);
+  if (w == 0 || w == 1) return shapes;
+  const std::vector<Shape> mirrored = shapes_of_mirror_variant(recipe, 1);
+  for (std::size_t i = 0; i < shapes.size(); ++i)
+    shapes[i] = static_cast<float>(1 - w) * shapes[i] + static_cast<float>(w) * mirrored[i];
+  return shapes;
 }
 
-/// Returns the shape of a recipe's face: of the unmirrored face (orientation 0) or of its mirror
+/// Returns the shapes of a recipe's face: of the unmirrored face (orientation 0) or of its mirror
 /// image (orientation 1).
-FaceSpace::Shape FaceSpace::shape_of_mirror_variant(const Recipe& recipe,
-                                                    Extrapolation extrapolation,
-                                                    Index orientation) const {
+std::vector<FaceSpace::Shape> FaceSpace::shapes_of_mirror_variant(const Recipe& recipe,
+                                                                  Index orientation) const {
   const Index first = orientation * head_count();
-  auto shape = target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
-    return head_shapes_[static_cast<std::size_t>(first + head)];
-  });
+  std::vector<Shape> shapes(is_extrapolated(recipe) ? 2 : 1,
+                            target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
+                              return head_shapes_[static_cast<std::size_t>(first + head)];
+                            }));
+  const auto size = static_cast<std::size_t>(mean_shape_.size());
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    for (const LevelWeights& at : weights_by_level(recipe, k, extrapolation)) {
-      for (const WeightedTrajectoryRow& level : interpolation_rows(heads_.levels, at.level)) {
-        for (const SourceWeight& part : at.weights) {
-          const auto f = static_cast<float>(part.weight * level.weight);
-          add_scaled(f, field(k, first + part.head, level.row),
-                     static_cast<std::size_t>(shape.size()), shape.data());
+    const std::vector<LevelWeights> as_given = weights_by_level(recipe, k),
+                                    none = weights_by_level(recipe, k, Extrapolation::kNone);
+    for (std::size_t l = 0; l < as_given.size(); ++l) {
+      for (const WeightedTrajectoryRow& level :
+           interpolation_rows(heads_.levels, as_given[l].level)) {
+        for (std::size_t i = 0; i < as_given[l].weights.size(); ++i) {
+          const float* from = field(k, first + as_given[l].weights[i].head, level.row);
+          const auto add_to = [&](Shape& shape, double weight) {
+            add_scaled(static_cast<float>(weight * level.weight), from, size, shape.data());
+          };
+          add_to(shapes.front(), as_given[l].weights[i].weight);
+          if (shapes.size() > 1) add_to(shapes.back(), none[l].weights[i].weight);
         }
       }
     }
   }
-  return shape;
+  return shapes;
 }
 
 /// Returns the given shape, rotated onto the mean head, minus the mean head.
 std::vector<float> FaceSpace::aligned_deviation(const Shape& shape) const {
-  std::vector<double> covariance(9, 0.0);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (Index p = 0; p < shape.rows(); ++p) {
     for (Index a = 0; a < 3; ++a) {
       for (Index b = 0; b < 3; ++b) {
-        covariance[static_cast<std::size_t>(3 * a + b)] +=
+        covariance(a, b) +=
             static_cast<double>(mean_shape_(p, a)) * static_cast<double>(shape(p, b));
       }
     }
   }
-  const Eigen::Matrix3d matrix =
-      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(covariance.data());
-  const Eigen::Matrix3d rotation = best_rotation(matrix);
+  const Eigen::Matrix3d rotation = best_rotation(covariance);
   std::vector<float> turned(static_cast<std::size_t>(shape.size()));
   for (Index p = 0; p < shape.rows(); ++p) {
     for (Index a = 0; a < 3; ++a) {
@@ -290,9 +308,9 @@ void FaceSpace::find_principal_directions(std::size_t bands) {
     const std::vector<float> at =
         n < heads
             ? aligned_deviation(head_shapes_[static_cast<std::size_t>(n)])
-            : aligned_deviation(shape_of(
-                  random_training_recipe(heads_, bands, static_cast<std::uint64_t>(n - heads)),
-                  Extrapolation::kAsGiven));
+            : aligned_deviation(shapes_of(random_training_recipe(
+                                              heads_, bands, static_cast<std::uint64_t>(n - heads)))
+                                    .front());
     std::copy(at.begin(), at.end(), rows.row(n).data());
   });
   tables_.principal_directions =
@@ -300,41 +318,65 @@ void FaceSpace::find_principal_directions(std::size_t bands) {
           .directions;
 }
 
-Eigen::VectorXf FaceSpace::coordinates(const Shape& shape) const {
-  const std::vector<float> at = aligned_deviation(shape);
+/// Transposes the principal directions, and pads them with zeros to whole SIMD vectors.
+void FaceSpace::transpose_directions() {
+  constexpr Index kLanes = 16;
   const Index rank = tables_.principal_directions.rows();
-  const auto size = static_cast<std::size_t>(rank);
-  Eigen::VectorXf result = Eigen::VectorXf::Zero(rank + 1);
-  add_scaled_rows(at.data(), at.size(), directions_transposed_.data(), size, result.data());
-  // The last coordinate is the distance of the face from the span of the directions. Each face
-  // consists of a component in the span and a component outside. For two faces, the difference of
-  // their last coordinates is at most the distance between the components outside.
-  const double rest = fixed_order_dot(at.data(), at.data(), at.size()) -
-                      fixed_order_dot(result.data(), result.data(), size);
-  result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
-  return result;
+  directions_transposed_ =
+      FloatRows::Zero(tables_.principal_directions.cols(), (rank + kLanes - 1) / kLanes * kLanes);
+  directions_transposed_.leftCols(rank) = tables_.principal_directions.transpose();
+}
+
+std::vector<Eigen::VectorXf> FaceSpace::coordinates(const std::vector<Shape>& shapes) const {
+  std::vector<float> deviations;
+  for (const Shape& shape : shapes) {
+    const std::vector<float> deviation = aligned_deviation(shape);
+    deviations.insert(deviations.end(), deviation.begin(), deviation.end());
+  }
+  const auto count = static_cast<Index>(shapes.size()), rank = tables_.principal_directions.rows();
+  const auto length = static_cast<std::size_t>(directions_transposed_.rows());
+  FloatRows products = FloatRows::Zero(count, directions_transposed_.cols());
+  add_product(deviations.data(), shapes.size(), length, directions_transposed_.data(),
+              static_cast<std::size_t>(products.cols()), products.data());
+  std::vector<Eigen::VectorXf> results;
+  for (Index n = 0; n < count; ++n) {
+    const float* at = deviations.data() + static_cast<std::size_t>(n) * length;
+    Eigen::VectorXf& result = results.emplace_back(rank + 1);
+    result.head(rank) = products.row(n).head(rank);
+    // The last coordinate is the distance of the face from the span of the directions. Each face
+    // consists of a component in the span and a component outside. For two faces, the difference of
+    // their last coordinates is at most the distance between the components outside.
+    const double rest =
+        fixed_order_dot(at, at, length) -
+        fixed_order_dot(result.data(), result.data(), static_cast<std::size_t>(rank));
+    result[rank] = static_cast<float>(std::sqrt(std::max(rest, 0.0)));
+  }
+  return results;
+}
+
+std::vector<FaceSpace::Point> FaceSpace::points(std::span<const Recipe* const> recipes) const {
+  std::vector<Shape> all;
+  for (const Recipe* recipe : recipes) {
+    for (Shape& shape : shapes_of(*recipe)) all.push_back(std::move(shape));
+  }
+  std::vector<Eigen::VectorXf> found = coordinates(all);
+  std::vector<Point> points;
+  auto next = found.begin();
+  for (const Recipe* recipe : recipes) {
+    Point& point = points.emplace_back(std::move(*next++));
+    point.without_extrapolation =
+        is_extrapolated(*recipe) ? std::move(*next++) : point.with_extrapolation;
+  }
+  return points;
 }
 
 FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
-  Point point;
-  point.with_extrapolation = coordinates(shape_of(recipe, Extrapolation::kAsGiven));
-  const auto is_unextrapolated_band = [](const BandRecipe& band) {
-    return band.extrapolation == 1;
-  };
-  const bool is_unextrapolated =
-      std::all_of(recipe.regions.begin(), recipe.regions.end(), [&](const RegionRecipe& region) {
-        return is_unextrapolated_band(region) &&
-               std::all_of(region.finer_bands.begin(), region.finer_bands.end(),
-                           is_unextrapolated_band);
-      });
-  point.without_extrapolation = is_unextrapolated
-                                    ? point.with_extrapolation
-                                    : coordinates(shape_of(recipe, Extrapolation::kNone));
-  return point;
+  const Recipe* const only = &recipe;
+  return std::move(points({&only, 1}).front());
 }
 
 FaceSpace::Point FaceSpace::head_point(Index head) const {
-  const Eigen::VectorXf at = coordinates(head_shapes_[static_cast<std::size_t>(head)]);
+  const Eigen::VectorXf at = coordinates({head_shapes_[static_cast<std::size_t>(head)]}).front();
   return {at, at};
 }
 
@@ -385,8 +427,8 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
       for (Index c = 0; c < 3; ++c) {
         Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);
         for (Index q = 0; q < functions; ++q) of_direction[q] = directions(d, 3 * q + c);
-        add_scaled_rows(of_direction.data(), static_cast<std::size_t>(functions), gram.data(),
-                        static_cast<std::size_t>(functions), sums.data());
+        add_product(of_direction.data(), 1, static_cast<std::size_t>(functions), gram.data(),
+                    static_cast<std::size_t>(functions), sums.data());
         for (Index p = 0; p < functions; ++p) along[static_cast<std::size_t>(3 * p + c)] = sums[p];
       }
       for (Index e = 0; e < rank; ++e) {

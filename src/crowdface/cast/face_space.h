@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "crowdface/cast/sampled_heads.h"
@@ -50,6 +51,8 @@ class FaceSpace {
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
+  /// Returns the points of several recipes. Faster than separate calls of `point`.
+  std::vector<Point> points(std::span<const Recipe* const> recipes) const;
   /// Returns the point of an input head. Heads are not extrapolated, so both members of the point
   /// are equal. If faces may be mirrored, the heads' mirror images have the numbers from
   /// head_count() on.
@@ -117,11 +120,11 @@ class FaceSpace {
   void find_principal_directions(std::size_t bands);
   void find_region_metrics(const FloatRows& basis);
   void compute_region_area_fractions();
-  Shape shape_of(const Recipe& recipe, Extrapolation extrapolation) const;
-  Shape shape_of_mirror_variant(const Recipe& recipe, Extrapolation extrapolation,
-                                Index orientation) const;
+  void transpose_directions();
+  std::vector<Shape> shapes_of(const Recipe& recipe) const;
+  std::vector<Shape> shapes_of_mirror_variant(const Recipe& recipe, Index orientation) const;
   std::vector<float> aligned_deviation(const Shape& shape) const;
-  Eigen::VectorXf coordinates(const Shape& shape) const;
+  std::vector<Eigen::VectorXf> coordinates(const std::vector<Shape>& shapes) const;
   const float* field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
@@ -134,7 +137,7 @@ class FaceSpace {
   /// the weights α_k of region k. One #P by 3 matrix for each region, head (including mirror
   /// images) and row of `level_coefficients`.
   std::vector<float> fields_;
-  FloatRows directions_transposed_;
+  FloatRows directions_transposed_;  ///< 3·#P by #D, padded with zeros to a multiple of 16 columns
   /// the region's fraction of the face's surface area; empty if there is one region
   std::vector<double> region_area_fractions_;
 };

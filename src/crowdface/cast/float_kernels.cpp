@@ -113,38 +113,68 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   for (; i < count; ++i) to[i] += factor * from[i];
 }
 
-void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
-                     float* to) {
+/// Adds the products of `count` rows to kVectors vectors of sums, at kWidth groups of columns.
+///
+/// \param stride  distance between the factors of two vectors of sums
+template <std::size_t kVectors, std::size_t kWidth>
+void add_product_at_columns(const float* factors, std::size_t stride, std::size_t count,
+                            const float* rows, std::size_t width, float* to) {
   const Lanes lanes;
   const std::size_t one = hn::Lanes(lanes);
-  std::size_t d = 0;
-  for (; d + 4 * one <= width; d += 4 * one) {
-    auto a = hn::LoadU(lanes, to + d), b = hn::LoadU(lanes, to + d + one),
-         c = hn::LoadU(lanes, to + d + 2 * one), e = hn::LoadU(lanes, to + d + 3 * one);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto factor = hn::Set(lanes, factors[i]);
-      const float* row = rows + i * width + d;
-      a = hn::Add(a, hn::Mul(factor, hn::LoadU(lanes, row)));
-      b = hn::Add(b, hn::Mul(factor, hn::LoadU(lanes, row + one)));
-      c = hn::Add(c, hn::Mul(factor, hn::LoadU(lanes, row + 2 * one)));
-      e = hn::Add(e, hn::Mul(factor, hn::LoadU(lanes, row + 3 * one)));
-    }
-    hn::StoreU(a, lanes, to + d);
-    hn::StoreU(b, lanes, to + d + one);
-    hn::StoreU(c, lanes, to + d + 2 * one);
-    hn::StoreU(e, lanes, to + d + 3 * one);
-  }
-  for (; d + one <= width; d += one) {
-    auto sum = hn::LoadU(lanes, to + d);
-    for (std::size_t i = 0; i < count; ++i) {
-      sum =
-          hn::Add(sum, hn::Mul(hn::Set(lanes, factors[i]), hn::LoadU(lanes, rows + i * width + d)));
-    }
-    hn::StoreU(sum, lanes, to + d);
+  hn::VFromD<Lanes> sums[kVectors][kWidth];
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    for (std::size_t c = 0; c < kWidth; ++c)
+      sums[v][c] = hn::LoadU(lanes, to + v * width + c * one);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t rest = d; rest < width; ++rest)
-      to[rest] += factors[i] * rows[i * width + rest];
+    const float* row = rows + i * width;
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      const auto factor = hn::Set(lanes, factors[v * stride + i]);
+      for (std::size_t c = 0; c < kWidth; ++c)
+        sums[v][c] = hn::Add(sums[v][c], hn::Mul(factor, hn::LoadU(lanes, row + c * one)));
+    }
+  }
+  for (std::size_t v = 0; v < kVectors; ++v) {
+    for (std::size_t c = 0; c < kWidth; ++c)
+      hn::StoreU(sums[v][c], lanes, to + v * width + c * one);
+  }
+}
+
+template <std::size_t kVectors>
+void add_product_of_vectors(const float* factors, std::size_t stride, std::size_t count,
+                            const float* rows, std::size_t width, float* to) {
+  const std::size_t one = hn::Lanes(Lanes());
+  std::size_t d = 0;
+  for (; d + 4 * one <= width; d += 4 * one)
+    add_product_at_columns<kVectors, 4>(factors, stride, count, rows + d, width, to + d);
+  for (; d + 2 * one <= width; d += 2 * one)
+    add_product_at_columns<kVectors, 2>(factors, stride, count, rows + d, width, to + d);
+  for (; d + one <= width; d += one)
+    add_product_at_columns<kVectors, 1>(factors, stride, count, rows + d, width, to + d);
+  for (; d < width; ++d) {
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      for (std::size_t i = 0; i < count; ++i)
+        to[v * width + d] += factors[v * stride + i] * rows[i * width + d];
+    }
+  }
+}
+
+void add_product(const float* factors, std::size_t vectors, std::size_t count, const float* rows,
+                 std::size_t width, float* to) {
+  // Multiply all vectors by a few rows at a time, so that these rows stay in the fastest cache.
+  constexpr std::size_t kRows = 48;
+  for (std::size_t begin = 0; begin < count; begin += kRows) {
+    const std::size_t rest = count - begin, now = rest < kRows ? rest : kRows;
+    const float* some = rows + begin * width;
+    std::size_t v = 0;
+    for (; v + 2 <= vectors; v += 2) {
+      add_product_of_vectors<2>(factors + v * count + begin, count, now, some, width,
+                                to + v * width);
+    }
+    if (v < vectors) {
+      add_product_of_vectors<1>(factors + v * count + begin, count, now, some, width,
+                                to + v * width);
+    }
   }
 }
 
@@ -175,7 +205,7 @@ namespace crowdface {
 HWY_EXPORT(fixed_order_dot);
 HWY_EXPORT(add_scaled);
 HWY_EXPORT(add_scaled_and_sum_squares);
-HWY_EXPORT(add_scaled_rows);
+HWY_EXPORT(add_product);
 HWY_EXPORT(add_squares);
 
 double fixed_order_dot(const float* a, const float* b, std::size_t count) {
@@ -190,9 +220,9 @@ double add_scaled_and_sum_squares(float factor, const float* from, std::size_t c
   return HWY_DYNAMIC_DISPATCH(add_scaled_and_sum_squares)(factor, from, count, to);
 }
 
-void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
-                     float* to) {
-  HWY_DYNAMIC_DISPATCH(add_scaled_rows)(factors, count, rows, width, to);
+void add_product(const float* factors, std::size_t vectors, std::size_t count, const float* rows,
+                 std::size_t width, float* to) {
+  HWY_DYNAMIC_DISPATCH(add_product)(factors, vectors, count, rows, width, to);
 }
 
 bool add_squares(const float* query, const float* rows, std::size_t dimensions, float bound,

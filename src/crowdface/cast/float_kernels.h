@@ -19,11 +19,14 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to);
 /// bit-identical to fixed_order_dot(to, to, count).
 double add_scaled_and_sum_squares(float factor, const float* from, std::size_t count, float* to);
 
-/// Computes to[d] += factors[i]·rows[i][d], for all i in ascending order.
+/// Adds the product of two matrices: to[v][d] += factors[v][i]·rows[i][d], for all i in ascending
+/// order.
 ///
-/// \param rows  `count` by `width`.
-void add_scaled_rows(const float* factors, std::size_t count, const float* rows, std::size_t width,
-                     float* to);
+/// \param factors  #vectors by #count.
+/// \param rows     #count by #width.
+/// \param to       #vectors by #width.
+void add_product(const float* factors, std::size_t vectors, std::size_t count, const float* rows,
+                 std::size_t width, float* to);
 
 /// For each of sixteen lanes, adds (query[d] − rows[d][lane])² to the lane's sum, in ascending
 /// order of d.
