@@ -45,7 +45,7 @@ using Expression = Eigen::Vector3d (*)(double across, double height, int side,
 
 /// Lets the jaw drop by 2 cm.
 Eigen::Vector3d open_mouth(double /*across*/, double height, int /*side*/, const FaceMarks& marks) {
-  return {0, height < marks.mouth_height ? -2 : 0, 0};
+  return {0, height < marks.mouth_height ? -2.0 : 0.0, 0};
 }
 /// Moves the corners of the mouth by 8 mm up and outwards, and the cheeks with them.
 Eigen::Vector3d smile(double across, double height, int side, const FaceMarks& marks) {
