@@ -104,7 +104,7 @@ TEST_F(CheckedWrap, AMouthInItsPlaceIsNotDoubtfulBecauseItsShapeDiffers) {
                    PoseHint{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()});
   const ReliefCorrelation mouth = correlation(result, "mouth");
   EXPECT_FALSE(mouth.is_high()) << "the test needs shapes that differ";
-  EXPECT_GT(mouth.in_place, mouth.beside + 0.1);
+  EXPECT_GT(mouth.in_place, mouth.best_nearby + 0.1);
   EXPECT_TRUE(wrap_doubts(other, result).empty());
 }
 

@@ -104,8 +104,8 @@ void FaceSpace::choose_nonzero_weight_samples(const std::vector<double>& weights
 
 /// Finds a few modes whose linear combinations give the displacements of all heads at all smoothing
 /// levels. Fields are then computed for these modes only. The modes are a basis of the rows of a
-/// matrix with one row per level. A row holds the displacements of all heads, coordinates and
-/// samples, multiplied by √w, where w is the weight of the sample.
+/// matrix with one row per level. A row has one entry per head, coordinate (x, y or z) and
+/// sample: the displacement of the sample, times √w, where w is the weight of the sample.
 SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const Index heads = head_point_count(), size = weight_square_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());

@@ -182,7 +182,7 @@ double HairChooser::grey_fraction(const FacePlan& face,
   // Each person's hair begins to turn grey at a random age, but never while the person is young.
   const double begin =
       random_unit({options_.seed, face.index.value_or(0), random_number_purpose}) - 0.5;
-  return smooth_step(0.5, 1.0, aged + 0.35 * begin);
+  return smooth_step(0.5, 1.0, aged + 0.2 * begin);
 }
 
 }  // namespace crowdface

@@ -22,8 +22,8 @@ namespace crowdface {
 inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 
 /// Writes a Mesh prim of one topology: polygons, texture coordinates as the primvar `st`, material
-/// subsets, and UsdSkel blend shapes. Formats everything except positions, normals and
-/// displacements only once.
+/// subsets, and UsdSkel blend shapes. Formats positions, normals and displacements for
+/// each file, and everything else once.
 class UsdaMesh {
  public:
   /// What the prim contains in addition to the polygons. These contents are the same in all files.

@@ -178,7 +178,8 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
   } mean[2];
 
   std::size_t kept = 0;
-  // Each lid vertex gives a constraint. Each rim vertex also gives a target for its gap.
+  // Add one constraint per lid vertex. Lid vertices on the rim also get a target: the distance
+  // that they had from the eyeball on the target head.
   for (const LidPoint& lid : lids) {
     const std::uint32_t r = rim_indices_[lid.index];
     const Eigen::Vector3d from = lid.point - centre;

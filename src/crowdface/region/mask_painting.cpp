@@ -238,7 +238,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       throw_if_interrupted();
       canvas.bleed();
     }
-    // Collect the texture lookups in this tile of all vertices with priority. A lookup interpolates
+    // Collect the texture lookups of the vertices that have priority in this tile. A lookup interpolates
     // the texels in `texels_of_samples` and should return the vertex weights in `weights`.
     std::vector<Texels> texels_of_samples;
     std::vector<const double*> weights;

@@ -14,8 +14,8 @@ HWY_BEFORE_NAMESPACE();
 namespace crowdface::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-constexpr std::size_t kCount = LeafCorners::kCount;
-constexpr hn::CappedTag<float, kCount> kLanes;
+constexpr std::size_t kMaxTriangles = LeafCorners::kMaxTriangles;
+constexpr hn::CappedTag<float, kMaxTriangles> kLanes;
 using Lanes = hn::VFromD<decltype(kLanes)>;
 
 struct Lanes3 {
@@ -41,7 +41,7 @@ void measure_boxes(const LeafCorners& corners, const float* points, float margin
   // Upper bound of the relative error that is caused by rounding coordinates and margins to single
   // precision.
   const auto rounding = hn::Set(kLanes, 1e-6F), grown = hn::Set(kLanes, margin);
-  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
+  for (std::size_t begin = 0; begin < kMaxTriangles; begin += hn::Lanes(kLanes)) {
     const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
                  r = corner_of(corners, 2, begin, points);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -57,7 +57,7 @@ void measure_boxes(const LeafCorners& corners, const float* points, float margin
 }
 
 void measure_normals(const LeafCorners& corners, const float* points, LeafNormals& normals) {
-  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
+  for (std::size_t begin = 0; begin < kMaxTriangles; begin += hn::Lanes(kLanes)) {
     const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
                  r = corner_of(corners, 2, begin, points);
     Lanes a[3], b[3], n[3];
@@ -79,14 +79,14 @@ void measure_normals(const LeafCorners& corners, const float* points, LeafNormal
 }
 
 unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
-  const hn::CappedTag<double, kCount> doubles;
+  const hn::CappedTag<double, kMaxTriangles> doubles;
   const hn::Rebind<float, decltype(doubles)> singles;
   unsigned all = 0;
-  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(doubles)) {
+  for (std::size_t begin = 0; begin < kMaxTriangles; begin += hn::Lanes(doubles)) {
     auto near = hn::Zero(doubles);
     auto far = hn::Set(doubles, std::numeric_limits<double>::infinity());
     for (std::size_t c = 0; c < 3; ++c) {
-      const auto along = [&](const std::array<float, kCount>& side) {
+      const auto along = [&](const std::array<float, kMaxTriangles>& side) {
         const auto at = hn::PromoteTo(doubles, hn::LoadU(singles, &side[begin]));
         return hn::Mul(hn::Sub(at, hn::Set(doubles, ray.origin[c])),
                        hn::Set(doubles, ray.inverse[c]));
@@ -108,12 +108,12 @@ unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
 template <class Compare>
 std::uint64_t compared(const Compare& compare) {
   std::uint64_t all = 0;
-  for (std::size_t begin = 0; begin < kCount; begin += hn::Lanes(kLanes)) {
+  for (std::size_t begin = 0; begin < kMaxTriangles; begin += hn::Lanes(kLanes)) {
     const auto with_each = compare(begin);
-    for (std::size_t i = 0; i < kCount; ++i) {
+    for (std::size_t i = 0; i < kMaxTriangles; ++i) {
       std::uint8_t bits[8] = {};
       hn::StoreMaskBits(kLanes, with_each(i), bits);
-      all |= std::uint64_t{bits[0]} << (kCount * i + begin);
+      all |= std::uint64_t{bits[0]} << (kMaxTriangles * i + begin);
     }
   }
   return all;
@@ -229,7 +229,7 @@ bool boxes_overlap(const Box& a, const Box& b) {
 LeafCorners::LeafCorners(std::span<const std::uint32_t> triangle_indices,
                          std::span<const Triangle> triangles)
     : count(triangle_indices.size()) {
-  for (std::size_t i = 0; i < kCount; ++i) {
+  for (std::size_t i = 0; i < kMaxTriangles; ++i) {
     const Triangle& triangle = triangles[triangle_indices[i < count ? i : 0]];
     for (std::size_t k = 0; k < 3; ++k) vertex[k][i] = static_cast<std::int32_t>(triangle[k]);
   }
@@ -240,7 +240,7 @@ LeafBoxes::LeafBoxes(const LeafCorners& corners, const FloatPositions& points, d
   (corners, points.data(), static_cast<float>(margin), *this);
   constexpr float kEnd = std::numeric_limits<float>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = corners.count; i < kCount; ++i) {
+    for (std::size_t i = corners.count; i < kMaxTriangles; ++i) {
       low[c][i] = kEnd;
       high[c][i] = -kEnd;
     }
@@ -254,8 +254,8 @@ LeafNormals::LeafNormals(const LeafCorners& corners, const FloatPositions& point
 Box LeafBoxes::bounding_box() const {
   Box box;
   for (std::size_t c = 0; c < 3; ++c) {
-    std::array<float, kCount> least = low[c], most = high[c];
-    for (std::size_t half = kCount / 2; half > 0; half /= 2) {
+    std::array<float, kMaxTriangles> least = low[c], most = high[c];
+    for (std::size_t half = kMaxTriangles / 2; half > 0; half /= 2) {
       for (std::size_t i = 0; i < half; ++i) {
         least[i] = std::min(least[i], least[i + half]);
         most[i] = std::max(most[i], most[i + half]);

@@ -24,20 +24,20 @@ bool boxes_overlap(const Box& a, const Box& b);
 /// SIMD instructions. If the leaf has fewer than eight triangles, copies of the first triangle fill
 /// the other places.
 struct LeafCorners {
-  static constexpr std::size_t kCount = 8;
+  static constexpr std::size_t kMaxTriangles = 8;
   /// vertex indices, as [corner][triangle]
-  std::array<std::array<std::int32_t, kCount>, 3> vertex;
+  std::array<std::array<std::int32_t, kMaxTriangles>, 3> vertex;
   std::size_t count;  ///< number of triangles in the leaf
 
-  /// \param triangle_indices  indices of the leaf's triangles, one to kCount
+  /// \param triangle_indices  indices of the leaf's triangles, one to kMaxTriangles
   LeafCorners(std::span<const std::uint32_t> triangle_indices, std::span<const Triangle> triangles);
 };
 
 /// The bounding boxes of the triangles in a leaf. If there are fewer than eight triangles, the
 /// other boxes are empty and overlap no box.
 struct LeafBoxes {
-  static constexpr std::size_t kCount = LeafCorners::kCount;
-  std::array<std::array<float, kCount>, 3> low, high;
+  static constexpr std::size_t kMaxTriangles = LeafCorners::kMaxTriangles;
+  std::array<std::array<float, kMaxTriangles>, 3> low, high;
 
   LeafBoxes() = default;
   /// \param points  positions of the vertices, #V by 3
@@ -50,7 +50,7 @@ struct LeafBoxes {
 /// Unit normals of the triangles in a leaf.
 struct LeafNormals {
   /// coordinates of the normals, as [axis][triangle]
-  std::array<std::array<float, LeafCorners::kCount>, 3> components;
+  std::array<std::array<float, LeafCorners::kMaxTriangles>, 3> components;
 
   LeafNormals() = default;
   LeafNormals(const LeafCorners& corners, const FloatPositions& points);

@@ -18,7 +18,7 @@ namespace crowdface {
 /// the tree was built.
 struct TriangleTree : MedianSplitTree {
   /// Number of triangles in a leaf; the last leaf may have fewer.
-  static constexpr std::uint32_t kLeafSize = LeafBoxes::kCount;
+  static constexpr std::uint32_t kLeafSize = LeafBoxes::kMaxTriangles;
   std::vector<LeafCorners> corners;  ///< for each leaf, the corners of the leaf's triangles
 
   TriangleTree() = default;

@@ -234,7 +234,7 @@ std::vector<ReliefCorrelation> relief_correlations(const WrapTemplate& wrap_temp
   std::vector<ReliefCorrelation> correlations;
   for (const FaceFeature& feature : features) {
     ReliefCorrelation correlation{correlation_in_place(pair, feature.skin_vertices)};
-    if (!correlation.is_high()) correlation.beside = correlation_beside(pair, feature);
+    if (!correlation.is_high()) correlation.best_nearby = correlation_beside(pair, feature);
     correlations.push_back(correlation);
   }
   return correlations;

@@ -154,7 +154,7 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const Wr
                               "template's (agreement ",
                               format_fixed(feature.correlation.in_place, 2),
                               "; a few mm above or below ",
-                              format_fixed(feature.correlation.beside, 2),
+                              format_fixed(feature.correlation.best_nearby, 2),
                               "): check the picture, where it is red, and pick landmarks "
                               "there"));
   }
