@@ -23,9 +23,10 @@ TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
     touch(concat("heads/makehuman/makehuman_0", i, ".obj"));
   }
   for (const char* heads : {"out/brief_heads", "out/demo_heads"}) {
-    touch(concat(heads, "/tags.yaml"),
-          "faces: {tags: {synth_01: [female, old], synth_02: [male, young], synth_03: [female],\n"
-          "               synth_04: [male, old]}}");
+    touch(
+        concat(heads, "/tags.yaml"),
+        "faces: {tags: {synth_01: [female, old, light_skin], synth_02: [male, young, dark_skin],\n"
+        "               synth_03: [female], synth_04: [male, old]}}");
     touch(concat(heads, "/attachments/attachments.yaml"), "attachments: {items: []}");
   }
   touch("heads/ict/ict_bands.1001.png");

