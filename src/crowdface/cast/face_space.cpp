@@ -363,7 +363,8 @@ std::vector<FaceSpace::Point> FaceSpace::points(std::span<const Recipe* const> r
   std::vector<Point> points;
   auto next = found.begin();
   for (const Recipe* recipe : recipes) {
-    Point& point = points.emplace_back(std::move(*next++));
+    Point& point = points.emplace_back();
+    point.with_extrapolation = std::move(*next++);
     point.without_extrapolation =
         is_extrapolated(*recipe) ? std::move(*next++) : point.with_extrapolation;
   }

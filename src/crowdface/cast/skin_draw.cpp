@@ -85,7 +85,8 @@ void choose_skin_colours_of_children(const SkinOptions& draw, std::vector<FacePl
       const std::string purpose =
           concat("skin/",
                  face.family && draw.twin_families.contains(*face.family) ? *face.family : face.id);
-      const auto [lighter, darker] = std::minmax(tones[face.parents[0]], tones[face.parents[1]]);
+      const double lighter = std::min(tones[face.parents[0]], tones[face.parents[1]]);
+      const double darker = std::max(tones[face.parents[0]], tones[face.parents[1]]);
       const auto at = [&](double share) { return lighter + share * (darker - lighter); };
       const double own = tone_of(face.recipe);
       if (face.recipe.colours.empty() || own < at(kLightest) || own > at(kDarkest)) {
