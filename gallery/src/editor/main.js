@@ -573,8 +573,8 @@ class Editor extends ProgramPage {
     if (dressed) {
       view.worn.show(dressed);
       view.worn.setForm(view.software ? 'draft' : 'whole');
-    }
-    view.worn.node.visible = Boolean(dressed) || document === this.exactOf;
+      view.worn.node.visible = true;
+    } else if (document !== this.exactOf) view.worn.node.visible = false;
     view.blender.blend(lists, shares);
     const picture = view.picture();
     if (dressed) view.worn.setForm(view.moving ? 'draft' : 'whole');

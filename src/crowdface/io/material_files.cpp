@@ -199,8 +199,8 @@ class Collector {
   }
 
   /// Returns the longest suffix of the statement that names an existing file or (with <UDIM>) an
-  /// existing first tile. If no suffix names a file, returns the last word of a statement with
-  /// options, and the whole text of a statement without options.
+  /// existing first tile. If no suffix names a file, returns the last word if the statement has
+  /// options, and otherwise the whole text.
   fs::path texture_of(std::string_view rest, const fs::path& folder) {
     const auto [known, is_new] = textures_of_.try_emplace(std::string(rest));
     if (!is_new) return known->second;

@@ -31,7 +31,7 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 struct Topology {
   Index vertex_count = 0;
   std::vector<std::uint32_t> corner_vertices;  ///< #C, each < vertex_count
-  /// for each corner, its row in the texture coordinates, or kNoIndex; may be empty
+  /// #C: the corner's row in the texture coordinates, or kNoIndex; empty if the mesh has none
   std::vector<std::uint32_t> corner_uvs;
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1: first corner of each polygon
 

@@ -32,8 +32,8 @@ struct PrincipalDirections {
   /// #nodes by #nodes, coefficients of the level functions:
   /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the weights of LevelNodes
   Eigen::MatrixXd function_coefficients;
-  /// #nodes by #nodes, coefficients of the vector fields: c_p = Σ_n field_coefficients(n, p) d_n,
-  /// where d_n are the displacements at node n
+  /// #nodes by #nodes, coefficients of the vector fields: c_p = Σ_n field_coefficients(n, p) d_n.
+  /// d_n holds the displacements of all vertices at the smoothing level of node n.
   Eigen::MatrixXd field_coefficients;
   Eigen::MatrixXd level_functions;  ///< #levels by #nodes: φ_p at the tested levels
   /// #levels by #nodes + 1: largest error over the sampled vertices if only the first 0, 1, …

@@ -42,7 +42,7 @@ struct WrapFacts {
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
   /// Leave-one-out error of the pose by landmark name, in mm. A similarity that is fitted to the
   /// other landmarks predicts the position of the landmark. The error is the landmark's distance
-  /// from this prediction. There is no entry if there is no prediction.
+  /// from this prediction. A landmark that cannot be predicted has no entry.
   std::map<std::string, double> leave_out_pose_errors_mm;
   /// Leave-out error of the wrap by landmark name, in mm: the result of `leave_out_distances`;
   /// empty if the user did not request it.
