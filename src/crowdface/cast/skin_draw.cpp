@@ -2,7 +2,6 @@
 #include "crowdface/cast/skin_draw.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 #include <string_view>
@@ -32,9 +31,11 @@ int differing_tag_count(Index a, Index b, const HeadTags& tags) {
 
 /// Returns a mixture of two heads, whose weights give the mixture this tone. Among all such
 /// mixtures, takes the one with the least skin of another sex or age than the given head's, then
-/// the one whose two tones are nearest to each other. If all heads are lighter or all are darker,
-/// returns the head with the nearest tone alone.
+/// the one whose two tones are nearest to each other. A tone outside the range of the heads' tones is
+/// replaced by the nearest tone of the range.
 std::vector<SourceWeight> mixture_of_tone(double tone, Index like, const SkinOptions& options) {
+  const auto [lightest, darkest] = std::ranges::minmax(options.tones);
+  tone = std::clamp(tone, lightest, darkest);
   const auto tone_of = [&](Index head) { return options.tones[static_cast<std::size_t>(head)]; };
   std::vector<int> differences;
   const auto count = static_cast<Index>(options.tones.size());
@@ -56,10 +57,7 @@ std::vector<SourceWeight> mixture_of_tone(double tone, Index like, const SkinOpt
       best = {{light, 1 - share}, {dark, share}};
     }
   }
-  if (!best.empty()) return normalized_weights(best);
-  const auto nearest = std::ranges::min_element(
-      options.tones, {}, [&](double other) { return std::abs(other - tone); });
-  return {{nearest - options.tones.begin(), 1}};
+  return normalized_weights(best);
 }
 
 }  // namespace
