@@ -3,7 +3,7 @@
 // is computed once a vertex in typed arrays, and a pixel takes one texel and one product, both in the tones of the
 // screen.
 import {
-  BackSide, BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FrontSide, Group, LinearFilter, LinearMipmapNearestFilter, Mesh, MeshBasicMaterial,
+  BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FrontSide, LinearFilter, LinearMipmapNearestFilter, Mesh, MeshBasicMaterial,
   NoColorSpace, ShaderMaterial, Sphere, Vector3,
 } from 'three';
 import { keyShare, lightIn, shoulder, surfaces, withBounces } from './studio.js';
@@ -61,12 +61,17 @@ function materialOf(side, behind, eyes) {
     uniforms: { picture: { value: null }, paintsEyes: { value: true }, least: { value: 0.5 }, behind, share: { value: 1 }, ...eyes?.uniforms },
     vertexShader: `
       attribute vec4 shade;
+      attribute float away;
       varying vec4 vShade;
       varying vec2 vPlace;
+      varying float vAway;
       uniform float behind;
       ${eyes?.vertex ?? ''}
       void main() {
         vShade = shade;
+        #ifdef WITH_INSIDE
+          vAway = away;
+        #endif
         #ifdef WITH_PICTURE
           vPlace = uv;
         #endif
@@ -80,11 +85,19 @@ function materialOf(side, behind, eyes) {
     fragmentShader: `
       varying vec4 vShade;
       varying vec2 vPlace;
+      varying float vAway;
       uniform sampler2D picture;
       uniform bool paintsEyes;
       uniform float least, share;
       ${eyes?.fragment ?? ''}
       void main() {
+        #ifdef WITH_INSIDE
+          if (!gl_FrontFacing) {
+            if (vAway < ${innerSide}) discard;
+            gl_FragColor = vec4(0.13, 0.11, 0.1, 1.0);
+            return;
+          }
+        #endif
         vec3 tone = 2.0 * vShade.rgb;
         #ifdef WITH_PICTURE
           #ifdef WITH_HOLES
@@ -158,32 +171,16 @@ export class Draft {
     this.setSky(null);
   }
 
-  /// The inner side of skin, dark. Where smooth normals look to the camera there is none: triangles at outlines only
-  /// seem to turn away.
+  /// Shows the inner side of skin, dark. Where smooth normals look to the camera there is none: triangles at outlines
+  /// only seem to turn away.
   addInside() {
     this.away = new BufferAttribute(new Float32Array(this.vertices.length), 1);
     this.geometry.setAttribute('away', this.away);
-    const inside = new ShaderMaterial({
-      side: BackSide,
-      uniforms: { behind: this.behind },
-      vertexShader: `
-        attribute float away;
-        varying float vAway;
-        uniform float behind;
-        void main() {
-          vAway = away;
-          vec4 place = modelViewMatrix * vec4(position, 1.0);
-          place.z -= behind;
-          gl_Position = projectionMatrix * place;
-        }`,
-      fragmentShader: `
-        varying float vAway;
-        void main() {
-          if (vAway < ${innerSide}) discard;
-          gl_FragColor = vec4(0.13, 0.11, 0.1, 1.0);
-        }`,
-    });
-    this.node = new Group().add(new Mesh(this.geometry, inside), this.node);
+    for (const material of this.materials) {
+      if (material.side === DoubleSide) continue;
+      material.side = DoubleSide;
+      material.defines.WITH_INSIDE = '';
+    }
   }
 
   /// While the whole stands there the draft lies a little behind it, where it closes cracks between triangles.

@@ -44,7 +44,7 @@ PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle
                                     const TextureCoordinates& uvs);
 
 /// Maximum number of skin triangles in draft meshes (see draft_triangles).
-inline constexpr std::size_t kMaxDraftTriangles = 12'000;
+inline constexpr std::size_t kMaxDraftTriangles = 8'000;
 
 /// Returns the triangles of a coarser mesh that uses some of the vertices of a preview mesh:
 /// triples of indices into `mesh.vertices`. Pages that draw without a graphics card show this draft
