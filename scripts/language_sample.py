@@ -68,7 +68,7 @@ def sentences():
         for paragraph in re.split(r"\n\s*\n", prose):
             if re.match(r"\s*[#|!<]", paragraph):
                 continue
-            text = re.sub(r"^\d+\. |\*\*", "", " ".join(line.strip(" -*") for line in paragraph.split("\n")))
+            text = " ".join(re.sub(r"^\s*([-*]|\d+\.) ", "", line).strip() for line in paragraph.split("\n"))
             for sentence in re.split(r"(?<=[.!?]) +(?=[A-Z`\[])", text):
                 if len(sentence.split()) > 4:
                     yield f"{path.relative_to(ROOT)}: {sentence}"
