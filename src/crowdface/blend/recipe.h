@@ -88,15 +88,15 @@ struct LevelWeights {
 enum class Extrapolation { kAsGiven, kNone };
 
 /// Returns, for each band b = 1 … n of a region, the level L_b at which the band begins, and the
-/// weights of the heads in the sum G_b, which is smoothed to this level. With
+/// weights of the heads in the sum G_b, which is smoothed to this level.
 ///
-/// - B, the target,
-/// - C̄_b = Σ_i ω̂_bi C_i, the weighted mean of the heads C_i that lend band b,
-/// - e_b, the extrapolation factor of band b,
-/// - S_L, the smoothing to level L,
-/// - L_{n+1} = 0, because each band ends where the next band begins,
+/// - B is the target.
+/// - C̄_b = Σ_i ω̂_bi C_i is the weighted mean of the heads C_i that lend band b.
+/// - e_b is the extrapolation factor of band b.
+/// - S_L is the smoothing to level L.
+/// - Each band ends at the level at which the next band begins. The last band ends at L_{n+1} = 0.
 ///
-/// the region's surface is the smoothed target plus all bands:
+/// The region's surface is the smoothed target plus all bands:
 ///
 ///     S_{L_1} B + Σ_b e_b (S_{L_{b+1}} − S_{L_b}) C̄_b
 ///

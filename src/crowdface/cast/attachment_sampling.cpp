@@ -239,7 +239,8 @@ class AttachmentChooser {
     return weighted_choice(next, drawn, &AttachmentItem::relative_frequency);
   }
 
-  /// Removes from `items` the items that the quotas do not allow for a face.
+  /// Removes from `items` the items that the quotas do not allow for a face. If the face may not
+  /// wear the items of the quota that applies to the face, treats the face as if no quota applied.
   ///
   /// \return  Whether the face wears an item of the kind.
   bool apply_quotas(const std::string& kind, const FacePlan& face, double drawn,

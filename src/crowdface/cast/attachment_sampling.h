@@ -42,8 +42,8 @@ struct AttachmentOptions {
 ///
 /// - A sampled face gets an item that the fewest earlier sampled faces wear, relative to the items'
 ///   shares. A member of a family gets an item that the fewest earlier members wear.
-/// - If the previous or the next face has a similar hair colour, the face wears another item than
-///   this face, unless no other item is allowed.
+/// - A face does not wear the item of the previous or the next face if this neighbour has a similar
+///   hair colour, unless no other item is allowed.
 ///
 /// \param crowd     In the order of the plan.
 /// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
