@@ -11,7 +11,7 @@ namespace crowdface::cli {
 
 /// The options and arguments of the command `wrap`.
 struct WrapCommand : CommonOptions, WrapOptions {
-  std::string template_argument;  ///< the template, without --batch
+  std::string template_argument;  ///< TEMPLATE.obj, given without --batch
   std::string shard_text;         ///< part of the batch, such as 2/7
   std::string port = "0";         ///< TCP port of the page of --pick; 0: any free port
   bool pick = false, no_browser = false;

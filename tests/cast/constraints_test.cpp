@@ -14,7 +14,7 @@ TEST(Rejections, EveryReasonIsCountedApart) {
   Rejections all;
   std::set<std::string> names;
   for (const Reason reason :
-       {Reason::kMinDistance, Reason::kMinDistanceToFaces, Reason::kMaxWeight, Reason::kImplausible,
+       {Reason::kMinDistance, Reason::kMinDistanceToHeads, Reason::kMaxWeight, Reason::kImplausible,
         Reason::kFlipped, Reason::kStretched, Reason::kIntersecting, Reason::kGap, Reason::kExposed,
         Reason::kFamily, Reason::kRejected, Reason::kTraits}) {
     Rejections one;

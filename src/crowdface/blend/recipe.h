@@ -87,16 +87,24 @@ struct LevelWeights {
 /// Whether extrapolation factors have the values in the recipe (kAsGiven) or are all 1 (kNone).
 enum class Extrapolation { kAsGiven, kNone };
 
-/// Returns the levels of a region, and the weights of the heads that are smoothed to each level.
-/// The bands b = 1 … n begin at levels L_1 ≥ … ≥ L_n. Each band ends where the next begins, and
-/// L_{n+1} = 0. B is the target, S_L is the smoothing to level L, and C̄_b = Σ_i ω̂_bi C_i is the
-/// weighted mean of the heads C_i that lend band b. The region's surface is
+/// Returns, for each band b = 1 … n of a region, the level L_b at which the band begins, and the
+/// weights of the heads in the sum G_b, which is smoothed to this level.
 ///
-///     S_{L_1} B + Σ_b e_b (S_{L_{b+1}} − S_{L_b}) C̄_b = B + Σ_b (S_{L_b} − 1) G_b,
-///     G_1 = B − e_1 C̄_1,   G_b = e_{b−1} C̄_{b−1} − e_b C̄_b
+/// - B is the target.
+/// - C̄_b = Σ_i ω̂_bi C_i is the weighted mean of the heads C_i that lend band b.
+/// - e_b is the extrapolation factor of band b.
+/// - S_L is the smoothing to level L.
+/// - Each band ends at the level at which the next band begins. The last band ends at L_{n+1} = 0.
+///
+/// The region's surface is the smoothed target plus all bands:
+///
+///     S_{L_1} B + Σ_b e_b (S_{L_{b+1}} − S_{L_b}) C̄_b
+///
+/// The terms of this sum, collected by level, are
+///
+///     B + Σ_b (S_{L_b} − 1) G_b,   G_1 = B − e_1 C̄_1,   G_b = e_{b−1} C̄_{b−1} − e_b C̄_b  (b > 1)
 ///
 /// Adjacent bands with equal weights and factors act as one band. A single band gives Eq. 7.
-/// \return  for each band: L_b and the weights of the heads in G_b.
 std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t region,
                                            Extrapolation extrapolation = Extrapolation::kAsGiven);
 

@@ -239,7 +239,8 @@ class AttachmentChooser {
     return weighted_choice(next, drawn, &AttachmentItem::relative_frequency);
   }
 
-  /// Removes from `items` the items that the quotas do not allow for a face.
+  /// Removes from `items` the items that the quotas do not allow for a face. If the face may not
+  /// wear the items of the quota that applies to the face, treats the face as if no quota applied.
   ///
   /// \return  Whether the face wears an item of the kind.
   bool apply_quotas(const std::string& kind, const FacePlan& face, double drawn,
@@ -414,9 +415,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   // by face id: index in `versions_by_id` of the version that got attachments last
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
-  // Chooses attachments for the replacements of the faces that were rejected in a crowd of at most
-  // `size` faces. A replacement gets its attachments after all faces of the crowd in which the
-  // review rejected the original.
+  // Called when the first `size` faces of the crowd have their attachments. Chooses attachments for
+  // the replacements of all faces that reviews rejected when the crowd had at most `size` faces.
   const auto replace_up_to = [&](std::size_t size) {
     for (; next < rejected.size(); ++next) {
       if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;

@@ -36,38 +36,22 @@ struct AttachmentOptions {
 /// Sets the attachments of each face: the names of at most one item of each kind, in the order of
 /// the items. The random numbers for a kind depend only on the kind and on the face's index (or its
 /// id, if the face is not sampled). So a choice does not change if faces or other kinds are added.
-/// docs/attachments.md explains the rules:
+/// docs/attachments.md has the rules for tags, shares, colours, quotas and hair colours.
 ///
-/// - Colours: if an item of an earlier kind gave the face a colour, the items of later kinds have
-///   the same colour, provided that the face may wear such items. Otherwise the colour comes from a
-///   parent or from the family. A child may wear a parent's colour even if the child's own tags
-///   name another colour. A child inherits a colour that requires the tag `old` (grey) only if the
-///   child itself is old.
-/// - Quotas: each quota determines in advance which of a group's sampled faces wear the item,
-///   independently of all other choices. If a chosen face may not wear the item, the face is
-///   treated like the faces that no quota chose.
-/// - Equal use: among the sampled faces on one head, and among the members of one family, an item
-///   is skipped once it has reached its share of the earlier faces. If several items are left,
-///   sampled faces also skip items that have reached their share of all sampled faces.
+/// For items with a tint, two rules replace the rule for shares:
 ///
-/// Items with a tint follow other rules:
-///
-/// - Each face has a hair colour: a child has one of its parents' colours or a colour between them;
-///   a family without parents shares one colour; any other face has a random colour from
-///   `hair_colours` or the colour that the head's tags name (`brown_hair`). Age makes hair grey.
-/// - A sampled face gets an item that the fewest earlier sampled faces wear. A member of a family
-/// gets an item that the fewest earlier members wear.
-/// - If the previous face has a similar hair colour, the face does not wear the item that the
-///   previous face wears, unless no other item is allowed.
-///
-/// Finally, each item in turn removes the items that it excludes.
+/// - A sampled face gets an item that the fewest earlier sampled faces wear, relative to the items'
+///   shares. A member of a family gets an item that the fewest earlier members wear.
+/// - A face does not wear the item of the previous or the next face if this neighbour has a similar
+///   hair colour, unless no other item is allowed.
 ///
 /// \param crowd     In the order of the plan.
 /// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
-/// \param rejected  Faces that reviews rejected, in order. Their replacements are processed after
-///                  all faces of the crowd that was reviewed, so that no other face changes.
-/// \param crowd_size_at_rejection  for each rejected face, the size of the crowd that was reviewed.
-///                                 Empty: the whole crowd.
+/// \param rejected  Faces that reviews rejected, in order. The replacement of a rejected face gets
+///                  its attachments after all other faces of the reviewed crowd, so that no other
+///                  face changes.
+/// \param crowd_size_at_rejection  for each rejected face, the size of the reviewed crowd. Empty:
+///                                 the size of `crowd`.
 void choose_attachments(const AttachmentOptions& options, const std::vector<int>& groups,
                         std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected = {},
                         const std::vector<std::size_t>& crowd_size_at_rejection = {});

@@ -27,7 +27,7 @@ using Believability = BelievabilityOptions;
 constexpr std::array<Constraint, kReasonCount> kConstraints = {{
     {Reason::kMinDistance, "diversity", "min_distance", &Diversity::min_distance_mm, nullptr, " mm",
      "nearer to another face than", kRoom},
-    {Reason::kMinDistanceToFaces, "diversity", "min_distance_to_faces",
+    {Reason::kMinDistanceToHeads, "diversity", "min_distance_to_faces",
      &Diversity::min_distance_to_heads_mm, nullptr, " mm", "nearer to a head than", kMixture},
     {Reason::kMaxWeight, "diversity", "max_weight", &Diversity::max_weight, nullptr, "",
      "one head has more weight in a region than", kMixture},

@@ -18,7 +18,7 @@ namespace crowdface {
 /// The constraint because of which a candidate is rejected.
 enum class Reason {
   kMinDistance,         ///< too near to another face of the crowd
-  kMinDistanceToFaces,  ///< too near to an input head
+  kMinDistanceToHeads,  ///< too near to an input head
   kMaxWeight,           ///< one head has too much weight in a region
   kImplausible,         ///< differs too much from the mean of the heads to be believable
   kFlipped,             ///< part of the skin is turned inside out or collapsed

@@ -59,7 +59,7 @@ std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
     }
   }
   const double limit = diversity_.min_distance_to_heads_mm;
-  if (limit > 0 && head_search_.nearest(point, limit).face >= 0) return Reason::kMinDistanceToFaces;
+  if (limit > 0 && head_search_.nearest(point, limit).face >= 0) return Reason::kMinDistanceToHeads;
   if (believability_.check && plausibility_.score(point) > believability_.max_deviation) {
     return Reason::kImplausible;
   }
@@ -73,7 +73,7 @@ std::optional<Reason> FaceJudge::check_candidate(const Recipe& recipe,
   const bool is_same_person_as_head =
       earlier_candidate_count < DiversityOptions::kCandidatesCheckedForSamePerson &&
       head_search_.nearest(point, same_person_mm_).face >= 0;
-  return is_same_person_as_head ? std::optional(Reason::kMinDistanceToFaces) : std::nullopt;
+  return is_same_person_as_head ? std::optional(Reason::kMinDistanceToHeads) : std::nullopt;
 }
 
 std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {

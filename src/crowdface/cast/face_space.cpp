@@ -15,8 +15,8 @@ namespace {
 
 /// How far a displacement field may lie outside the span of the basis: rms over the face in mm.
 constexpr double kFieldTolerance = 0.004;
-/// largest number of basis functions (FaceSpaceTables::basis_functions) for each orientation (unmirrored
-/// and mirrored)
+/// Largest number of basis functions (FaceSpaceTables::basis_functions) for each orientation
+/// (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
 /// How far a training face may lie outside the span of the principal directions, in millimetres.
 /// The distance from the span is stored as an additional coordinate.
@@ -181,11 +181,13 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
   return functions;
 }
 
-/// Finds a basis for the faces. Every face is a linear combination of two kinds of fields: the
-/// heads, and the detail that smoothing removes from each head, multiplied by a region's mask.
-/// Orthonormal scalar functions that span all these fields represent a face by #P by 3 numbers.
-/// Rotating these numbers and taking distances between these numbers is equivalent to rotating the
-/// samples and taking distances between the samples. The centre is the origin.
+/// Finds P orthonormal scalar functions on the samples such that each coordinate (x, y, z) of each
+/// face is a linear combination of these functions. A #P by 3 matrix of coefficients then
+/// represents a face. The distance between two such matrices is the distance between the samples of
+/// the two faces, and rotating a matrix rotates the face.
+///
+/// Every face is a linear combination of the heads, and of the detail that smoothing removes from
+/// each head, multiplied by a region's mask. The functions span the coordinates of all of these.
 ///
 /// \return  The functions, #P by #S.
 FloatRows FaceSpace::compute_basis_functions() {

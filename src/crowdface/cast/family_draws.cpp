@@ -22,13 +22,12 @@ constexpr double kNearestShare = 0.4;
 /// A member is a mixture of the founder and a random face. The detail of this random face is a
 /// mixture too: a parent's detail has this weight, and random detail has the remaining weight.
 constexpr double kParentShare = 0.75;
-/// A child is a mixture of the founder and a random face. The coarse shape of the random face is a
-/// weighted mean of the coarse shapes of three contributors. One parent has the weight
-/// kLargeFormsShare, a third contributor (a random face) has the weight kForeignShare, and the
-/// second parent has the rest. Without the third contributor, the children of two parents would
-/// hardly differ.
-constexpr double kLargeFormsShare = 0.65;
-constexpr double kForeignShare = 0.2;
+/// If the member is a child of two parents, the coarse shape of the random face is a mixture of one
+/// parent's coarse shape (with the weight kMainParentShapeShare), a random coarse shape
+/// (kRandomShapeShare) and the other parent's coarse shape (the remaining weight). Without the
+/// random coarse shape, siblings would hardly differ.
+constexpr double kMainParentShapeShare = 0.65;
+constexpr double kRandomShapeShare = 0.2;
 constexpr int kHalvings = 10;
 // largest distance in mm between a twin and the hidden child from which all twins are derived
 constexpr double kTwinsReach = 0.5;
@@ -298,12 +297,12 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
     return random_unit({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
   };
   if (!family_.target) {
-    const double one = kLargeFormsShare / (1 - kForeignShare);
+    const double one = kMainParentShapeShare / (1 - kRandomShapeShare);
     const double mother = parent_of("large forms") == 0 ? one : 1 - one;
     const auto of_parents = mixed_weights(coarse_shape_of(0), coarse_shape_of(1), 1 - mother);
-    set_target_heads(face.recipe,
-                     mixed_weights(of_parents, target_head_weights(face.recipe), kForeignShare));
-    face.mother_share = mother * (1 - kForeignShare);
+    set_target_heads(face.recipe, mixed_weights(of_parents, target_head_weights(face.recipe),
+                                                kRandomShapeShare));
+    face.mother_share = mother * (1 - kRandomShapeShare);
   }
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     RegionRecipe& region = face.recipe.regions[k];

@@ -44,9 +44,10 @@ struct LeadingCoordinatesBox {
   }
 };
 
-/// Numbered points in blocks of sixteen. A block stores the first coordinates of all its points,
-/// then the second coordinates, and so on, so that a query compares sixteen points at a time. The
-/// leading coordinates, in which faces differ most, rule out nearly all blocks early.
+/// Points in blocks of sixteen. The caller of `add` gives each point a number. A block stores the
+/// first coordinates of all its points, then the second coordinates, and so on, so that a query
+/// compares sixteen points at a time. The leading coordinates, in which faces differ most, rule out
+/// nearly all blocks early.
 class PointBlocks {
  public:
   using Index = Eigen::Index;
@@ -62,7 +63,8 @@ class PointBlocks {
   void clear();
   Index size() const { return static_cast<Index>(point_numbers_.size()); }
   Index padded_dimensions() const { return dimensions_; }
-  /// Returns the number of a point. Indices count the points in the order in which they were added.
+  /// Returns the number that the caller of `add` gave to a point.
+  /// \param index  0 for the point that was added first.
   Index point_number(Index index) const { return point_numbers_[static_cast<std::size_t>(index)]; }
   float coordinate(Index index, Index dimension) const {
     return chunk_of(dimension)[chunk_offset(index, dimension)];

@@ -29,10 +29,10 @@ int differing_tag_count(Index a, Index b, const HeadTags& tags) {
   return count;
 }
 
-/// Returns a mixture of two heads, whose weights give the mixture this tone. Among all such
-/// mixtures, takes the one with the least skin of another sex or age than the given head's, then
-/// the one whose two tones are nearest to each other. A tone outside the range of the heads' tones is
-/// replaced by the nearest tone of the range.
+/// Returns a mixture of two heads with the given tone. A tone outside the range of the heads' tones
+/// is first clamped to this range. Of all such mixtures, chooses the mixture whose heads differ
+/// least in sex and age from the head `like` (weighted mean of differing_tag_count). If several
+/// mixtures differ equally, chooses the two heads whose tones are closest to each other.
 std::vector<SourceWeight> mixture_of_tone(double tone, Index like, const SkinOptions& options) {
   const auto [lightest, darkest] = std::ranges::minmax(options.tones);
   tone = std::clamp(tone, lightest, darkest);

@@ -184,9 +184,10 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
     }
-    // Check three things. First, if the entry is a quota of a kind, `none` has no entry for this
-    // kind. Second, a kind has either one quota, or quotas for its items and colours. Third, the
-    // quotas of a kind add up to at most 1.
+    // Three rules:
+    // - A kind with an entry in `attachments.none` has no quota for the whole kind.
+    // - A kind has either one quota for the whole kind, or quotas for its items and colours.
+    // - The quotas of a kind add up to at most 1.
     const bool is_first = !totals.contains(item->kind);
     if (attachments.fraction_without_item_by_kind.contains(item->kind) && entry.key == item->kind) {
       draft.complaints.add_at(entry.value, concat("attachments.none also sets ", entry.key,

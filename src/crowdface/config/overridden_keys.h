@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Checks the keys that limit which heads, tags or shares faces may use, and finds the keys that
-/// another key overrides. Returns one line of text for each such key, with both keys and the number
-/// of faces concerned.
+/// Finds keys of `sampling`, `groups`, `families`, `recipes` and `attachments` that another key
+/// overrides. Returns one line of text for each such key, with both keys and the number of faces
+/// concerned.
 ///
 /// \param root    the config file, with all command-line overrides and edits.
 /// \param config  the complete config that was read from `root`.

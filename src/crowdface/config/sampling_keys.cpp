@@ -23,21 +23,23 @@ struct PerRegion {
   std::vector<std::pair<std::size_t, const YamlNode*>> of_region;
 };
 
-/// Splits the value of a key by region. The value may be one value for all regions; a mapping
-/// `{default: …, top: …}`; or a mapping whose keys are parameters of the value and also names of
-/// regions.
+/// Splits the value of a key by region. The value has one of these forms:
 ///
-/// \param parameters  the keys of a value that is itself a mapping. If a region and a parameter
-///                    have the same name, an entry with this name belongs to the region if the
-///                    entry's value is a mapping, and otherwise to the parameter.
+/// - `V`: the value V of all regions;
+/// - `{default: V, top: W}`: the value W of the region `top`, and the value V of all other regions;
+/// - `{distribution: uniform, top: W}`: the same, if V is the mapping `{distribution: uniform}`.
+///
+/// If a region and a parameter have the same name, an entry with this name belongs to the region if
+/// the entry's value is a mapping, and otherwise to the parameter.
+///
+/// \param parameters  the keys that V has if V is a mapping.
 PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigDraft& draft) {
   PerRegion split;
   if (node.kind != YamlNode::Kind::kMap) {
     split.whole = node;
     return split;
   }
-  // An entry is one of three: the value of one region; the value `default`; or, if all regions have
-  // the same value, a parameter of this value.
+  // `direct` collects the parameters of V that are not below `default`.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
   direct.entries.clear();

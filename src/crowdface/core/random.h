@@ -28,9 +28,9 @@ double random_unit(const RandomKey& key, std::uint32_t lane = 0);
 /// A uniform number in [low, high).
 double random_between(const RandomKey& key, double low, double high);
 
-/// A uniform number in [0, 1), stratified over successive indices. [0, 1) is divided into `strata`
-/// equal intervals. For every integer k, the numbers of the `strata` indices from k·strata on lie
-/// in different intervals.
+/// A uniform number in [0, 1), stratified over successive indices: [0, 1) is divided into `strata`
+/// equal intervals, and the indices k·strata, …, k·strata + strata − 1 (for each k) have one number
+/// in each interval.
 double random_stratified(const RandomKey& key, std::uint64_t strata);
 
 /// An approximately standard normal number: the sum of twelve uniform numbers minus 6, hence in

@@ -20,37 +20,41 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMinHeads = 4, kMinFitted = 50;
-/// Lengths in this file are millimetres of a face with this distance from the mouth to the eyes.
-constexpr double kEyesAboveMouth = 65;
+constexpr std::size_t kMinHeads = 4, kMinFittedVertices = 50;
+/// Height of the eyes above the mouth. All lengths in this file are millimetres on a face that is
+/// scaled to this height.
+constexpr double kEyesAboveMouthMm = 65;
 
-/// Weights of a Gaussian window over the skin. `across` is the distance of the centre from the
-/// symmetry plane, `above_mouth` its height.
+/// A Gaussian window on the skin, seen from the front.
 struct Window {
-  double across, above_mouth;
-  double width = 4, height = 3.5;  ///< standard deviations
+  double across, above_mouth;  ///< the centre: distance from the symmetry plane, height
+  double sigma_across = 4, sigma_up = 3.5;  ///< standard deviations
 };
 
 enum class Direction { kOutwards, kUp, kForwards };
 
-/// The mean displacement in a window, times a factor.
+/// The mean displacement of the skin in a window, along a direction, times a factor.
 struct Term {
   double factor;
   Window window;
   Direction direction;
 };
 
-/// A local movement of the face: a feature's displacement minus the displacement of the skin around
-/// the feature. Longer, wider or more prominent faces displace both.
+/// A movement of one feature of the face. Its value, the sum of the terms, is the displacement of
+/// the feature minus the displacement of the skin around the feature. The difference cancels the
+/// displacements of longer, wider or more prominent faces.
 struct Movement {
   std::vector<Term> terms;
-  double usual_mm;          ///< standard deviation among neutral heads (synthetic, ICT, MakeHuman)
-  const char *more, *less;  ///< begin of the warning for a positive and a negative value; null if
-                            ///< neutral heads differ as much
+  /// standard deviation of the value among neutral heads (synthetic, ICT, MakeHuman)
+  double neutral_deviation_mm;
+  /// start of the warning about a head with a large positive or negative value. Null: no warning,
+  /// because such values also occur on neutral heads.
+  const char *positive_text, *negative_text;
 };
 
-/// The windows and factors are chosen so that the movements of the ICT model's expressions are
-/// large compared with the differences between neutral heads.
+/// Open mouth, raised and lowered corners of the mouth, pursed mouth, puffed cheeks. The windows
+/// and factors are chosen so that the values of the ICT model's expressions are large compared with
+/// the differences between neutral heads.
 const std::vector<Movement>& mouth_movements() {
   constexpr Window kUpperLip{0, 4, 6, 2.5}, kLowerLip{0, -5, 6, 2.5}, kUpperSide{18, 5},
       kLowerSide{18, -5}, kCorner{26, 0}, kOuterCorner{30, 0, 5, 4}, kCheek{32, 14},
@@ -103,6 +107,7 @@ const std::vector<Movement>& mouth_movements() {
   return movements;
 }
 
+/// Raised and lowered upper lids, raised brows; chosen like mouth_movements.
 const std::vector<Movement>& eye_movements() {
   constexpr Window kUpperLid{31, 70, 7, 2.5}, kLidFold{31, 82, 7, 3}, kLowerLid{31, 58, 7, 3},
       kInnerCorner{14, 65}, kOuterCorner{48, 65}, kEye{31, 65, 7, 7}, kBelowBrow{31, 78},
@@ -128,97 +133,104 @@ const std::vector<Movement>& eye_movements() {
   return movements;
 }
 
-/// The vertex-wise median of all heads. A single odd head hardly changes this median.
-Positions middle_head(const HeadSet& head_set) {
-  Positions middle(head_set.heads[0].positions.rows(), 3);
-  parallel_for_each(static_cast<std::size_t>(middle.rows()), [&](std::size_t v) {
+/// The vertex-wise median of all heads. A single head with an expression hardly changes the median.
+Positions median_head(const HeadSet& head_set) {
+  Positions median(head_set.heads[0].positions.rows(), 3);
+  parallel_for_each(static_cast<std::size_t>(median.rows()), [&](std::size_t v) {
     for (Index c = 0; c < 3; ++c) {
       std::vector<double> values;
       for (const Head& head : head_set.heads) {
         values.push_back(head.positions(static_cast<Index>(v), c));
       }
-      middle(static_cast<Index>(v), c) = nth_smallest(values, values.size() / 2);
+      median(static_cast<Index>(v), c) = nth_smallest(values, values.size() / 2);
     }
   });
-  return middle;
+  return median;
 }
 
-/// A linear function of the displacements of some vertices: the sum of the dot products with
-/// `weights`.
+/// A linear function of the displacements of some vertices: the sum of the dot products of each
+/// vertex's displacement and weight. A vertex may occur several times.
 struct LinearForm {
   std::vector<Index> vertices;
   std::vector<Eigen::Vector3d> weights;
 };
 
-/// The coordinates of the skin of a head in its face.
+/// The skin vertices of a head, with their coordinates relative to the features of the face.
 class FaceSkin {
  public:
   FaceSkin(const HeadShape& head, const FaceMarks& marks)
-      : axes_(marks.axes), mm_(marks.eye_to_mouth() / kEyesAboveMouth) {
+      : axes_(marks.axes), units_per_mm_(marks.eye_to_mouth() / kEyesAboveMouthMm) {
     for (Index v = 0; v < head.positions.rows(); ++v) {
       if (!head.is_skin[static_cast<std::size_t>(v)]) continue;
-      const Eigen::Vector3d place = row3(head.positions, v);
-      vertices_.push_back({v, (place.dot(axes_.side()) - marks.symmetry_offset) / mm_,
-                           (place.dot(axes_.up) - marks.mouth_height) / mm_,
-                           place.dot(axes_.front) / mm_});
+      const Eigen::Vector3d point = row3(head.positions, v);
+      vertices_.push_back({v, (point.dot(axes_.side()) - marks.symmetry_offset) / units_per_mm_,
+                           (point.dot(axes_.up) - marks.mouth_height) / units_per_mm_,
+                           point.dot(axes_.front) / units_per_mm_});
     }
   }
 
-  /// The vertices of nose, cheeks and eyes: expressions move this part of the face least.
+  /// Returns the vertices of nose, cheeks and eyes: expressions move this part of the face least.
   std::vector<Index> middle_of_face() const {
-    constexpr double kAcross = 55, kCentre = 47.5, kHalfHeight = 32.5, kDepth = 60;
+    constexpr double kAboveMouth = 47.5, kHalfWidth = 55, kHalfHeight = 32.5, kDepth = 60;
     std::vector<Index> indices;
-    for (const Vertex& v : vertices_near(0, kCentre, kAcross, kHalfHeight, kDepth)) {
+    for (const SkinVertex& v : front_vertices(0, kAboveMouth, kHalfWidth, kHalfHeight, kDepth)) {
       indices.push_back(v.index);
     }
     return indices;
   }
 
-  /// The function that measures a movement, in millimetres, on the left (`side` is 1) or right (−1)
-  /// half of the face; nothing if a window contains too few vertices.
-  std::optional<LinearForm> form_of(const Movement& movement, int side) const {
+  /// Returns the linear form that computes a movement's value, in millimetres, from displacements
+  /// in the unit of the positions. Returns nothing if a window contains too few vertices.
+  /// \param side  half of the face: 1 left, −1 right.
+  std::optional<LinearForm> linear_form_of(const Movement& movement, int side) const {
     LinearForm form;
     for (const Term& term : movement.terms) {
-      constexpr double kReach = 2.4, kDepth = 15, kMinWeight = 0.5;
+      // kReach: half the size of the window, in standard deviations
+      constexpr double kReach = 2.4, kDepth = 15, kMinWeightSum = 0.5;
       const Window& window = term.window;
-      const auto near = vertices_near(side * window.across, window.above_mouth,
-                                      kReach * window.width, kReach * window.height, kDepth);
+      const double across = side * window.across;
+      const auto vertices = front_vertices(across, window.above_mouth, kReach * window.sigma_across,
+                                           kReach * window.sigma_up, kDepth);
       std::vector<double> weights;
-      for (const Vertex& v : near) {
-        weights.push_back(std::exp(-(square((v.across - side * window.across) / window.width) +
-                                     square((v.above_mouth - window.above_mouth) / window.height)) /
-                                   2));
+      for (const SkinVertex& v : vertices) {
+        weights.push_back(
+            std::exp(-(square((v.across - across) / window.sigma_across) +
+                       square((v.above_mouth - window.above_mouth) / window.sigma_up)) /
+                     2));
       }
       const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-      if (sum < kMinWeight) return std::nullopt;
+      if (sum < kMinWeightSum) return std::nullopt;
       const Eigen::Vector3d direction = vector_of(term.direction, side);
-      for (std::size_t i = 0; i < near.size(); ++i) {
-        form.vertices.push_back(near[i].index);
-        form.weights.emplace_back(term.factor * weights[i] / (sum * mm_) * direction);
+      for (std::size_t i = 0; i < vertices.size(); ++i) {
+        form.vertices.push_back(vertices[i].index);
+        form.weights.emplace_back(term.factor * weights[i] / (sum * units_per_mm_) * direction);
       }
     }
     return form;
   }
 
  private:
-  struct Vertex {
+  struct SkinVertex {
     Index index;
+    /// millimetres to the left of the symmetry plane, above the mouth, and along axes.front
     double across, above_mouth, front;
   };
   static double square(double x) { return x * x; }
 
-  /// The vertices in a rectangle, seen from the front, up to `depth` behind the foremost of them.
-  std::vector<Vertex> vertices_near(double across, double above_mouth, double half_width,
-                                    double half_height, double depth) const {
-    std::vector<Vertex> inside;
+  /// Returns the vertices in a rectangle of the front view, without the vertices that lie farther
+  /// than `depth` behind the foremost vertex.
+  /// \param across, above_mouth  centre of the rectangle.
+  std::vector<SkinVertex> front_vertices(double across, double above_mouth, double half_width,
+                                         double half_height, double depth) const {
+    std::vector<SkinVertex> inside;
     double foremost = -std::numeric_limits<double>::max();
-    for (const Vertex& v : vertices_) {
+    for (const SkinVertex& v : vertices_) {
       if (std::abs(v.across - across) > half_width) continue;
       if (std::abs(v.above_mouth - above_mouth) > half_height) continue;
       inside.push_back(v);
       foremost = std::max(foremost, v.front);
     }
-    std::erase_if(inside, [&](const Vertex& v) { return v.front < foremost - depth; });
+    std::erase_if(inside, [&](const SkinVertex& v) { return v.front < foremost - depth; });
     return inside;
   }
   Eigen::Vector3d vector_of(Direction direction, int side) const {
@@ -227,78 +239,88 @@ class FaceSkin {
   }
 
   HeadAxes axes_;
-  double mm_;  ///< the unit of `Vertex` in the unit of the positions
-  std::vector<Vertex> vertices_;
+  double units_per_mm_;  ///< length of one millimetre, in the unit of the positions
+  std::vector<SkinVertex> vertices_;
 };
 
-/// The displacements of all heads from their median, each after a similarity fit of `fitted`.
+/// Measures the displacements of all heads from the median head. First aligns each head with the
+/// median head, by the similarity transform that fits best at some of the vertices.
 class HeadDisplacements {
  public:
-  HeadDisplacements(const HeadSet& heads, const Positions& middle, const std::vector<Index>& fitted)
-      : heads_(heads), middle_(middle) {
-    const Positions to = middle(fitted, kAllColumns);
+  /// \param heads, median    must outlive this object.
+  /// \param fitted_vertices  the vertices to which the similarity transforms are fitted.
+  HeadDisplacements(const HeadSet& heads, const Positions& median,
+                    const std::vector<Index>& fitted_vertices)
+      : heads_(heads), median_(median) {
+    const Positions to = median(fitted_vertices, kAllColumns);
     for (const Head& head : heads.heads) {
-      fits_.push_back(fit_similarity(head.positions(fitted, kAllColumns), to, ScaleFit::kUniform));
+      alignments_.push_back(
+          fit_similarity(head.positions(fitted_vertices, kAllColumns), to, ScaleFit::kUniform));
     }
   }
 
-  /// The value of a form on each head, minus the median of these values.
+  /// Returns the value of a linear form for each head, minus the median of these values.
   std::vector<double> deviations(const LinearForm& form) const {
     std::vector<double> values;
-    for (std::size_t h = 0; h < fits_.size(); ++h) {
-      const Positions moved =
-          fits_[h].apply(heads_.heads[h].positions(form.vertices, kAllColumns)) -
-          middle_(form.vertices, kAllColumns);
+    for (std::size_t h = 0; h < alignments_.size(); ++h) {
+      const Positions displacements =
+          alignments_[h].apply(heads_.heads[h].positions(form.vertices, kAllColumns)) -
+          median_(form.vertices, kAllColumns);
       double value = 0;
       for (std::size_t i = 0; i < form.weights.size(); ++i) {
-        value += form.weights[i].dot(row3(moved, static_cast<Index>(i)));
+        value += form.weights[i].dot(row3(displacements, static_cast<Index>(i)));
       }
       values.push_back(value);
     }
-    const double middle = nth_smallest(values, values.size() / 2);
-    for (double& value : values) value -= middle;
+    const double median = nth_smallest(values, values.size() / 2);
+    for (double& value : values) value -= median;
     return values;
   }
 
  private:
   const HeadSet& heads_;
-  const Positions& middle_;
-  std::vector<Similarity> fits_;
+  const Positions& median_;
+  std::vector<Similarity> alignments_;
 };
 
-/// The largest deviation of a head from the others, as a multiple of the usual deviation.
-struct Oddity {
-  double times_usual = 0;
-  double mm = 0, usual_mm = 0;
-  const char* text = nullptr;
+/// The movement in which a head deviates most from the other heads.
+struct LargestDeviation {
+  double ratio = 0;         ///< deviation_mm / usual_mm
+  double deviation_mm = 0;  ///< how far the movement's value is from the median of all heads
+  double usual_mm = 0;      ///< how far the values of the other heads usually are from this median
+  const char* text = nullptr;  ///< start of the warning
 };
 
-/// Replaces each head's oddity by that of this movement where the latter is larger. The usual
-/// deviation is the root of the mean square of the other heads' deviations and of `usual_mm`, which
-/// counts like kHeads heads.
-void compare(const Movement& movement, const FaceSkin& skin, const HeadDisplacements& displacements,
-             std::vector<Oddity>& oddities) {
-  constexpr double kHeads = 6;
+/// Replaces the largest deviation of each head that deviates more in this movement.
+void update_largest(const Movement& movement, const FaceSkin& skin,
+                    const HeadDisplacements& displacements,
+                    std::vector<LargestDeviation>& largest) {
+  // for each half of the face: the deviation of each head, in millimetres
   std::vector<std::vector<double>> sides;
   for (const int side : {1, -1}) {
-    const auto form = skin.form_of(movement, side);
+    const auto form = skin.linear_form_of(movement, side);
     if (!form) return;
     sides.push_back(displacements.deviations(*form));
   }
-  const auto squares = [&](std::size_t h) {
+  const auto mean_square = [&](std::size_t h) {
     return (sides[0][h] * sides[0][h] + sides[1][h] * sides[1][h]) / 2;
   };
   double sum = 0;
-  for (std::size_t h = 0; h < oddities.size(); ++h) sum += squares(h);
-  for (std::size_t h = 0; h < oddities.size(); ++h) {
-    const double others = static_cast<double>(oddities.size() - 1);
-    const double usual = std::sqrt(
-        (sum - squares(h) + kHeads * movement.usual_mm * movement.usual_mm) / (others + kHeads));
+  for (std::size_t h = 0; h < largest.size(); ++h) sum += mean_square(h);
+  for (std::size_t h = 0; h < largest.size(); ++h) {
+    // The usual deviation is the root mean square of the other heads' deviations. Because a few
+    // heads are a small sample, include this many more neutral heads with the known deviation.
+    constexpr double kAddedHeads = 6;
+    const double others = static_cast<double>(largest.size() - 1);
+    const double usual =
+        std::sqrt((sum - mean_square(h) +
+                   kAddedHeads * movement.neutral_deviation_mm * movement.neutral_deviation_mm) /
+                  (others + kAddedHeads));
     for (const std::vector<double>& side : sides) {
-      const double times = std::abs(side[h]) / usual;
-      const char* const text = side[h] > 0 ? movement.more : movement.less;
-      if (text != nullptr && times > oddities[h].times_usual) {
-        oddities[h] = {times, std::abs(side[h]), usual, text};
+      const double ratio = std::abs(side[h]) / usual;
+      const char* const text = side[h] > 0 ? movement.positive_text : movement.negative_text;
+      if (text != nullptr && ratio > largest[h].ratio) {
+        largest[h] = {ratio, std::abs(side[h]), usual, text};
       }
     }
   }
@@ -307,29 +329,30 @@ void compare(const Movement& movement, const FaceSkin& skin, const HeadDisplacem
 }  // namespace
 
 std::vector<std::string> odd_expression_warnings(const HeadSet& head_set,
-                                                 const std::vector<bool>& skin,
+                                                 const std::vector<bool>& is_skin,
                                                  const HeadAxes& axes) {
-  constexpr double kTold = 3.8;  // times the usual deviation
+  constexpr double kMinRatio = 3.8;  // smallest LargestDeviation::ratio that causes a warning
   if (head_set.heads.size() < kMinHeads) return {};
-  HeadShape head = mean_head_shape({head_set.topology, {}, {{"", middle_head(head_set)}}});
-  head.is_skin = skin;
-  const auto marks = find_face_marks(head_set.topology, head, axes);
+  HeadShape median = mean_head_shape({head_set.topology, {}, {{"", median_head(head_set)}}});
+  median.is_skin = is_skin;
+  const auto marks = find_face_marks(head_set.topology, median, axes);
   if (!marks) return {};
-  const FaceSkin face(head, *marks);
-  const std::vector<Index> fitted = face.middle_of_face();
-  if (fitted.size() < kMinFitted) return {};
-  const HeadDisplacements displacements(head_set, head.positions, fitted);
+  const FaceSkin skin(median, *marks);
+  const std::vector<Index> fitted_vertices = skin.middle_of_face();
+  if (fitted_vertices.size() < kMinFittedVertices) return {};
+  const HeadDisplacements displacements(head_set, median.positions, fitted_vertices);
   std::vector<std::string> warnings;
   for (const auto* movements : {&mouth_movements(), &eye_movements()}) {
-    std::vector<Oddity> oddities(head_set.heads.size());
-    for (const Movement& movement : *movements) compare(movement, face, displacements, oddities);
-    for (std::size_t h = 0; h < oddities.size(); ++h) {
-      const Oddity& odd = oddities[h];
-      if (odd.times_usual < kTold) continue;
+    std::vector<LargestDeviation> largest(head_set.heads.size());
+    for (const Movement& movement : *movements)
+      update_largest(movement, skin, displacements, largest);
+    for (std::size_t h = 0; h < largest.size(); ++h) {
+      const auto& [ratio, deviation_mm, usual_mm, text] = largest[h];
+      if (ratio < kMinRatio) continue;
       warnings.push_back(
-          concat(head_set.heads[h].name, ": ", odd.text, " ", format_fixed(odd.mm, 1),
+          concat(head_set.heads[h].name, ": ", text, " ", format_fixed(deviation_mm, 1),
                  " mm compared with the median of all heads, where the others usually differ by ",
-                 format_fixed(odd.usual_mm, 1),
+                 format_fixed(usual_mm, 1),
                  " mm: is its expression neutral? Faces built from this head take over its "
                  "expression"));
     }

@@ -9,18 +9,25 @@
 
 namespace crowdface {
 
-/// Warns about heads whose expression does not seem neutral: an open or pursed mouth, raised or
-/// lowered corners of the mouth, puffed cheeks, closed or widely opened eyes, and raised brows.
-/// Each of these movements is measured as the displacement of a feature from the vertex-wise
-/// median of all heads, minus the displacement of the skin around the feature. A head is named if
-/// its value is large compared with the values of the other heads. Of the ICT model's expressions
-/// at full strength, smiles, open mouths, closed lids and raised brows are found on every head or
-/// nearly every head, pursed mouths and puffed cheeks on most heads. Lowered brows and a wrinkled
-/// nose are not larger than the differences between people. With fewer than four heads there are
-/// no warnings, because an outlier cannot be determined.
-/// \param skin  #V, whether each vertex is skin
-std::vector<std::string> odd_expression_warnings(const HeadSet& heads,
-                                                 const std::vector<bool>& skin,
+/// Returns warnings about heads whose expression does not seem neutral: at most one warning for the
+/// mouth and cheeks of each head, and one for its eyes and brows. Of the ICT model's expressions at
+/// full strength, the check finds
+///
+/// - smiles, open mouths, closed lids and raised brows on nearly every head;
+/// - pursed mouths and puffed cheeks on most heads;
+/// - no lowered brows and no wrinkled noses, because people differ as much without any expression.
+///
+/// The check compares the heads with each other. It measures how far each feature (such as a corner
+/// of the mouth) is displaced from the vertex-wise median of all heads, relative to the skin around
+/// the feature. A displacement causes a warning if it is large compared with the displacements of
+/// the other heads.
+///
+/// \param is_skin  #V, whether each vertex is skin.
+/// \param axes     axes of all heads.
+/// \return one text per warning; none if there are fewer than four heads, because then an outlier
+///         cannot be determined, or if no face is found.
+std::vector<std::string> odd_expression_warnings(const HeadSet& head_set,
+                                                 const std::vector<bool>& is_skin,
                                                  const HeadAxes& axes);
 
 }  // namespace crowdface

@@ -15,9 +15,10 @@ struct HeadFile {
   ObjFile file;
   Digest text_digest;  ///< hash of the file's bytes
   Digest mesh_digest;
-  std::shared_ptr<HeadMesh> mesh;    ///< shared by all heads with the same mesh
-  bool is_cached = false;            ///< whether the cache has the head
-  bool has_joined_vertices = false;  ///< whether reading joined vertices at the same position
+  std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
+  bool is_cached = false;          ///< whether the cache has the head
+  /// whether the file has several vertices at the same position, which the reader has joined
+  bool has_joined_vertices = false;
 };
 
 }  // namespace crowdface

@@ -118,7 +118,7 @@ std::vector<Digest> hash_heads(const HeadSet& heads) {
 }
 
 /// Returns a warning that a texture is not blended because some heads lack it; nothing if all or no
-/// heads have a texture. Call only if all heads that have a texture name the same texture files.
+/// heads have a texture. Call only if all heads with a texture have the same texture files.
 std::optional<std::string> single_texture_warning(const FoundTextureFiles& textures,
                                                   const HeadSet& heads) {
   std::vector<std::string> with, without;

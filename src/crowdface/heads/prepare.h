@@ -27,7 +27,7 @@ struct Prepared {
   /// on which the samples' mirror images depend.
   FaceSamples trajectory_samples;
   std::vector<Trajectory> trajectories;     ///< #heads; at the vertices `trajectory_samples`
-  std::vector<StoredLevels> levels;         ///< #heads; no fields with `levels: exact`
+  std::vector<StoredLevels> levels;         ///< #heads; with `levels: exact`, all are empty
   std::shared_ptr<const LevelNodes> nodes;  ///< nodes of all StoredLevels::function_coefficients
   CachedPatches patches;                    ///< all heads' fields; empty with `levels: exact`
   std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`

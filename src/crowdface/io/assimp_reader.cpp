@@ -148,8 +148,8 @@ void collect_textures(const aiScene& scene, FileMesh& mesh,
         unused.emplace(key.substr(key.rfind('|') + 1));
       }
     }
-    // A layered texture is not among the material's properties. Assimp reports only the lowest
-    // layer of a layered texture.
+    // The loop above does not find layered textures. For a layered texture, `GetTexture` returns
+    // the lowest layer.
     for (const auto& [type, kind] : {std::pair(aiTextureType_DIFFUSE, TextureKind::kColour),
                                      std::pair(aiTextureType_NORMALS, TextureKind::kNormal)}) {
       aiString name;

@@ -30,10 +30,10 @@ enum class DataStorage {
   kOwnFiles,  ///< one file for each shape or texture, one OBJ file for each attachment
 };
 
-/// Which normals an encoder needs.
+/// For which meshes an encoder must be given normals.
 enum class FileNormals {
   kNone,
-  kOnLevels,    ///< for levels of detail; the full mesh copies the normals of its OBJ file
+  kOnLevels,    ///< only for levels of detail; the encoder computes the normals of the full mesh
   kLikeTarget,  ///< only if the target's file has normals
   kAlways,
 };

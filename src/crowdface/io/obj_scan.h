@@ -43,8 +43,8 @@ ObjSummary summarise_obj(std::string_view text);
 /// Which lines `scan_obj` checks.
 enum class ObjLines {
   kAll,
-  /// all lines except `f` and `vt`; an earlier check has accepted a text with equal `f` and `vt`
-  /// lines
+  /// all lines except `f` and `vt`: for a text with the same `mesh_digest` as a text whose lines
+  /// have all been checked
   kAllButMesh,
 };
 

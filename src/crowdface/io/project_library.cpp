@@ -21,9 +21,10 @@
 namespace crowdface {
 namespace {
 
-/// Completes the error message "the libraries that … cannot be started" while libraries are being
-/// loaded, for example with "images need (OpenImageIO)".
-std::atomic<const char*> starting_libraries{"run"};
+/// Names the libraries that are being loaded, in the middle of an error message. With the phrase
+/// "images need (OpenImageIO)", the message is "the libraries that images need (OpenImageIO) cannot
+/// be started".
+std::atomic<const char*> current_dependents_phrase{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only
 // async-signal-safe functions.
@@ -32,7 +33,7 @@ std::atomic<const char*> starting_libraries{"run"};
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, std::strlen(text));
   };
   say("error: the libraries that ");
-  say(starting_libraries.load());
+  say(current_dependents_phrase.load());
   say(" cannot be started: out of memory, or of threads?\n");
   ::_exit(static_cast<int>(ExitCode::kIoError));
 }
@@ -54,7 +55,7 @@ void end_if_starting() {
 class StartOfLibraries {
  public:
   explicit StartOfLibraries(const char* dependents_phrase) {
-    starting_libraries = dependents_phrase;
+    current_dependents_phrase = dependents_phrase;
     [[maybe_unused]] static const int registered = std::atexit(end_if_starting);
     starting = 1;
     struct sigaction action {};

@@ -16,8 +16,8 @@ inline constexpr std::string_view kReversedFacesNote =
 
 /// Reverses the polygons of a mesh that is inside out, and adds a note.
 void reverse_inward_faces(FileMesh& mesh);
-/// Reverses the polygons of an OBJ file that is inside out, both in its mesh and in its text,
-/// and sets `has_reversed_faces`. The caller adds the note.
+/// Reverses the polygons of an OBJ file that is inside out, both in its mesh and in its text, and
+/// sets `has_reversed_faces`. Does not add kReversedFacesNote to the file's notes.
 ObjFile with_outward_faces(ObjFile file);
 
 }  // namespace crowdface

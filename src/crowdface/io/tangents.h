@@ -37,7 +37,8 @@ class Tangents {
  private:
   struct UvTriangle {
     std::array<std::uint32_t, 3> corners;  ///< split vertices
-    /// weights of two edges in the direction of growing u
+    /// The sum of the edges from corner 0 to the corners 1 and 2, with these weights, is the
+    /// direction in which u grows.
     double first_edge_weight, second_edge_weight;
   };
   std::vector<std::uint32_t> vertices_;  ///< the original vertex of each split vertex

@@ -45,9 +45,9 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   }
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   const auto faces = static_cast<std::size_t>(topology.face_count());
-  // For each part, a sum over the edges of the loop that bound the part: the height of the adjacent
-  // polygon's centroid above the edge. The sum is stored at the index of the part's root polygon.
-  std::vector<double> above(faces, 0.0);
+  // For each part that touches the loop, by the part's root polygon: the total height of the part's
+  // polygons along the loop, each measured above the polygon's edge on the loop.
+  std::vector<double> height_above_loop(faces, 0.0);
   visit_edges(topology, [&](std::uint32_t f, const Edge& edge) { edges.emplace_back(edge, f); });
   std::ranges::sort(edges);
   DisjointSets parts(faces);
@@ -62,21 +62,22 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
     const auto at = loop.find(edge);
     if (at == loop.end()) continue;
     ++along;
-    above[parts.root(f)] += height(topology, positions, f, up) - at->second;
+    height_above_loop[parts.root(f)] += height(topology, positions, f, up) - at->second;
     sides.insert(parts.root(f));
   }
   if (along == loop.size()) return std::vector<bool>(faces, true);
   if (sides.size() < 2) {
     throw InvalidInput("the loop of neck.body_rim does not separate the body from the head");
   }
-  std::vector<double> heights(faces, 0.0);
+  // For all other parts: the total height of the part's polygons above the middle of the loop.
+  std::vector<double> height_above_middle(faces, 0.0);
   for (std::uint32_t f = 0; f < faces; ++f) {
-    heights[parts.root(f)] += height(topology, positions, f, up) - middle;
+    height_above_middle[parts.root(f)] += height(topology, positions, f, up) - middle;
   }
   std::vector<bool> below(faces);
   for (std::uint32_t f = 0; f < faces; ++f) {
     const std::uint32_t part = parts.root(f);
-    below[f] = (sides.contains(part) ? above[part] : heights[part]) < 0;
+    below[f] = (sides.contains(part) ? height_above_loop[part] : height_above_middle[part]) < 0;
   }
   return below;
 }

@@ -27,7 +27,7 @@ struct FaceMarks {
   double eye_to_mouth() const { return eyes_height - mouth_height; }
 };
 
-/// The data of a head in which a face is searched; usually the mean of all heads.
+/// A head, as input for the functions below that find its face; usually the mean of all heads.
 struct HeadShape {
   Positions positions;        ///< #V by 3
   std::vector<bool> is_skin;  ///< #V

@@ -37,8 +37,8 @@ constexpr double kMargin = 0.002;
 /// Smallest gap of lid vertices that count as outside the eyeball, as a fraction of the radius. It
 /// is negative: vertices up to 0.04 mm inside the eyeball also count as outside.
 constexpr double kMinOutsideGap = -0.003;
-/// Fractions of the radius. Lid vertices farther from the eyeball than this distance need no check,
-/// because the eyeball moves by a smaller distance: kFarFirst in the first step, kFarLater in later
+/// Lid vertices farther from the eyeball than this fraction of the radius are not checked, because
+/// one step moves the eyeball by less. kFarFirst applies to the first step, kFarLater to all later
 /// steps.
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.

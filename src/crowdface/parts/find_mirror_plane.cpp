@@ -23,8 +23,8 @@ class PlaneSearch {
         mean_(mean),
         start_(start),
         grid_(mean, skin),
-        some_(evenly_spaced_items(skin, kPoints)),
-        places_(some_.size()) {}
+        sampled_vertices_(evenly_spaced_items(skin, kPoints)),
+        nearest_points_(sampled_vertices_.size()) {}
 
   MirrorPlane find() {
     MirrorPlane by_vertices = start_;
@@ -52,19 +52,21 @@ class PlaneSearch {
   /// \param place_of  Returns the surface point nearest to a mirror image.
   template <class PlaceOf>
   MirrorPlane next(const MirrorPlane& plane, const PlaceOf& place_of) {
-    parallel_for_each(some_.size(), [&](std::size_t i) {
-      const Eigen::Vector3d image = plane.mirrored(row3(mean_, some_[i]));
-      places_[i] = place_of(grid_.nearest(image).vertex, image);
+    parallel_for_each(sampled_vertices_.size(), [&](std::size_t i) {
+      const Eigen::Vector3d image = plane.mirrored(row3(mean_, sampled_vertices_[i]));
+      nearest_points_[i] = place_of(grid_.nearest(image).vertex, image);
     });
     PlaneFit fit;
-    for (std::size_t i = 0; i < some_.size(); ++i) fit.add(row3(mean_, some_[i]), places_[i]);
+    for (std::size_t i = 0; i < sampled_vertices_.size(); ++i)
+      fit.add(row3(mean_, sampled_vertices_[i]), nearest_points_[i]);
     return fit.plane(start_.normal);
   }
 
   void keep_best(const MirrorPlane& tried) {
     double squares = 0;
-    for (std::size_t i = 0; i < some_.size(); ++i) {
-      const Eigen::Vector3d off = tried.mirrored(row3(mean_, some_[i])) - places_[i];
+    for (std::size_t i = 0; i < sampled_vertices_.size(); ++i) {
+      const Eigen::Vector3d off =
+          tried.mirrored(row3(mean_, sampled_vertices_[i])) - nearest_points_[i];
       squares += off.squaredNorm();
     }
     if (squares >= least_) return;
@@ -77,9 +79,9 @@ class PlaneSearch {
   const Positions& mean_;
   const MirrorPlane& start_;
   PointGrid grid_;
-  Vertices some_;
-  /// for each of `some_`: nearest surface point of its image
-  std::vector<Eigen::Vector3d> places_;
+  Vertices sampled_vertices_;
+  /// for each of `sampled_vertices_`: the surface point nearest to the vertex's mirror image
+  std::vector<Eigen::Vector3d> nearest_points_;
   MirrorPlane best_;
   double least_ = HUGE_VAL;
 };

@@ -32,7 +32,7 @@ constexpr int kRounds = 3;
 /// amplitude (the size of its correction), so that neighbouring sections get similar amplitudes.
 constexpr double kEvenness = 0.001;
 /// Largest amplitude of a section (the size of the section's correction), as a multiple of the
-/// largest deviation of a gap from its range.
+/// largest deviation of any gap from its range before the correction.
 constexpr double kMaxCorrection = 4;
 
 /// Smooth kernel, 1 at 0, and 0 from 1 on (Wendland 1995, C² in three dimensions). The kernel is
@@ -306,27 +306,27 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
     }
     std::vector<double> amplitudes(section_group.end - section_group.begin, 0.0);
     std::vector<AmplitudeChange> changes;
-    double most = 0;
+    double max_amplitude = 0;
     for (int round = 0; round < kRounds; ++round) {
       // Update the depths, and find the facing points again.
       move_depths(section_group, changes, profiles.depths);
-      double missing = 0;
+      double largest_deviation = 0;
       profiles.opposites.clear();
       for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const std::span depths = std::span(profiles.depths).subspan(profiles.begins[i]);
         profiles.opposites.push_back(clearances_[section_group.begin + i].opposite_points(depths));
         const auto [least, widest] = ranges[section_group.begin + i];
         const double gap = profiles.gap(i);
-        missing = std::max(missing, std::abs(std::clamp(gap, least, widest) - gap));
+        largest_deviation =
+            std::max(largest_deviation, std::abs(std::clamp(gap, least, widest) - gap));
       }
-      if (missing <= tolerance_) break;
-      // In all rounds, limit the amplitudes to kMaxCorrection times the largest distance of a gap
-      // from its range in the first round.
-      if (round == 0) most = kMaxCorrection * missing;
+      if (largest_deviation <= tolerance_) break;
+      // The first round sets the limit for all rounds.
+      if (round == 0) max_amplitude = kMaxCorrection * largest_deviation;
       // Solve for the amplitudes with these facing points.
-      changes = find_kernel_amplitudes(section_group, ranges, most, profiles, amplitudes);
+      changes = find_kernel_amplitudes(section_group, ranges, max_amplitude, profiles, amplitudes);
     }
-    if (most > 0) move(section_group, amplitudes, positions);
+    if (max_amplitude > 0) move(section_group, amplitudes, positions);
   }
 }
 

@@ -12,8 +12,8 @@
 namespace crowdface {
 
 /// Writes pages of contact sheets to a folder, in the requested formats. Every 64 pages form a
-/// batch with its own index and, if requested, its own PDF file, so that the memory in use does not
-/// grow with the number of faces.
+/// batch with its own index (an image that shows all pages of the batch) and, if requested, its own
+/// PDF file, so that the memory in use does not grow with the number of faces.
 class SheetWriter {
  public:
   /// \param folder  must exist. \param title  title of each index.
@@ -43,7 +43,7 @@ class SheetWriter {
   std::string title_;
   std::size_t finished_batch_count_ = 0;
   std::vector<std::string> pdf_page_pngs_;  ///< pages of the current batch, if a PDF is requested
-  std::vector<SheetCell> index_cells_;      ///< index of the current batch: one cell for each page
+  std::vector<SheetCell> index_cells_;      ///< one cell for each page of the current batch
   std::vector<std::filesystem::path> written_files_;
   int pages_in_memory_ = 0;
   // Must be the last member: its destructor waits for tasks that use the other members.

@@ -228,8 +228,8 @@ std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
   const auto vertices = static_cast<std::uint64_t>(inputs_.head_set.topology.vertex_count);
   std::uint64_t bytes_per_face = 3 * sizeof(double) * vertices;
   if (!blender_) {
-    // Memory per region: the difference to smooth (as a matrix and as rows of the filter), four
-    // vectors of the filter's recurrence, and one sum.
+    // Memory per region: the filter's input (once as a matrix and once as rows in the filter's
+    // order), four vectors of the filter's recurrence, and one sum.
     const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
     bytes_per_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }

@@ -119,9 +119,9 @@ std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd
   return warnings;
 }
 
-/// Reads the crowd, or a shard's faces, from the folder's plan. Returns null if there is no plan
-/// that belongs to this job and the run may cast the crowd itself.
-/// \throws MissingInput if there is no such plan and the run must not cast the crowd.
+/// Reads the crowd, or a shard's faces, from the folder's plan.
+/// \return null if the folder has no complete plan of this job, but the run may cast the crowd.
+/// \throws MissingInput if the folder has no such plan, and the run must not cast the crowd.
 std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& options,
                                         StageSeconds& stages) {
   const CrowdDirectory directory = crowd_directory_of(job.config);

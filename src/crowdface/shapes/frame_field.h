@@ -37,20 +37,22 @@ class FrameField {
   Eigen::Matrix3d map_at(std::size_t i, const Frames& frames) const;
 
  private:
+  /// A vertex of the skin around a node.
   struct Sample {
     std::uint32_t vertex;
-    /// The matrix A (see Node) is Σ d·wᵀ over the samples. Here, d is the sample's position in the
-    /// face relative to the node's vertex, and w is this vector.
-    Eigen::Vector3d fit_vector;
+    Eigen::Vector3d fit_vector;  ///< w in the map of the node
   };
+  /// The map of a node is the matrix Σ d·wᵀ + R·W:
+  ///
+  /// - Σ d·wᵀ, a sum over the samples, is the fit to the skin around the node: d is the sample's
+  ///   position on the face, relative to the node's vertex.
+  /// - R is the rotation and scale of the whole skin. R·W determines the map in directions in which
+  ///   the samples do not extend.
   struct Node {
-    Eigen::Vector3d centre;
+    Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// Weight W of the whole skin's motion in the node's map A + R·W. A is fitted to the samples,
-    /// and R is the rotation and scale of the whole skin. R·W determines the map in directions in
-    /// which the samples do not extend.
-    Eigen::Matrix3d whole_skin_weight;
+    Eigen::Matrix3d whole_skin_weight;  ///< W
   };
   struct NodeWeight {
     std::uint32_t node;

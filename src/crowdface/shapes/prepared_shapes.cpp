@@ -258,8 +258,8 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t corner = index_in_list(moves.vertices, place.corners[k]);
-      follower.rows[k] = corner != kNoIndex && fitted[corner] ? corner : kNoIndex;
-      any = any || follower.rows[k] != kNoIndex;
+      follower.corner_rows[k] = corner != kNoIndex && fitted[corner] ? corner : kNoIndex;
+      any = any || follower.corner_rows[k] != kNoIndex;
     }
     if (any) prepared.lid_followers.push_back(follower);
   }

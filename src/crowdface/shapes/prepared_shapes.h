@@ -47,10 +47,10 @@ struct LidMove {
 /// A vertex of a lash, or of another part that is bound to the skin of a lid. When LidClosure
 /// corrects the lid's position, the vertex moves with the lid.
 struct LidFollower {
-  std::uint32_t row;
-  /// The vertex is bound to a skin triangle. `rows` has the rows of the triangle's corners in the
-  /// shape; kNoIndex for a corner that is not corrected.
-  std::array<std::uint32_t, 3> rows;
+  std::uint32_t row;  ///< the vertex's row in the shape's displacements
+  /// for each corner of the skin triangle to which the vertex is bound: the corner's row in the
+  /// shape's displacements, or kNoIndex if LidClosure never moves the corner
+  std::array<std::uint32_t, 3> corner_rows;
   std::array<double, 3> barycentric;  ///< barycentric coordinates in this triangle
 };
 

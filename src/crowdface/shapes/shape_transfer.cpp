@@ -146,7 +146,7 @@ Positions CarriedShape::skin_of_followers() const {
   Positions rows(static_cast<Index>(3 * shape_.lid_followers.size()), 3);
   Index next = 0;
   for (const LidFollower& follower : shape_.lid_followers) {
-    for (const std::uint32_t on : follower.rows) {
+    for (const std::uint32_t on : follower.corner_rows) {
       if (on != kNoIndex) rows.row(next) = result_.moves.row(on);
       ++next;
     }
@@ -275,7 +275,7 @@ void CarriedShape::follow_lids(const Positions& carried) {
   Index next = 0;
   for (const LidFollower& follower : shape_.lid_followers) {
     for (std::size_t k = 0; k < 3; ++k, ++next) {
-      const std::uint32_t on = follower.rows[k];
+      const std::uint32_t on = follower.corner_rows[k];
       if (on == kNoIndex) continue;
       result_.moves.row(follower.row) +=
           follower.barycentric[k] * (result_.moves.row(on) - carried.row(next));

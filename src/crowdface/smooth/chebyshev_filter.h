@@ -32,11 +32,12 @@ struct RecordedTerms {
 /// Evaluates polynomials of the matrix W (the mean over a vertex's edge-neighbours) of one topology
 /// by the Chebyshev recurrence T_{k+1}(W) x = 2 W T_k(W) x − T_{k−1}(W) x. One pass evaluates all
 /// requested polynomials. One filter serves all heads of a topology. Results are bit-identical for
-/// any thread count, any instruction set, and any head whose positions the constructor gets.
+/// any thread count and any instruction set.
 class ChebyshevFilter {
  public:
   /// \param positions  #V by 3, any head of the topology. The filter uses the positions to group
-  ///                   nearby vertices into tiles; the positions affect only the filter's speed.
+  ///                   nearby vertices into tiles; the positions affect only the filter's speed,
+  ///                   not its results.
   ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions);
 
   Index vertex_count() const { return static_cast<Index>(tiling_.vertex_of_row.size()); }

@@ -42,8 +42,8 @@ std::vector<double> error_weights(const HeadSmoothing& head,
   return weights;
 }
 
-/// The lists of a sequence of patches while the patches are made; see PatchArrays.
-struct MadePatches {
+/// The data of consecutive patches, with the members of PatchArrays as growing vectors.
+struct PatchLists {
   std::vector<std::uint32_t> stored_vertex_counts, field_counts;
   std::vector<float> quantization_steps, weights;
   std::vector<std::int16_t> quantized_values;
@@ -59,7 +59,7 @@ class PatchMaker {
              double tolerance)
       : heads_(heads), error_weights_(weights), tolerance_(tolerance) {}
 
-  void add(std::span<const std::uint32_t> vertices, MadePatches& made) {
+  void add(std::span<const std::uint32_t> vertices, PatchLists& made) {
     const std::size_t fields = count_fields(vertices);
     choose_skeleton(vertices, fields);
     made.stored_vertex_counts.push_back(static_cast<std::uint32_t>(skeleton_.size()));
@@ -173,7 +173,7 @@ class PatchMaker {
 
   /// Quantizes the fields at the skeleton vertices of a patch, and appends the quantized values to
   /// `made`. The fields at all other vertices of the patch are interpolated from these values.
-  void add_quantized_values(std::span<const std::uint32_t> vertices, MadePatches& made) {
+  void add_quantized_values(std::span<const std::uint32_t> vertices, PatchLists& made) {
     const std::size_t size = skeleton_.size(), values = FieldPatch::values_per_field(size);
     for (std::size_t h = 0; h < heads_.size(); ++h) {
       values_.assign(counts_[h] * values, 0.0F);
@@ -201,26 +201,26 @@ class PatchMaker {
   std::span<const HeadSmoothing> heads_;
   const std::vector<std::vector<double>>& error_weights_;
   double tolerance_;
-  std::vector<std::uint32_t> counts_;
+  std::vector<std::uint32_t> counts_;  ///< for each head: number of fields of the patch
   std::vector<float> columns_, values_;
-  std::vector<PatchColumn> factor_;  ///< #skeleton by kPatchVertices
-  std::vector<std::size_t> skeleton_;
+  std::vector<PatchColumn> factor_;    ///< columns of the Cholesky factor, one per skeleton vertex
+  std::vector<std::size_t> skeleton_;  ///< indices of the skeleton vertices within the patch
 };
 
 /// Owns the memory that the spans of PatchArrays refer to.
 struct OwnedPatches {
   std::vector<std::uint32_t> vertices;
-  MadePatches made;
+  PatchLists made;
 };
 
 /// Concatenates the member `list` of all parts, and empties `list` in each part.
 template <class T>
-std::vector<T> join(std::vector<MadePatches>& parts, std::vector<T> MadePatches::*list) {
+std::vector<T> join(std::vector<PatchLists>& parts, std::vector<T> PatchLists::*list) {
   std::size_t count = 0;
-  for (const MadePatches& part : parts) count += (part.*list).size();
+  for (const PatchLists& part : parts) count += (part.*list).size();
   std::vector<T> all;
   all.reserve(count);
-  for (MadePatches& part : parts) {
+  for (PatchLists& part : parts) {
     all.insert(all.end(), (part.*list).begin(), (part.*list).end());
     part.*list = {};
   }
@@ -348,7 +348,7 @@ FieldPatches interpolate_fields(std::span<const HeadSmoothing> heads,
   auto all = std::make_shared<OwnedPatches>();
   all->vertices.assign(order.begin(), order.end());
   const std::size_t patches = patch_count(order.size());
-  std::vector<MadePatches> parts((patches + kPatchesPerTask - 1) / kPatchesPerTask);
+  std::vector<PatchLists> parts((patches + kPatchesPerTask - 1) / kPatchesPerTask);
   parallel_blocks(patches, kPatchesPerTask, [&](std::size_t begin, std::size_t end) {
     PatchMaker maker(heads, weights, tolerance);
     for (std::size_t i = begin; i < end; ++i) {
@@ -360,10 +360,10 @@ FieldPatches interpolate_fields(std::span<const HeadSmoothing> heads,
     }
     progress(end - begin);
   });
-  const MadePatches& made = all->made = {
-      join(parts, &MadePatches::stored_vertex_counts), join(parts, &MadePatches::field_counts),
-      join(parts, &MadePatches::quantization_steps), join(parts, &MadePatches::weights),
-      join(parts, &MadePatches::quantized_values)};
+  const PatchLists& made = all->made = {
+      join(parts, &PatchLists::stored_vertex_counts), join(parts, &PatchLists::field_counts),
+      join(parts, &PatchLists::quantization_steps), join(parts, &PatchLists::weights),
+      join(parts, &PatchLists::quantized_values)};
   auto result =
       FieldPatches::from_arrays({all->vertices, made.stored_vertex_counts, made.field_counts,
                                  made.quantization_steps, made.weights, made.quantized_values, all},

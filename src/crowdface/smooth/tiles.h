@@ -18,12 +18,13 @@ struct ValenceRun {
 };
 
 /// A part of the mesh. Several steps of the recurrence can run on a tile without data from other
-/// tiles, so that the data stays in one core's cache. A tile holds its own rows, and around them a
-/// halo of several rings of neighbours. Local rows are numbered in this order: the tile's own rows,
-/// ring 1 (the outside neighbours of own rows), ring 2, … Each step invalidates the outermost valid
-/// ring, so with n rings the tile's own rows are correct after n steps.
+/// tiles, so that the data stays in one core's cache. A tile consists of its own rows, which belong
+/// to no other tile, and a halo: several rings of neighbours around its own rows. Local rows are
+/// numbered in this order: the tile's own rows, ring 1 (the outside neighbours of own rows), ring
+/// 2, … Each step invalidates the outermost valid ring, so with n rings the tile's own rows are
+/// correct after n steps.
 struct Tile {
-  std::uint32_t first_row = 0;  ///< first own row, in the tiling's order
+  std::uint32_t first_row = 0;  ///< the tile's first own row, as an index into the tiling's order
   std::uint32_t row_count = 0;  ///< number of own rows; the halo does not count
   /// local row `row_count + i` is row `halo[i]` of the tiling's order
   std::vector<std::uint32_t> halo;

@@ -203,10 +203,11 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
   });
 }
 
-/// Groups consecutive pairs of heads, up to three pairs per group. For all pairs of a group, the
-/// texture images for which both heads have maps are the same. The products of the pairs are
-/// therefore known at the same vertices, and can be smoothed as one row.
-std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& maps) {
+/// Divides the pairs of heads into groups of one to three consecutive pairs. The products of the
+/// pairs in a group are known at the same vertices, so that they can be smoothed as one row: for
+/// each texture image, either all pairs of the group have the maps of both heads, or no pair has.
+/// \return for each group: the index of its first pair, and the index after its last pair.
+std::vector<std::pair<std::size_t, std::size_t>> group_pairs(const HeadMaps& maps) {
   std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map
   for (std::size_t a = 0; a < maps.front().size(); ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
@@ -227,7 +228,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_alike(const HeadMaps& map
 
 void smooth_covariances(const ChebyshevFilter& filter, std::uint64_t level, const HeadMaps& maps,
                         SurfaceStatistics& statistics) {
-  const auto ranges = pairs_alike(maps);
+  const auto ranges = group_pairs(maps);
   const auto of_vertex = [&](std::size_t range, std::uint32_t vertex) {
     return std::span(statistics.covariances)
         .subspan(vertex * statistics.pair_count + ranges[range].first,

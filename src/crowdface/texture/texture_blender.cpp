@@ -180,7 +180,7 @@ FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
 TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
                                const ChebyshevFilter& filter, const RegionWeights& regions,
                                const CrowdTextures& textures, TextureBlendOptions options,
-                               const FindStatistics& find)
+                               const FindStatistics& find_statistics)
     : regions_(regions), textures_(textures), options_(std::move(options)) {
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
   require(
@@ -196,7 +196,7 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
     }
     codings_.push_back(common_coding(textures.maps[p]));
   }
-  statistics_ = find([&] {
+  statistics_ = find_statistics([&] {
     return surface_statistics(filter, texels_, textures.maps, options_.statistics_scale);
   });
 

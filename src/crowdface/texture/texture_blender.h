@@ -22,15 +22,17 @@ struct TextureBlendOptions {
   std::vector<bool> uses_target_colours_only;
 };
 
-/// Blends a texture for each face from the textures of the heads (docs/textures.md). Let D_h be the
-/// values of the heads' maps (optical densities of colours, slopes of normals, or plain values) and
-/// C_h their coarse part. The blended value is
+/// Blends a texture for each face from the textures of the heads (docs/textures.md). The map of
+/// head h has the values D_h: optical densities of colours, slopes of normals, or plain values. C_h
+/// is the coarse part of D_h. The blended value is
 ///
 ///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
 ///
-/// - W_h is constant over the face: half the target's weights plus half the area-weighted mean of
-///   the regions' weights.
-/// - v_h varies over the face: half W_h plus half the weights of the region at that point.
+/// - W_h, the weight of the coarse part, is the same at all points of a face. It is the mean of two
+///   weights of head h: its weight in the target's colours, and the area-weighted mean of its
+///   weights in all regions (see colour_weights).
+/// - v_h, the weight of the detail, varies over the face. It is the mean of W_h and the weight of
+///   head h in the region at the point.
 /// - The gain g restores the contrast of detail that averaging removes:
 ///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. g is 1 if the details of
 ///   the heads agree and at most 1/√Σ v_h², the value for uncorrelated details (after Heitz &
@@ -40,17 +42,16 @@ struct TextureBlendOptions {
 /// are bit-identical on any number of threads.
 class TextureBlender {
  public:
-  /// Returns the statistics that the argument `make` computes; may take them from a cache instead
-  /// of calling `make`.
+  /// A function that returns the result of its argument `make`, or the same result from a cache.
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param filter             a filter of the mesh, with the umbrella or the lazy operator.
   /// \param regions, textures  these objects and the textures' maps must outlive the blender.
-  /// \param find               may return cached statistics.
+  /// \param find_statistics    a function that may look up the statistics in a cache.
   TextureBlender(
       const Topology& topology, const TextureCoordinates& uvs, const ChebyshevFilter& filter,
       const RegionWeights& regions, const CrowdTextures& textures, TextureBlendOptions options,
-      const FindStatistics& find = [](const auto& make) { return make(); });
+      const FindStatistics& find_statistics = [](const auto& make) { return make(); });
 
   /// Blends one texture image of a face. Thread-safe.
   /// \param picture  index of an image (picture) of the layout.

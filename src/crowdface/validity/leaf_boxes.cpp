@@ -103,8 +103,8 @@ unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
   return all;
 }
 
-/// Compares each triangle of one leaf with each triangle of another leaf. Bit 8 i + j of the result
-/// is the value of `compare` for triangle i of the first leaf and triangle j of the second.
+/// Compares each triangle of one leaf with each triangle of another leaf. Bit number 8·i + j of the
+/// result is the value of `compare` for triangle i of the first leaf and triangle j of the second.
 template <class Compare>
 std::uint64_t compared(const Compare& compare) {
   std::uint64_t all = 0;

@@ -75,8 +75,8 @@ bool ray_hits_box(const BoxRay& ray, const Box& box);
 /// the leaf has fewer than eight triangles, the other bits are undefined.
 unsigned hit_mask(const BoxRay& ray, const LeafBoxes& boxes);
 
-/// Returns which boxes of two leaves overlap, as a bit mask. Bit 8 i + j is set if box i of `a`
-/// overlaps box j of `b`.
+/// Returns which boxes of two leaves overlap, as a bit mask. Bit number 8·i + j is set if box i of
+/// `a` overlaps box j of `b`.
 std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b);
 /// Returns which triangles of two leaves have a vertex in common, as a bit mask with the bit order
 /// of `overlap_mask`.

@@ -25,7 +25,8 @@ GuideRay eye_edge(const Vector2d& c) {
   const double x = 1.52 * c.x() - 0.1 * s;
   const double y = (c.y() > 0 ? 0.53 : 0.47) * s + 0.07 * c.x() - 0.03;
   const double z = std::sqrt(std::max(0.0, kEyeRadius * kEyeRadius - x * x - y * y));
-  // The ray is almost parallel to z, because at the corners the skin lies in front of the eyeball.
+  // At the corners, the skin lies in front of the eyeball. A ray from the centre of the eyeball
+  // would move away from (x, y) before it meets this skin. So the ray is almost parallel to z.
   return {eye_centre() + 0.95 * Vector3d(x, y, 0), eye_centre() + Vector3d(x, y, z + 0.12)};
 }
 

@@ -28,7 +28,9 @@ struct Fold {
       spread;          ///< factor of depth at age 40, its change per 20 years, std. deviation
   double bulge;        ///< height of a ridge left of the curve, relative to the depth
   bool paired = true;  ///< whether the fold is mirrored to x < 0
-  double wander = 0;   ///< amplitude of the curve's irregular waves, cm; wavy curves have gaps
+  /// Amplitude of the irregular waves of a wrinkle's curve, cm; 0 if the fold is not a wrinkle.
+  /// Wrinkles have gaps, and fade out on coarse meshes.
+  double wave_amplitude = 0;
 };
 
 // clang-format off
@@ -93,7 +95,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
       // Fade out lines that are too narrow for the mesh. Such lines would look like steps.
-      const double drawn = fold.wander > 0 ? carried(4 * fold.width, edge_cm) : 1;
+      const double drawn = fold.wave_amplitude > 0 ? carried(4 * fold.width, edge_cm) : 1;
       const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
       if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
     }
@@ -115,13 +117,13 @@ Relief::Relief(const Identity& identity, double edge_cm)
 void Relief::add_stroke(std::size_t fold_index, double side, double depth) {
   const Fold& fold = fold_list()[fold_index];
   const double lane = 20 * static_cast<double>(fold_index) + 10 * side;
-  const double length = fold.wander > 0 ? (fold.end - fold.start).norm() : 0;
+  const double length = fold.wave_amplitude > 0 ? (fold.end - fold.start).norm() : 0;
   Stroke stroke{{}, fold.width, depth, fold.bulge * side, lane, length, {}};
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;
     Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
-    p += fold.wander * Vector2d(0.5 * curve_noise_.at({stroke.noise_row, 0.5 * p.y(), 5}),
-                                curve_noise_.at({0.5 * p.x(), stroke.noise_row, 0}));
+    p += fold.wave_amplitude * Vector2d(0.5 * curve_noise_.at({stroke.noise_row, 0.5 * p.y(), 5}),
+                                        curve_noise_.at({0.5 * p.x(), stroke.noise_row, 0}));
     p.x() *= side;
     stroke.points[static_cast<std::size_t>(i)] = p;
   }

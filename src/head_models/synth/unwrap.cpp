@@ -57,8 +57,9 @@ Eigen::Vector2d disc_centre() {
   return {(across(column_distance(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
-/// Half-axes of the edge of an opening and of the edge of its hole. The unit is half the opening's
-/// size.
+/// Half-axes of two curves in the area that an opening (eye, nostril, mouth) has in the texture, in
+/// units of half the area's size. `edge` is the rim of the opening. The skin that continues from
+/// the rim into the head lies between `edge` and `hole`.
 struct HalfAxes {
   Eigen::Vector2d edge, hole;
 };
