@@ -99,6 +99,7 @@ while read -r id worn; do
   [ -n "$hair" ] || fail "$id has no hair: '$worn'"
   grep -qa "\"name\":\"$hair\"" "out/market/meshes/$id.glb" || fail "$id.glb has no node $hair"
 done < <(column attachments)
+! column tags | grep bald || fail "the tutorial's crowd has bald people"
 for page in sheets/heads_001.png sheets/family_smith_son.png sheets/sheet_001.png gallery/index.html; do
   [ -s "out/market/$page" ] || { [ "${page%%/*}" = gallery ] && echo "no gallery: its page was not built"; } ||
     fail "not there: $page"
