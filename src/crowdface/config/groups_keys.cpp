@@ -211,8 +211,8 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
   if (head_count_of_smaller_sex(facts) == 0) return std::nullopt;
-  return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
-                                  "{name: men, share: 0.5, tags: [male]}"}),
+  return StarterLines{yaml_block_list({"{name: women, share: 0.5, tags: [female]}",
+                                       "{name: men, share: 0.5, tags: [male]}"}),
                       "",
                       "Hair and beards depend on the tags of the target head, features on all "
                       "source heads:\nseparate groups keep women and men apart."};
