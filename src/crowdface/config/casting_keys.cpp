@@ -206,7 +206,7 @@ namespace {
 /// Proposes a minimum distance that all faces of the starter config can keep without exceeding the
 /// config's believability limits.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
-  const std::size_t in_group = head_count_of_smaller_sex(facts);
+  const std::size_t in_group = head_count_of_rarer_sex(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.head_names.size();
   struct Proposal {
     std::size_t heads;  ///< smallest number of heads for which this distance is proposed

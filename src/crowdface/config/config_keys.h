@@ -294,7 +294,7 @@ Key<Config> recipes_key();
 Key<Config> groups_key();
 /// A starter config may divide the crowd into two groups, women and men. Returns the number of
 /// heads of the sex with fewer heads; 0 if the starter config has no groups.
-std::size_t head_count_of_smaller_sex(const StarterFacts& facts);
+std::size_t head_count_of_rarer_sex(const StarterFacts& facts);
 Key<Config> families_key();
 Key<Config> changes_key();
 /// Reads the changes of single faces that a config or a review requests.
