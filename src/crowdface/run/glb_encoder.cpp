@@ -18,7 +18,7 @@
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/run/attachments_in_format.h"
-#include "crowdface/run/glb_form.h"
+#include "crowdface/run/crowd_glb_options.h"
 #include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {

@@ -14,7 +14,7 @@
 #include "crowdface/io/usda_template.h"
 #include "crowdface/io/usda_text.h"
 #include "crowdface/run/attachments_in_format.h"
-#include "crowdface/run/glb_form.h"
+#include "crowdface/run/crowd_glb_options.h"
 #include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {
