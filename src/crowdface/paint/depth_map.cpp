@@ -59,12 +59,13 @@ DepthMap::AxisCells DepthMap::cells_at(double offset, double extent, Index count
   return cells;
 }
 
-ReliefFit DepthMap::fit(double lateral, double height, double scale, double stretch) const {
+ReliefFit DepthMap::fit(double lateral_position, double height, double scale,
+                        double stretch) const {
   const Eigen::Vector2d extent = box_.sizes();
   std::array<AxisCells, kReliefColumns> columns;
   std::array<AxisCells, kReliefRows> rows;
   for (int c = 0; c < kReliefColumns; ++c) {
-    const double x = lateral + scale * cell_lateral_offset_mm(c);
+    const double x = lateral_position + scale * cell_lateral_offset_mm(c);
     columns[static_cast<std::size_t>(c)] = cells_at(x - box_.min().x(), extent.x(), columns_);
   }
   for (int r = 0; r < kReliefRows; ++r) {
@@ -79,9 +80,9 @@ ReliefFit DepthMap::fit(double lateral, double height, double scale, double stre
   return fit_relief(depths);
 }
 
-double DepthMap::depth(double lateral, double height) const {
+double DepthMap::depth(double lateral_position, double height) const {
   const Eigen::Vector2d extent = box_.sizes();
-  return depth_in_cells(cells_at(lateral - box_.min().x(), extent.x(), columns_),
+  return depth_in_cells(cells_at(lateral_position - box_.min().x(), extent.x(), columns_),
                         cells_at(height - box_.min().y(), extent.y(), rows_));
 }
 

@@ -27,12 +27,12 @@ class DepthMap {
 
   /// Compares the depths of the surface with the depths of the mean face. The arguments place and
   /// scale the mean face.
-  /// \param lateral, height  coordinates of the point between the eyes.
+  /// \param lateral_position, height  coordinates of the point between the eyes.
   /// \param scale, stretch  see ReliefMatch
-  ReliefFit fit(double lateral, double height, double scale, double stretch = 1) const;
+  ReliefFit fit(double lateral_position, double height, double scale, double stretch = 1) const;
 
   /// Depth at a point; kNoDepth where the map shows no surface.
-  double depth(double lateral, double height) const;
+  double depth(double lateral_position, double height) const;
 
  private:
   /// Indices, along one axis of the grid, of the cells around a coordinate.
