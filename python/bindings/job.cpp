@@ -148,7 +148,7 @@ WrapOptions wrap_options(const std::map<std::string, std::string>& texts) {
       {"landmarks", &WrapOptions::landmarks},
       {"template_landmarks", &WrapOptions::template_landmarks},
       {"model", &WrapOptions::model},
-      {"ignore", &WrapOptions::ignore},
+      {"ignore", &WrapOptions::ignored_area_mask},
       {"units", &WrapOptions::units},
       {"scan_units", &WrapOptions::scan_units},
       {"up", &WrapOptions::up},
@@ -286,7 +286,7 @@ void bind_job(py::module_& module) {
         WrapOptions options = wrap_options(texts);
         options.no_pictures = !picture;
         options.estimate = estimate;
-        options.delight = delight;
+        options.removes_shading = delight;
         options.strict = strict;
         long_call(progress, [&] { wrap_scans(options); });
       },

@@ -169,7 +169,7 @@ int run_program(int argc, char** argv) {
   ::setenv("OPENBLAS_NUM_THREADS", "1", 0);  // NOLINT(concurrency-mt-unsafe): before any thread
   watch_for_out_of_memory();
   watch_mapped_files();
-  guard_library_loading();
+  handle_crashes_during_library_loading();
   CLI::App program(kDescription, "crowdface");
   program.footer(kFooter);
   program.set_version_flag("--version", std::string("crowdface ") + kVersion);

@@ -54,12 +54,12 @@ void declare_wrap(CLI::App& command, WrapCommand& options) {
       command, "--model", options.model, "DIR",
       "A folder of heads in the template's topology; their mean and variation guide the wrap");
   add_option(
-      command, "--ignore", options.ignore, "MASK",
+      command, "--ignore", options.ignored_area_mask, "MASK",
       "A mask over the template's texture; white areas, such as hair, are not fitted to the scan");
   add_option(command, "--texture", options.texture_size, "SIZE",
              "Bake the scan's colours into the template's texture layout, with this many texels "
              "per side");
-  add_flag(command, "--delight", options.delight,
+  add_flag(command, "--delight", options.removes_shading,
            "With --texture: even out the light that the scan's colours contain");
   add_option(command, "--units", options.units, "UNIT",
              "The length unit of the template (default: guessed)");

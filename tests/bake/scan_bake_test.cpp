@@ -359,7 +359,7 @@ TEST_F(ScanBaking, ShadingCanBeRemoved) {
     }
     return std::array{percentile(greys, 0.5), percentile(greys, 0.95) - percentile(greys, 0.05)};
   };
-  const auto lit = spread(bake(scan)), even = spread(bake(scan, {.remove_shading = true}));
+  const auto lit = spread(bake(scan)), even = spread(bake(scan, {.removes_shading = true}));
   EXPECT_GT(lit[1], 30);
   EXPECT_LT(even[1], 8);
   EXPECT_NEAR(even[0], lit[0], 25);

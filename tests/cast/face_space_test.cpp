@@ -275,7 +275,9 @@ TEST_F(FaceSpaceTest, ExtrapolationAloneIsTheSamePerson) {
     return space_->point(recipe);
   };
   EXPECT_LT(FaceSpace::distance(point(0.8), point(1.3)), 1e-3);
-  EXPECT_GT((point(0.8).with_extrapolation - point(1.3).with_extrapolation).norm(), 0.5)
+  EXPECT_GT((point(0.8).coordinates_with_extrapolation - point(1.3).coordinates_with_extrapolation)
+                .norm(),
+            0.5)
       << "though the meshes differ";
 }
 

@@ -54,8 +54,9 @@ std::vector<FaceSpace::Point> points_of_many_dimensions(std::uint64_t count) {
     FaceSpace::Point point{Eigen::VectorXf(12), Eigen::VectorXf(12)};
     for (std::uint64_t d = 0; d < 12; ++d) {
       const auto [x, y] = random_pair({5, i / 2, "place", 0}, static_cast<std::uint32_t>(d));
-      point.with_extrapolation[static_cast<Index>(d)] = static_cast<float>(x);
-      point.without_extrapolation[static_cast<Index>(d)] = static_cast<float>(i % 3 == 0 ? x : y);
+      point.coordinates_with_extrapolation[static_cast<Index>(d)] = static_cast<float>(x);
+      point.coordinates_without_extrapolation[static_cast<Index>(d)] =
+          static_cast<float>(i % 3 == 0 ? x : y);
     }
     points.push_back(point);
   }

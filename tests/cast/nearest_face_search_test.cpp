@@ -17,10 +17,10 @@ std::vector<FaceSpace::Point> random_points(std::uint64_t count, Index dimension
     for (Index d = 0; d < dimensions; ++d) {
       const auto [a, b] = random_pair({7, i, "place", 0}, static_cast<std::uint32_t>(d));
       const double scale = 5 / (1 + static_cast<double>(d));
-      point.with_extrapolation[d] = static_cast<float>(scale * (a - 0.5));
-      point.without_extrapolation[d] = extrapolated && i % 2 == 0
-                                           ? static_cast<float>(scale * (b - 0.5))
-                                           : point.with_extrapolation[d];
+      point.coordinates_with_extrapolation[d] = static_cast<float>(scale * (a - 0.5));
+      point.coordinates_without_extrapolation[d] = extrapolated && i % 2 == 0
+                                                       ? static_cast<float>(scale * (b - 0.5))
+                                                       : point.coordinates_with_extrapolation[d];
     }
     points.push_back(point);
   }

@@ -68,10 +68,12 @@ class KeptFaceSpace : public ::testing::TestWithParam<bool> {
     for (std::uint64_t i = 0; i < 20; ++i) {
       const FaceSpace::Point at =
           space.point(random_training_recipe(space.sampled_heads(), bands, i));
-      all.insert(all.end(), at.with_extrapolation.data(),
-                 at.with_extrapolation.data() + at.with_extrapolation.size());
-      all.insert(all.end(), at.without_extrapolation.data(),
-                 at.without_extrapolation.data() + at.without_extrapolation.size());
+      all.insert(
+          all.end(), at.coordinates_with_extrapolation.data(),
+          at.coordinates_with_extrapolation.data() + at.coordinates_with_extrapolation.size());
+      all.insert(all.end(), at.coordinates_without_extrapolation.data(),
+                 at.coordinates_without_extrapolation.data() +
+                     at.coordinates_without_extrapolation.size());
     }
     const FaceSpace::Point one = space.head_point(0), other = space.head_point(1);
     for (Index k = 0; k < 2; ++k) {

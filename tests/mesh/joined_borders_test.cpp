@@ -36,7 +36,7 @@ TEST(JoinedBorders, JoinsCopiesAtSeamsOfOnePiece) {
   topology.add_face(std::array{0U, 1U, 2U});
   topology.add_face(std::array{3U, 4U, 5U});
   const JoinedBorders by = joined_borders(topology, positions);
-  EXPECT_EQ(by.joined_vertex, (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2}));
+  EXPECT_EQ(by.joined_vertex_of_vertex, (std::vector<std::uint32_t>{0, 1, 2, 1, 3, 2}));
   EXPECT_EQ(by.first_copy_of_joined_vertex, (std::vector<std::uint32_t>{0, 1, 2, 4}));
   EXPECT_EQ(
       joined_borders(topology, positions, {0, 0, 0, 1, 1, 1}).first_copy_of_joined_vertex.size(),

@@ -53,7 +53,8 @@ TEST(FacingSkin, IsWhatLooksAtEachOtherThroughANarrowGap) {
   ASSERT_EQ(found.size(), 1U);
   for (const FacingPair& pair : found.front()) {
     EXPECT_NEAR(std::abs(pair.up.y()), 1, 1e-9);
-    EXPECT_EQ(pair.up.y() > 0, mesh.positions(pair.high, 1) > mesh.positions(pair.low, 1));
+    EXPECT_EQ(pair.up.y() > 0,
+              mesh.positions(pair.high_vertex, 1) > mesh.positions(pair.low_vertex, 1));
   }
   mesh.positions.col(0) *= -1;  // now the faces look inward
   EXPECT_EQ(groups().size(), 1U);

@@ -65,7 +65,7 @@ TEST_F(CheckedWrap, RightLandmarksGiveFeaturesThatAgree) {
   const WrapResult result = wrapped();
   ASSERT_GE(features_.size(), 4U);
   for (const FeatureCheck& feature : result.features) {
-    EXPECT_GT(feature.correlation.in_place, 0.75) << feature.name;
+    EXPECT_GT(feature.correlation.correlation_at_feature, 0.75) << feature.name;
   }
   EXPECT_TRUE(wrap_doubts(shape_, result).empty());
   EXPECT_TRUE(result.dropped_landmarks.empty());
@@ -78,7 +78,7 @@ TEST_F(CheckedWrap, FoundLandmarksThatPutTheMouthOnTheChinAreDropped) {
   const WrapResult result = wrapped();
   EXPECT_LT(lips_off(result), lips_off(trusted) - 1);
   EXPECT_THAT(result.dropped_landmarks, Contains("lip_lower"));
-  EXPECT_GT(correlation(result, "mouth").in_place, 0.75);
+  EXPECT_GT(correlation(result, "mouth").correlation_at_feature, 0.75);
   EXPECT_TRUE(wrap_doubts(shape_, result).empty());
 }
 
@@ -104,7 +104,7 @@ TEST_F(CheckedWrap, AMouthInItsPlaceIsNotDoubtfulBecauseItsShapeDiffers) {
                    PoseHint{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()});
   const ReliefCorrelation mouth = correlation(result, "mouth");
   EXPECT_FALSE(mouth.is_high()) << "the test needs shapes that differ";
-  EXPECT_GT(mouth.in_place, mouth.best_nearby + 0.1);
+  EXPECT_GT(mouth.correlation_at_feature, mouth.best_correlation_nearby + 0.1);
   EXPECT_TRUE(wrap_doubts(other, result).empty());
 }
 

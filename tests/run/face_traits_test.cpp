@@ -100,9 +100,9 @@ double largest_difference_to_meshes(const fs::path& config, const fs::path& out,
     for (std::size_t t = 0; t < named.size(); ++t) {
       const Measurement& of = measurements()[named[t]];
       double plain = 0;
-      for (const auto& side : of.landmarks_of_sides) {
+      for (const auto& side : of.landmark_indices_by_face_side) {
         plain += distance_on(mesh, landmarks, side[0], side[1]) /
-                 static_cast<double>(of.landmarks_of_sides.size());
+                 static_cast<double>(of.landmark_indices_by_face_side.size());
       }
       const double difference = std::abs(plain - face.traits[t]);
       EXPECT_LT(difference, 0.1) << face.id << ' ' << of.name;

@@ -15,8 +15,8 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/vector3.h"
+#include "crowdface/run/crowd_glb_options.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/glb_form.h"
 #include "crowdface/run/pipeline.h"
 
 #include "support/crowd_files.h"

@@ -248,7 +248,7 @@ TEST(Tiles, HoldEveryRingTheyNeed) {
       reached.insert(tiling.vertex_of_row[tile.first_row + r]);
     for (std::size_t ring = 0; ring < 3; ++ring) {
       std::set<std::uint32_t> computed;
-      for (std::size_t r = 0; r < tile.run_counts[ring]; ++r) {
+      for (std::size_t r = 0; r < tile.run_count_up_to_ring[ring]; ++r) {
         const ValenceRun& run = tile.runs[r];
         for (std::uint32_t i = 0; i < run.row_count; ++i) {
           const std::uint32_t vertex = vertex_of(run.first_row + i);

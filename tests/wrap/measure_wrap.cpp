@@ -162,7 +162,8 @@ Measured measure(const WrapTemplate& shape, const ShapeModel* model, const WrapT
     }
     m.notes += "  agreement:";
     for (const FeatureCheck& feature : result.features) {
-      m.notes += concat(" ", feature.name, " ", format_fixed(feature.correlation.in_place, 2));
+      m.notes += concat(" ", feature.name, " ",
+                        format_fixed(feature.correlation.correlation_at_feature, 2));
     }
     m.notes += concat(", dropped ", result.dropped_landmarks.size(), "\n");
     const SkinRegions named = face_regions(shape);
@@ -252,7 +253,7 @@ int main(int argc, char** argv) {
     const auto print_estimate = [&](const WrapTemplate& shape, const ShapeModel& model) {
       std::vector<double> off;
       for (const auto& [name, mm] :
-           leave_out_distances(shape, &model, truth.scan, truth.landmarks, std::nullopt)) {
+           cross_validate_wrap(shape, &model, truth.scan, truth.landmarks, std::nullopt)) {
         off.push_back(mm);
       }
       std::printf(

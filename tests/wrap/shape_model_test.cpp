@@ -73,7 +73,7 @@ TEST(ShapeRegression, WhereAPlaceLiesAlongTheSurfaceFollowsFromHowHeadsDiffer) {
   const ScanSurface scan(Scan{head, skin.triangles});
   const auto off = [&](const ShapeModel& used) {
     const Positions found =
-        regress_shape(skin, used, model.mean, scan, {}, {.smooth_deviation_mm = 0.1});
+        regress_shape(skin, used, model.mean, scan, {}, {.smooth_deformation_deviation_mm = 0.1});
     return (found - head).rowwise().norm().mean();
   };
   EXPECT_LT(off(model), 0.5);

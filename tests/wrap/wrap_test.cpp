@@ -261,7 +261,7 @@ TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
   const TruthOptions options{.triangles = 20000, .landmark_error_mm = 0, .seed = 5};
   TruthScan truth = make_truth_scan(head, spread_landmarks(head, 13), options);
   const auto unseen =
-      leave_out_distances(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
+      cross_validate_wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt);
   ASSERT_EQ(unseen.size(), truth.landmarks.size());
   // The same by hand, of a landmark of the second fold.
   std::vector<WrapLandmark> others;
@@ -277,7 +277,7 @@ TEST(Wrap, LandmarksItDoesNotKnowTellHowFarPlacesAreOff) {
               (result.positions.row(left_out.vertex) - picked.row(0)).norm(), 1e-9);
   truth.landmarks.resize(kMinLandmarks);
   EXPECT_TRUE(
-      leave_out_distances(shape, nullptr, truth.scan, truth.landmarks, std::nullopt).empty());
+      cross_validate_wrap(shape, nullptr, truth.scan, truth.landmarks, std::nullopt).empty());
 }
 
 TEST(Wrap, LandmarksThatBelongElsewhereAreRefused) {

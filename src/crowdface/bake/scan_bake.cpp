@@ -87,7 +87,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
   Positions densities = Positions::Zero(positions_.rows(), 3);
   const std::vector<double> confidence = measure_scan_optical_densities(densities);
   compute_edge_weights(confidence);
-  if (options.remove_shading) {
+  if (options.removes_shading) {
     estimate_shading(confidence, densities);
     densities -= shading_densities_;
   }

@@ -15,7 +15,7 @@ namespace crowdface {
 struct BakeOptions {
   /// Whether to remove shading from the colours. Shading is the variation in brightness that a
   /// function of the surface normal (spherical harmonics) explains.
-  bool remove_shading = false;
+  bool removes_shading = false;
 };
 
 /// A baked texture image in the layout of the template.

@@ -19,8 +19,8 @@ constexpr std::uint64_t kMinTooNear = 100;
 void CapacityForecast::add(std::uint64_t too_near_count, std::uint64_t far_enough_count) {
   require(far_enough_count > 0, "a face is chosen from at least one candidate");
   if (placed_count_ >= current_.face_count) {
-    current_.sum_of_too_near_fractions += static_cast<double>(too_near_count) /
-                                          static_cast<double>(too_near_count + far_enough_count);
+    current_.too_near_fraction_sum += static_cast<double>(too_near_count) /
+                                      static_cast<double>(too_near_count + far_enough_count);
     current_.too_near_count += too_near_count;
   }
   if (++placed_count_ < 2 * current_.face_count) return;

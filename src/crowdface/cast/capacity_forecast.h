@@ -30,9 +30,9 @@ class CapacityForecast {
     std::uint64_t face_count = 16;
     std::uint64_t too_near_count = 0;
     /// sum over the faces of this range: the fraction of the candidates that were too near
-    double sum_of_too_near_fractions = 0;
+    double too_near_fraction_sum = 0;
     double mean_too_near_fraction() const {
-      return sum_of_too_near_fractions / static_cast<double>(face_count);
+      return too_near_fraction_sum / static_cast<double>(face_count);
     }
     /// Returns the middle of the range from n to 2·n, with n = `face_count`: 1.5·n.
     double middle_face_number() const { return 1.5 * static_cast<double>(face_count); }

@@ -18,7 +18,7 @@ constexpr std::uint64_t kPoolPerFace = 5;
 /// Returns how many candidates of the pool, taken in order, first-fit casting keeps at this minimum
 /// distance. Stops counting at `enough`.
 std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
-  NearestFaceSearch kept(pool.points[0].with_extrapolation.size());
+  NearestFaceSearch kept(pool.points[0].coordinates_with_extrapolation.size());
   for (const FaceSpace::Point& point : pool.points) {
     if (static_cast<std::uint64_t>(kept.size()) >= enough) break;
     if (kept.nearest(point, mm).face < 0) kept.add(point);
@@ -67,7 +67,7 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
       const double mm = 0.5 * (works + fails);
       (first_fit_count(pool, mm, count) >= count ? works : fails) = mm;
     }
-    row.first_fit_distance_mm = works;
+    row.distance_in_first_fit_casting_mm = works;
     rows.push_back(row);
   }
   return rows;

@@ -15,7 +15,7 @@ struct EstimateRow {
   /// smallest distance between two faces if the crowd is cast in spread mode
   double distance_in_spread_mode_mm = 0;
   /// largest min_distance at which first-fit casting finds this many faces
-  double first_fit_distance_mm = 0;
+  double distance_in_first_fit_casting_mm = 0;
 };
 
 /// Estimates, for crowds of several sizes, the minimum distance that the faces can keep. Uses a

@@ -82,14 +82,17 @@ std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
   Recipe recipe = whole;
   recipe.mirrored = false;
   const Positions samples = sample_face(space_.sampled_heads(), recipe);
-  std::optional<ProxySkin::Target> mixture;
+  std::optional<ProxySkin::ReferenceSkin> mixture;
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
-    mixture.emplace(proxy_skin_->target_of_samples(sample_target(space_.sampled_heads(), recipe)));
+    mixture.emplace(
+        proxy_skin_->make_reference_skin(sample_target(space_.sampled_heads(), recipe)));
   }
-  const ProxySkin::Target& target = mixture ? *mixture : proxy_skin_->target_of_head(recipe.target);
-  SkinDefects defects{target.triangles.compare(samples), 0};
+  const ProxySkin::ReferenceSkin& reference =
+      mixture ? *mixture : proxy_skin_->reference_skin_of_head(recipe.target);
+  SkinDefects defects{reference.triangles.compare(samples), 0};
   if (const auto why = exceeded_limit(believability_, defects)) return why;
-  defects.intersecting_triangle_count = proxy_skin_->intersecting_triangles(samples, target);
+  defects.intersecting_triangle_count =
+      proxy_skin_->count_newly_intersecting_triangles(samples, reference);
   if (const auto why = exceeded_limit(believability_, defects)) return why;
   return find_mesh_defects_ ? exceeded_limit(believability_, find_mesh_defects_(recipe))
                             : std::nullopt;

@@ -84,7 +84,7 @@ FaceSamples choose_face_samples(const Topology& topology, const Components& comp
 FaceSamples samples_and_mirror_images(const FaceSamples& samples, const MirrorMap& mirror) {
   std::set<std::uint32_t> all(samples.begin(), samples.end());
   for (const std::uint32_t v : samples) {
-    if (mirror.is_vertex(v)) all.insert(mirror.corners[v][0]);
+    if (mirror.has_mirror_vertex(v)) all.insert(mirror.corners[v][0]);
   }
   return {all.begin(), all.end()};
 }

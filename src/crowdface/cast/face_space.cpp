@@ -111,7 +111,7 @@ SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
   parallel_for_each(heads, [&](Index h) {
-    const Trajectory& trajectory = heads_mirrored_like(h).trajectories[unmirrored_index(h)];
+    const Trajectory& trajectory = sampled_heads_containing(h).trajectories[unmirrored_index(h)];
     for (Index l = 0; l < level_count; ++l) {
       for (Index i = 0; i < size; ++i) {
         for (Index c = 0; c < 3; ++c) {
@@ -154,7 +154,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
     write_centred_values([&](Index i) { return heads_.mean(sample_at(i), c); },
                          functions.row(c).data());
     for (Index h = 0; h < rows.heads; ++h) {
-      const Positions& head = heads_mirrored_like(h).heads[unmirrored_index(h)];
+      const Positions& head = sampled_heads_containing(h).heads[unmirrored_index(h)];
       write_centred_values(
           [&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
           functions.row(rows.of_head(h) + c).data());
@@ -162,7 +162,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
   }
   parallel_for_each(regions * rows.heads, [&](Index kh) {
     const Index k = kh / rows.heads, h = kh % rows.heads;
-    const Columns& alpha = heads_mirrored_like(h).region_weights;
+    const Columns& alpha = sampled_heads_containing(h).region_weights;
     for (Index r = 0; r < rows.modes; ++r) {
       float* const first = functions.row(rows.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {
@@ -366,9 +366,9 @@ std::vector<FaceSpace::Point> FaceSpace::points(std::span<const Recipe* const> r
   auto next = found.begin();
   for (const Recipe* recipe : recipes) {
     Point& point = points.emplace_back();
-    point.with_extrapolation = std::move(*next++);
-    point.without_extrapolation =
-        is_extrapolated(*recipe) ? std::move(*next++) : point.with_extrapolation;
+    point.coordinates_with_extrapolation = std::move(*next++);
+    point.coordinates_without_extrapolation =
+        is_extrapolated(*recipe) ? std::move(*next++) : point.coordinates_with_extrapolation;
   }
   return points;
 }
@@ -384,8 +384,9 @@ FaceSpace::Point FaceSpace::head_point(Index head) const {
 }
 
 double FaceSpace::distance(const Point& a, const Point& b) {
-  return std::sqrt(std::min(squared_distance(a.with_extrapolation, b.with_extrapolation),
-                            squared_distance(a.without_extrapolation, b.without_extrapolation)));
+  return std::sqrt(std::min(
+      squared_distance(a.coordinates_with_extrapolation, b.coordinates_with_extrapolation),
+      squared_distance(a.coordinates_without_extrapolation, b.coordinates_without_extrapolation)));
 }
 
 void FaceSpace::compute_region_area_fractions() {
@@ -455,8 +456,9 @@ FaceSpace::RegionPoint FaceSpace::region_point(const Point& point, Index region)
     }
     return product;
   };
-  result.product_with_extrapolation = times(point.with_extrapolation);
-  result.product_without_extrapolation = times(point.without_extrapolation);
+  result.metric_times_coordinates_with_extrapolation = times(point.coordinates_with_extrapolation);
+  result.metric_times_coordinates_without_extrapolation =
+      times(point.coordinates_without_extrapolation);
   return result;
 }
 
@@ -474,11 +476,14 @@ double FaceSpace::region_distance(const RegionPoint& a, const RegionPoint& b, In
     }
     return std::max(sum, 0.0);
   };
-  const double with = squared(a.point->with_extrapolation, b.point->with_extrapolation,
-                              a.product_with_extrapolation, b.product_with_extrapolation);
-  const double without = squared(a.point->without_extrapolation, b.point->without_extrapolation,
-                                 a.product_without_extrapolation, b.product_without_extrapolation);
-  return std::sqrt(std::min(with, without) / share);
+  const double squared_with_extrapolation = squared(
+      a.point->coordinates_with_extrapolation, b.point->coordinates_with_extrapolation,
+      a.metric_times_coordinates_with_extrapolation, b.metric_times_coordinates_with_extrapolation);
+  const double squared_without_extrapolation = squared(
+      a.point->coordinates_without_extrapolation, b.point->coordinates_without_extrapolation,
+      a.metric_times_coordinates_without_extrapolation,
+      b.metric_times_coordinates_without_extrapolation);
+  return std::sqrt(std::min(squared_with_extrapolation, squared_without_extrapolation) / share);
 }
 
 Eigen::MatrixXd FaceSpace::head_distances() const {

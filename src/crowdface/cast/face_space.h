@@ -31,9 +31,9 @@ class FaceSpace {
   /// with all extrapolation factors 1. The second variant is needed because two faces that differ
   /// only in extrapolation are the same person.
   struct Point {
-    Eigen::VectorXf with_extrapolation;  ///< the point of the built face, #dimensions
-    /// the point of the face with all extrapolation factors 1, #dimensions
-    Eigen::VectorXf without_extrapolation;
+    Eigen::VectorXf coordinates_with_extrapolation;  ///< of the built face, #dimensions
+    /// of the face with all extrapolation factors 1, #dimensions
+    Eigen::VectorXf coordinates_without_extrapolation;
   };
 
   /// \param weights  one weight per sample, from sample_weights. Samples of weight zero are
@@ -67,12 +67,13 @@ class FaceSpace {
   /// Returns the root mean square distance between two faces in mm: the smaller of the distances
   /// with and without extrapolation.
   static double distance(const Point& a, const Point& b);
-  /// A point, and the products of the region's metric with the point's two vectors.
+  /// A point, and the products of the region's metric with the point's two coordinate vectors.
   struct RegionPoint {
     const Point* point = nullptr;
-    /// the region's metric multiplied by `point->with_extrapolation`, and by
-    /// `point->without_extrapolation`
-    Eigen::VectorXf product_with_extrapolation, product_without_extrapolation;
+    /// the region's metric multiplied by the coordinates of `point`, #dimensions; empty if there is
+    /// only one region
+    Eigen::VectorXf metric_times_coordinates_with_extrapolation,
+        metric_times_coordinates_without_extrapolation;
   };
   RegionPoint region_point(const Point& point, Index region) const;
   /// Returns the distance between two faces over one region, after the whole faces are aligned.
@@ -97,8 +98,9 @@ class FaceSpace {
   /// Returns 2 if each head has a mirror image (the mirror images are the heads from number
   /// head_count() on), otherwise 1.
   Index mirror_variant_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
-  /// Returns the unmirrored heads if `head` is unmirrored, otherwise the heads' mirror images.
-  const SampledHeads& heads_mirrored_like(Index head) const {
+  /// Returns the sampled heads that contain the head with this number: the unmirrored heads if the
+  /// number is below head_count(), otherwise their mirror images.
+  const SampledHeads& sampled_heads_containing(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
   }
   std::size_t unmirrored_index(Index head) const {

@@ -78,7 +78,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     auto found = founder.choose_face(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    const double to_half = sampler.nearer_stranger_fraction(found->point);
+    const double to_half = sampler.fraction_of_strangers_nearer_than_parent(found->point);
     // The limit grows with the number of tries. If both parents are new, a pair that matches well
     // is soon found; if one parent is given, there may be no good match.
     const double enough =
@@ -91,9 +91,9 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
           [&](std::uint32_t attempt) { return sampler.twins_prototype(cast, attempt); }, judge,
           of_founder, 1, f * attempts_each);
       auto child = model.choose_face(crowd, [&](const FaceSpace::Point& point) {
-        const bool too_far =
-            to_half <= kMaxStrangerFractionForFounder &&
-            sampler.nearer_stranger_fraction(point) > kMaxStrangerFractionForFounder;
+        const bool too_far = to_half <= kMaxStrangerFractionForFounder &&
+                             sampler.fraction_of_strangers_nearer_than_parent(point) >
+                                 kMaxStrangerFractionForFounder;
         return too_far ? std::optional(Reason::kFamily)
                        : sampler.rejection_reason(cast, point, {}, family_separation);
       });
@@ -118,8 +118,9 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     }
     family_separation.add(family.name, points);
     for (const FaceSpace::Point& child : points) {
-      cast.nearer_stranger_fraction =
-          std::max(cast.nearer_stranger_fraction, sampler.nearer_stranger_fraction(child));
+      cast.fraction_of_strangers_nearer_than_parent =
+          std::max(cast.fraction_of_strangers_nearer_than_parent,
+                   sampler.fraction_of_strangers_nearer_than_parent(child));
     }
     return cast;
   }

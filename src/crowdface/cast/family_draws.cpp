@@ -414,8 +414,9 @@ std::optional<Reason> FamilySampler::rejection_reason(
 /// parent is not much larger than the founder's distance from this parent.
 bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
                                       const FaceSpace::Point& point) const {
-  if (nearer_stranger_fraction(point) <= kMaxStrangerFractionForChild) return true;
-  if (nearer_stranger_fraction(family_plan.founder_point) <= kMaxStrangerFractionForFounder)
+  if (fraction_of_strangers_nearer_than_parent(point) <= kMaxStrangerFractionForChild) return true;
+  if (fraction_of_strangers_nearer_than_parent(family_plan.founder_point) <=
+      kMaxStrangerFractionForFounder)
     return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
     return FaceSpace::distance(point, parent.point) <=
@@ -424,7 +425,8 @@ bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
   });
 }
 
-double FamilySampler::nearer_stranger_fraction(const FaceSpace::Point& point) const {
+double FamilySampler::fraction_of_strangers_nearer_than_parent(
+    const FaceSpace::Point& point) const {
   double share = 0;
   for (const KnownParent& parent : parents_) {
     if (!target_substitutes_.contains_all(target_head_weights(parent.face.recipe))) continue;

@@ -25,12 +25,12 @@ struct FamilyPlan {
   Index members_begin = 0, members_end = 0;  ///< indices of the members in the crowd: [begin, end)
   /// largest value, over all pairs of parent and child, of the fraction of strangers that are
   /// nearer to the child than the parent is
-  double nearer_stranger_fraction = 0;
+  double fraction_of_strangers_nearer_than_parent = 0;
 };
 
-/// Largest allowed FamilySampler::nearer_stranger_fraction of a family's founder. The founder is
-/// the mean of both parents. The limit for children is larger, so that children can differ from the
-/// founder.
+/// Largest allowed FamilySampler::fraction_of_strangers_nearer_than_parent of a family's founder.
+/// The founder is the mean of both parents. The limit for children is larger, so that children can
+/// differ from the founder.
 inline constexpr double kMaxStrangerFractionForFounder = 0.06;
 
 /// Makes random faces of one family. Each member lies between the founder and a random face. The
@@ -75,7 +75,7 @@ class FamilySampler {
   /// For each parent, computes the fraction of strangers that are nearer to the point than the
   /// parent is. Returns the larger fraction. For a family in a group, the strangers are faces of
   /// this group, and a parent is considered only if all heads of the parent are in the group.
-  double nearer_stranger_fraction(const FaceSpace::Point& point) const;
+  double fraction_of_strangers_nearer_than_parent(const FaceSpace::Point& point) const;
 
  private:
   struct KnownParent {

@@ -25,11 +25,11 @@ class LikenessTree {
   ///                face. The caller may set entries to true later. Must outlive this object.
   LikenessTree(const std::vector<FaceSpace::Point>& points, const std::vector<bool>& gone)
       : points_(points), gone_(gone) {
-    add_variant(&FaceSpace::Point::with_extrapolation);
+    add_variant(&FaceSpace::Point::coordinates_with_extrapolation);
     if (std::any_of(points.begin(), points.end(), [](const FaceSpace::Point& point) {
-          return point.with_extrapolation != point.without_extrapolation;
+          return point.coordinates_with_extrapolation != point.coordinates_without_extrapolation;
         })) {
-      add_variant(&FaceSpace::Point::without_extrapolation);
+      add_variant(&FaceSpace::Point::coordinates_without_extrapolation);
     }
   }
 

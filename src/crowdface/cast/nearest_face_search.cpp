@@ -103,10 +103,10 @@ NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit_squa
 }
 
 void NearestFaceSearch::add(const FaceSpace::Point& point) {
-  trees_with_extrapolation_.add(point.with_extrapolation);
-  trees_without_extrapolation_.add(point.without_extrapolation);
-  has_extrapolated_faces_ =
-      has_extrapolated_faces_ || point.with_extrapolation != point.without_extrapolation;
+  trees_with_extrapolation_.add(point.coordinates_with_extrapolation);
+  trees_without_extrapolation_.add(point.coordinates_without_extrapolation);
+  has_extrapolated_faces_ = has_extrapolated_faces_ || point.coordinates_with_extrapolation !=
+                                                           point.coordinates_without_extrapolation;
 }
 
 NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point& point,
@@ -114,13 +114,15 @@ NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point
                                                           double sufficient_distance_mm) const {
   if (end < 0) end = size();
   const double sufficient_squared_distance = sufficient_distance_mm * sufficient_distance_mm;
-  NearestPoint hit = trees_with_extrapolation_.nearest(
-      point.with_extrapolation, limit_mm * limit_mm, begin, end, sufficient_squared_distance);
+  NearestPoint hit =
+      trees_with_extrapolation_.nearest(point.coordinates_with_extrapolation, limit_mm * limit_mm,
+                                        begin, end, sufficient_squared_distance);
   const bool done = hit.point >= 0 && hit.squared_distance < sufficient_squared_distance;
-  if (!done &&
-      (has_extrapolated_faces_ || point.with_extrapolation != point.without_extrapolation)) {
+  if (!done && (has_extrapolated_faces_ ||
+                point.coordinates_with_extrapolation != point.coordinates_without_extrapolation)) {
     const NearestPoint other = trees_without_extrapolation_.nearest(
-        point.without_extrapolation, hit.squared_distance, begin, end, sufficient_squared_distance);
+        point.coordinates_without_extrapolation, hit.squared_distance, begin, end,
+        sufficient_squared_distance);
     if (other.point >= 0) hit = other;
   }
   if (hit.point < 0) return {};

@@ -62,7 +62,7 @@ Plausibility::Plausibility(const FaceSpace& space) {
   std::vector<Eigen::VectorXf> heads;
   const Index count = space.head_count();
   for (Index h = 0; h < space.head_point_count(); ++h) {
-    heads.push_back(space.head_point(h).with_extrapolation);
+    heads.push_back(space.head_point(h).coordinates_with_extrapolation);
   }
   metric_ = metric_without(heads, count, -1);
   // With three or more heads, leave out each head in turn. With two heads, the remaining head would
@@ -80,7 +80,7 @@ Plausibility::Plausibility(const FaceSpace& space) {
 }
 
 double Plausibility::score(const FaceSpace::Point& point) const {
-  return std::sqrt(std::max(squared_distance(metric_, point.with_extrapolation), 0.0)) /
+  return std::sqrt(std::max(squared_distance(metric_, point.coordinates_with_extrapolation), 0.0)) /
          typical_distance_;
 }
 

@@ -59,17 +59,19 @@ std::vector<TrianglePair> nearby_non_adjacent_pairs(const std::vector<Triangle>&
 ProxySkin::ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
                      const std::vector<Positions>& heads)
     : triangles_(std::move(triangles)), nearby_pairs_(nearby_non_adjacent_pairs(triangles_, mean)) {
-  for (const Positions& head : heads) head_targets_.push_back(target_of_samples(head));
+  for (const Positions& head : heads)
+    reference_skins_of_heads_.push_back(make_reference_skin(head));
 }
 
-ProxySkin::Target ProxySkin::target_of_samples(const Positions& samples) const {
+ProxySkin::ReferenceSkin ProxySkin::make_reference_skin(const Positions& samples) const {
   return {TargetTriangles(triangles_, samples),
           NewIntersections(triangles_, samples.rows(),
                            intersecting_pairs(triangles_, samples, nearby_pairs_))};
 }
 
-Index ProxySkin::intersecting_triangles(const Positions& samples, const Target& target) const {
-  return target.intersections.count(intersecting_pairs(triangles_, samples, nearby_pairs_));
+Index ProxySkin::count_newly_intersecting_triangles(const Positions& samples,
+                                                    const ReferenceSkin& reference) const {
+  return reference.intersections.count(intersecting_pairs(triangles_, samples, nearby_pairs_));
 }
 
 }  // namespace crowdface

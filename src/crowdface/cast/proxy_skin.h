@@ -17,27 +17,31 @@ class ProxySkin {
   ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
             const std::vector<Positions>& heads);
 
-  /// The target of a face (the samples of a head or of a mixture), prepared for comparison with the
-  /// face.
-  struct Target {
-    /// the target's triangles, with which flips and stretch are measured
-    TargetTriangles triangles;
-    NewIntersections intersections;
+  /// The skin of a face's target (a head or a mixture of heads), prepared for comparison with the
+  /// face's skin.
+  struct ReferenceSkin {
+    TargetTriangles triangles;       ///< measures flips and stretch relative to the target
+    NewIntersections intersections;  ///< counts intersections that the target does not have
   };
-  const Target& target_of_head(Index head) const {
-    return head_targets_[static_cast<std::size_t>(head)];
+  /// \param head  index into the constructor's `heads`
+  const ReferenceSkin& reference_skin_of_head(Index head) const {
+    return reference_skins_of_heads_[static_cast<std::size_t>(head)];
   }
-  Target target_of_samples(const Positions& samples) const;
+  /// \param samples  #S by 3, samples of the target in millimetres
+  ReferenceSkin make_reference_skin(const Positions& samples) const;
 
-  /// Returns the number of triangles that take part in intersections that the target does not have.
+  /// Returns the number of triangles that take part in intersections that the reference skin does
+  /// not have.
+  /// \param samples  #S by 3, samples of the face in millimetres
   /// Considers only pairs of triangles that are near each other on the mean head but are not
   /// neighbours, as at lips, lids, nostrils and folds.
-  Index intersecting_triangles(const Positions& samples, const Target& target) const;
+  Index count_newly_intersecting_triangles(const Positions& samples,
+                                           const ReferenceSkin& reference) const;
 
  private:
   std::vector<Triangle> triangles_;
   std::vector<TrianglePair> nearby_pairs_;
-  std::vector<Target> head_targets_;
+  std::vector<ReferenceSkin> reference_skins_of_heads_;
 };
 
 }  // namespace crowdface

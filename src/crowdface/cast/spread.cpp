@@ -36,11 +36,12 @@ double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double 
 }
 
 double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, double limit) {
-  const double with_extrapolation =
-      squared_up_to(a.with_extrapolation, b.with_extrapolation, limit);
-  return std::min(with_extrapolation,
-                  squared_up_to(a.without_extrapolation, b.without_extrapolation,
-                                std::min(limit, with_extrapolation)));
+  const double squared_distance_with_extrapolation =
+      squared_up_to(a.coordinates_with_extrapolation, b.coordinates_with_extrapolation, limit);
+  return std::min(
+      squared_distance_with_extrapolation,
+      squared_up_to(a.coordinates_without_extrapolation, b.coordinates_without_extrapolation,
+                    std::min(limit, squared_distance_with_extrapolation)));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& gro
   float count = 0;
   for (Index head = 0; head < space.head_count(); ++head) {
     if (contains(group, head) != inside) continue;
-    sum += space.head_point(head).with_extrapolation;
+    sum += space.head_point(head).coordinates_with_extrapolation;
     count += 1;
   }
   return count > 0 ? Eigen::VectorXf(sum / count) : sum;
@@ -39,14 +39,14 @@ SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags
       substitutes_.push_back(head);
       continue;
     }
-    const Eigen::VectorXf place = space.head_point(head).with_extrapolation + apart;
+    const Eigen::VectorXf place = space.head_point(head).coordinates_with_extrapolation + apart;
     const auto rank = [&](Index other) {
       const std::size_t common = tags.empty()
                                      ? 0
                                      : common_tag_count(tags[static_cast<std::size_t>(head)],
                                                         tags[static_cast<std::size_t>(other)]);
       return std::tuple(-static_cast<std::ptrdiff_t>(common), contains(parents_heads, other),
-                        (space.head_point(other).with_extrapolation - place).norm());
+                        (space.head_point(other).coordinates_with_extrapolation - place).norm());
     };
     substitutes_.push_back(*std::min_element(group.begin(), group.end(),
                                              [&](Index a, Index b) { return rank(a) < rank(b); }));

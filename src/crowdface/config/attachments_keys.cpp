@@ -62,7 +62,7 @@ Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
 
 const Keys<Attachment>& item_keys() {
   const auto write_tags = [](const Attachment& item, const WriteContext&) {
-    return item.tags.empty() ? "" : flow_list_of_names(item.tags);
+    return item.tags.empty() ? "" : yaml_flow_list_of_names(item.tags);
   };
   const auto has_colour = [](const Attachment& item, const auto&) { return !item.colour.empty(); };
   const auto has_tint = [](const Attachment& item, const auto&) {
@@ -123,8 +123,8 @@ void read_items(const YamlNode& node, Attachments& attachments, ConfigDraft& dra
 }
 
 std::string write_items(const Attachments& attachments, const WriteContext& context) {
-  return block_list(texts_of(attachments.items, [&](const Attachment& item) {
-    return flow_map(write_keys(item_keys(), item, context));
+  return yaml_block_list(texts_of(attachments.items, [&](const Attachment& item) {
+    return yaml_flow_map(write_keys(item_keys(), item, context));
   }));
 }
 
@@ -215,7 +215,7 @@ auto write_shares(std::map<std::string, double> Attachments::*shares) {
     const auto entries = texts_of(attachments.*shares, [](const auto& share) {
       return yaml_entry(write_scalar(share.first), format_number(share.second));
     });
-    return entries.empty() ? "" : flow_map(entries);
+    return entries.empty() ? "" : yaml_flow_map(entries);
   };
 }
 
@@ -377,14 +377,14 @@ void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) 
 std::optional<StarterLines> attachments_starter(const StarterFacts& facts) {
   if (facts.attachments_folder.empty()) return std::nullopt;
   return StarterLines{
-      flow_map({yaml_entry("from", write_scalar(facts.attachments_folder.string()))}), "",
+      yaml_flow_map({yaml_entry("from", write_scalar(facts.attachments_folder.string()))}), "",
       "Hair, beards, … in the folder beside the heads; its file attachments.yaml lists them\n"
       "(docs/attachments.md)."};
 }
 
 std::string write_attachments(const Config& config, const WriteContext& context) {
   if (config.attachments.items.empty()) return "";
-  return block_map(write_keys(attachments_keys(), config.attachments, context));
+  return yaml_block_map(write_keys(attachments_keys(), config.attachments, context));
 }
 
 }  // namespace

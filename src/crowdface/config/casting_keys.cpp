@@ -83,10 +83,10 @@ std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
     const auto sources = part(sources_of(sampling, b), b, std::identity());
     bands.push_back(
         yaml_entry(write_scalar(sampling.bands[b].name),
-                   flow_map({yaml_entry("sources", head_list().write(sources, context))})));
+                   yaml_flow_map({yaml_entry("sources", head_list().write(sources, context))})));
   }
-  if (!bands.empty()) entries.push_back(yaml_entry("bands", flow_map(bands)));
-  return flow_map(entries);
+  if (!bands.empty()) entries.push_back(yaml_entry("bands", yaml_flow_map(bands)));
+  return yaml_flow_map(entries);
 }
 
 std::optional<Quota> read_quota(const YamlNode& node, const YamlEntry& entry, ConfigDraft& draft) {
@@ -177,7 +177,7 @@ std::string write_first_distances(const DiversityOptions& diversity, const Write
     return yaml_entry(std::to_string(first.first),
                       length(kMaxDistanceMm).write(first.second, context));
   });
-  return entries.empty() ? "" : flow_map(entries);
+  return entries.empty() ? "" : yaml_flow_map(entries);
 }
 
 /// Makes an obsolete key. The configs of older crowds contain the key with the value `value`. The
@@ -206,7 +206,7 @@ namespace {
 /// Proposes a minimum distance that all faces of the starter config can keep without exceeding the
 /// config's believability limits.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
-  const std::size_t in_group = head_count_of_smaller_sex(facts);
+  const std::size_t in_group = head_count_of_rarer_sex(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.head_names.size();
   struct Proposal {
     std::size_t heads;  ///< smallest number of heads for which this distance is proposed
@@ -265,7 +265,7 @@ void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft
 
 std::string write_believability(const Config& config, const WriteContext& context) {
   if (!config.believability.check) return "none";
-  return block_map(write_keys(believability_keys(), config.believability, context));
+  return yaml_block_map(write_keys(believability_keys(), config.believability, context));
 }
 
 }  // namespace

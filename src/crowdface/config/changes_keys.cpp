@@ -135,8 +135,9 @@ std::string write_locked(const FaceChange& change, const WriteContext& context) 
   const std::vector<std::string> parts = context.config.region_band_names();
   return change.locked_bands.empty()
              ? ""
-             : flow_list(texts_of(change.locked_bands,
-                                  [&](std::size_t part) { return write_scalar(parts[part]); }));
+             : yaml_flow_list(texts_of(change.locked_bands, [&](std::size_t part) {
+                 return write_scalar(parts[part]);
+               }));
 }
 
 const Keys<FaceChange>& change_keys() {
@@ -240,9 +241,9 @@ std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft) {
 }
 
 std::string write_changes(const std::vector<FaceChange>& changes, const WriteContext& context) {
-  return block_map(texts_of(changes, [&](const FaceChange& change) {
+  return yaml_block_map(texts_of(changes, [&](const FaceChange& change) {
     return yaml_entry(write_scalar(change.id),
-                      flow_map(write_keys(change_keys(), change, context)));
+                      yaml_flow_map(write_keys(change_keys(), change, context)));
   }));
 }
 

@@ -118,7 +118,7 @@ std::vector<Eigen::Index> read_heads(const YamlNode& node, ConfigDraft& draft) {
 
 std::string write_heads(const std::vector<Eigen::Index>& heads, const WriteContext& context) {
   if (heads.size() == context.config.faces.names.size()) return "all";
-  return flow_list(texts_of(heads, [&](Eigen::Index head) { return context.head(head); }));
+  return yaml_flow_list(texts_of(heads, [&](Eigen::Index head) { return context.head(head); }));
 }
 
 std::vector<WeightedHead> read_weighted_heads(const YamlNode& node, ConfigDraft& draft) {
@@ -232,7 +232,8 @@ Codec<Range> range(const Codec<double>& one) {
           },
           [=](const Range& range, const WriteContext& context) {
             const std::string low = one.write(range.low, context);
-            return range.low == range.high ? low : flow_list({low, one.write(range.high, context)});
+            return range.low == range.high ? low
+                                           : yaml_flow_list({low, one.write(range.high, context)});
           },
           concat(one.accepted_values, ", or a range")};
 }
@@ -283,7 +284,7 @@ Codec<SmoothnessDistribution> iterations() {
 }
 
 std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context) {
-  return flow_map(texts_of(weights, [&](const WeightedHead& one) {
+  return yaml_flow_map(texts_of(weights, [&](const WeightedHead& one) {
     return yaml_entry(context.head(one.head), format_number(one.weight));
   }));
 }
@@ -327,7 +328,7 @@ Codec<PlanePoint> plane_point() {
             return x && y ? std::optional(PlanePoint(*x, *y)) : std::nullopt;
           },
           [](const PlanePoint& at, const WriteContext&) {
-            return flow_list({format_number(at.x()), format_number(at.y())});
+            return yaml_flow_list({format_number(at.x()), format_number(at.y())});
           },
           "`[x, y]`"};
 }
@@ -356,7 +357,7 @@ Codec<std::map<std::string, double>> hair_colours() {
             return std::optional(shares);
           },
           [](const std::map<std::string, double>& shares, const WriteContext&) {
-            return flow_map(texts_of(shares, [](const auto& share) {
+            return yaml_flow_map(texts_of(shares, [](const auto& share) {
               return yaml_entry(share.first, format_number(share.second));
             }));
           },

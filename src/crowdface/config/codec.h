@@ -139,7 +139,7 @@ Codec<std::vector<Value>> list(const Codec<Value>& item, const std::string& expe
             return std::optional(values);
           },
           [=](const std::vector<Value>& values, const WriteContext& context) {
-            return flow_list(
+            return yaml_flow_list(
                 texts_of(values, [&](const Value& value) { return item.write(value, context); }));
           },
           remove_article(expected)};

@@ -195,8 +195,8 @@ std::set<std::string> keys_not_affecting_recipes();
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
                            const WriteContext& context) {
-  return block_list(texts_of(sections, [&](const Section& section) {
-    return block_map(write_keys(keys, section, context));
+  return yaml_block_list(texts_of(sections, [&](const Section& section) {
+    return yaml_block_map(write_keys(keys, section, context));
   }));
 }
 
@@ -263,7 +263,7 @@ Key<Section> section_key(std::string_view name, Member Section::*member, const K
         if (check) check(node, draft.complaints.size() == complaints_before, draft);
       },
       [=, &keys](const Section& section, const WriteContext& context) {
-        return block_map(write_keys(keys, section.*member, context));
+        return yaml_block_map(write_keys(keys, section.*member, context));
       },
       required_example,
       starter_section(keys),
@@ -294,7 +294,7 @@ Key<Config> recipes_key();
 Key<Config> groups_key();
 /// A starter config may divide the crowd into two groups, women and men. Returns the number of
 /// heads of the sex with fewer heads; 0 if the starter config has no groups.
-std::size_t head_count_of_smaller_sex(const StarterFacts& facts);
+std::size_t head_count_of_rarer_sex(const StarterFacts& facts);
 Key<Config> families_key();
 Key<Config> changes_key();
 /// Reads the changes of single faces that a config or a review requests.

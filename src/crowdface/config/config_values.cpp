@@ -149,19 +149,19 @@ bool has_control_character(std::string_view text) {
   });
 }
 
-std::string flow_list(const std::vector<std::string>& items) {
+std::string yaml_flow_list(const std::vector<std::string>& items) {
   return concat('[', join(items), ']');
 }
 
-std::string flow_map(const std::vector<std::string>& entries) {
+std::string yaml_flow_map(const std::vector<std::string>& entries) {
   return concat('{', join(entries), '}');
 }
 
-std::string flow_list_of_names(const std::vector<std::string>& names) {
-  return flow_list(texts_of(names, write_scalar));
+std::string yaml_flow_list_of_names(const std::vector<std::string>& names) {
+  return yaml_flow_list(texts_of(names, write_scalar));
 }
 
-std::string block_list(const std::vector<std::string>& items) {
+std::string yaml_block_list(const std::vector<std::string>& items) {
   if (items.empty()) return "[]";
   std::string lines;
   for (const std::string& item : items) {
@@ -171,7 +171,7 @@ std::string block_list(const std::vector<std::string>& items) {
   return lines;
 }
 
-std::string block_map(const std::vector<std::string>& entries) {
+std::string yaml_block_map(const std::vector<std::string>& entries) {
   if (entries.empty()) return "{}";
   return concat('\n', join(entries, "\n"));
 }

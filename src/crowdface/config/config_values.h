@@ -84,15 +84,15 @@ bool has_control_character(std::string_view text);
 std::string plain_number(double value);
 
 /// Return a list or mapping in YAML's flow style, in one line: "[a, b]", "{a: 1, b: 2}".
-std::string flow_list(const std::vector<std::string>& items);
-std::string flow_map(const std::vector<std::string>& entries);
+std::string yaml_flow_list(const std::vector<std::string>& items);
+std::string yaml_flow_map(const std::vector<std::string>& entries);
 /// Returns a list of names in flow style; names that YAML would misread are quoted.
-std::string flow_list_of_names(const std::vector<std::string>& names);
-/// Return a list (block_list) or a mapping (block_map) in YAML's block style, with one line for
-/// each item; "[]" or "{}" if empty. yaml_entry() and block_list() indent the lines of such a
-/// result.
-std::string block_list(const std::vector<std::string>& items);
-std::string block_map(const std::vector<std::string>& entries);
+std::string yaml_flow_list_of_names(const std::vector<std::string>& names);
+/// Return a list (yaml_block_list) or a mapping (yaml_block_map) in YAML's block style, with one
+/// line for each item; "[]" or "{}" if empty. yaml_entry() and yaml_block_list() indent the lines
+/// of such a result.
+std::string yaml_block_list(const std::vector<std::string>& items);
+std::string yaml_block_map(const std::vector<std::string>& entries);
 /// Returns an entry of a YAML mapping, "key: value". If the value is in block style, indents its
 /// lines.
 std::string yaml_entry(std::string_view key, std::string_view value);

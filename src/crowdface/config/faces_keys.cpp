@@ -135,7 +135,7 @@ void read_more_files(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
 }
 
 std::string write_files(const Faces& faces, const WriteContext& context) {
-  return block_list(
+  return yaml_block_list(
       texts_of(faces.files, [&](const fs::path& file) { return path("").write(file, context); }));
 }
 
@@ -143,9 +143,10 @@ std::string write_tags(const Faces& faces, const WriteContext&) {
   std::vector<std::string> heads;
   for (std::size_t i = 0; i < faces.tags.size(); ++i) {
     if (faces.tags[i].empty()) continue;
-    heads.push_back(yaml_entry(write_scalar(faces.names[i]), flow_list_of_names(faces.tags[i])));
+    heads.push_back(
+        yaml_entry(write_scalar(faces.names[i]), yaml_flow_list_of_names(faces.tags[i])));
   }
-  return block_map(heads);
+  return yaml_block_map(heads);
 }
 
 Codec<Axis> axis() {
@@ -282,7 +283,7 @@ std::optional<StarterLines> faces_starter(const StarterFacts& facts) {
 }
 
 std::string write_faces(const Config& config, const WriteContext& context) {
-  return block_map(write_keys(faces_keys(), config.faces, context));
+  return yaml_block_map(write_keys(faces_keys(), config.faces, context));
 }
 
 }  // namespace

@@ -85,14 +85,14 @@ void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
 
 std::string write_parent(const Parent& parent, const WriteContext& context) {
   if (!parent.is_new) return write_scalar(parent.id);
-  return parent.group ? flow_map({yaml_entry("group", group().write(*parent.group, context))})
+  return parent.group ? yaml_flow_map({yaml_entry("group", group().write(*parent.group, context))})
                       : "drawn";
 }
 
 std::string write_parents(const FamilyOptions& family, const WriteContext& context) {
   if (family.parents.empty()) return "";
-  return flow_map({yaml_entry(word_of(0), write_parent(family.parents[0], context)),
-                   yaml_entry(word_of(1), write_parent(family.parents[1], context))});
+  return yaml_flow_map({yaml_entry(word_of(0), write_parent(family.parents[0], context)),
+                        yaml_entry(word_of(1), write_parent(family.parents[1], context))});
 }
 
 void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
@@ -125,7 +125,7 @@ std::string write_inherit(const FamilyOptions& family, const WriteContext& conte
     entries.push_back(
         yaml_entry(write_scalar(names[part]), std::string(word_of(family.parent_of_band[part]))));
   }
-  return flow_map(entries);
+  return yaml_flow_map(entries);
 }
 
 void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {

@@ -210,9 +210,9 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
 }
 
 std::optional<StarterLines> groups_starter(const StarterFacts& facts) {
-  if (head_count_of_smaller_sex(facts) == 0) return std::nullopt;
-  return StarterLines{block_list({"{name: women, share: 0.5, tags: [female]}",
-                                  "{name: men, share: 0.5, tags: [male]}"}),
+  if (head_count_of_rarer_sex(facts) == 0) return std::nullopt;
+  return StarterLines{yaml_block_list({"{name: women, share: 0.5, tags: [female]}",
+                                       "{name: men, share: 0.5, tags: [male]}"}),
                       "",
                       "Hair and beards depend on the tags of the target head, features on all "
                       "source heads:\nseparate groups keep women and men apart."};
@@ -224,7 +224,7 @@ std::string write_groups(const Config& config, const WriteContext& context) {
 
 }  // namespace
 
-std::size_t head_count_of_smaller_sex(const StarterFacts& facts) {
+std::size_t head_count_of_rarer_sex(const StarterFacts& facts) {
   const auto heads = [&](const std::string& tag) {
     return std::ranges::count_if(facts.tags,
                                  [&](const auto& tags) { return has_tags(tags, {tag}); });

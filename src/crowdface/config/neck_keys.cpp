@@ -63,7 +63,7 @@ void read_neck(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::string write_neck(const Config& config, const WriteContext& context) {
   if (!config.neck.is_set()) return "";
-  return block_map(write_keys(neck_keys(), config.neck, context));
+  return yaml_block_map(write_keys(neck_keys(), config.neck, context));
 }
 
 }  // namespace

@@ -110,11 +110,12 @@ void read_lods(const YamlNode& node, Output& output, ConfigDraft& draft) {
 }
 
 std::string write_lods(const Output& output, const WriteContext&) {
-  return flow_list(texts_of(output.lods, [](double percent) { return concat(percent, " %"); }));
+  return yaml_flow_list(
+      texts_of(output.lods, [](double percent) { return concat(percent, " %"); }));
 }
 
 std::string write_surfaces(const Output& output, const WriteContext&) {
-  return flow_map(texts_of(output.surfaces, [](const auto& named) {
+  return yaml_flow_map(texts_of(output.surfaces, [](const auto& named) {
     const auto& [name, surface] = named;
     return yaml_entry(write_scalar(name),
                       surface.colour ? write_colour(*surface.colour) : word_of(surface.kind));
@@ -195,7 +196,7 @@ void read_contact_sheet(const YamlNode& node, Output& output, ConfigDraft& draft
 
 std::string write_contact_sheet(const Output& output, const WriteContext& context) {
   if (!output.contact_sheet) return "none";
-  return block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, context));
+  return yaml_block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, context));
 }
 
 /// The first four keys of a contact sheet, which users change most often, with their default
@@ -203,7 +204,7 @@ std::string write_contact_sheet(const Output& output, const WriteContext& contex
 StarterLines starter_sheet(const StarterFacts&) {
   std::vector<std::string> entries = write_keys(contact_sheet_keys(), Sheet{}, {Config{}, {}});
   entries.resize(4);
-  return {flow_map(entries)};
+  return {yaml_flow_map(entries)};
 }
 
 /// Returns the names of all mesh formats except the first format.

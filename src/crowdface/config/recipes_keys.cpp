@@ -74,9 +74,9 @@ std::string write_recipe_bands(const HandRegion& region, const WriteContext& con
         write_keys(recipe_band_keys(), region.bands[b], context);
     if (values.empty()) continue;
     entries.push_back(
-        yaml_entry(write_scalar(context.config.sampling.bands[b].name), flow_map(values)));
+        yaml_entry(write_scalar(context.config.sampling.bands[b].name), yaml_flow_map(values)));
   }
-  return entries.empty() ? "" : flow_map(entries);
+  return entries.empty() ? "" : yaml_flow_map(entries);
 }
 
 const Keys<HandRegion>& region_keys() {
@@ -121,10 +121,11 @@ std::string write_regions_of(const ManualRecipe& recipe, const WriteContext& con
   const std::vector<std::string> names = context.config.region_names();
   std::vector<std::string> entries;
   for (std::size_t i = 0; i < recipe.regions.size(); ++i) {
-    entries.push_back(yaml_entry(write_scalar(names[i]),
-                                 flow_map(write_keys(region_keys(), recipe.regions[i], context))));
+    entries.push_back(
+        yaml_entry(write_scalar(names[i]),
+                   yaml_flow_map(write_keys(region_keys(), recipe.regions[i], context))));
   }
-  return block_map(entries);
+  return yaml_block_map(entries);
 }
 
 /// Returns whether an id has the form of the ids of this crowd's sampled faces: NAME_0001 and so
@@ -237,7 +238,7 @@ std::optional<ManualRecipe> parse_manual_recipe(std::string_view text, const std
 }
 
 std::string format_manual_recipe(const ManualRecipe& recipe, const Config& config) {
-  return block_map(write_keys(recipe_keys(), recipe, {config, {}}));
+  return yaml_block_map(write_keys(recipe_keys(), recipe, {config, {}}));
 }
 
 }  // namespace crowdface

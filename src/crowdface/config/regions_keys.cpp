@@ -42,7 +42,7 @@ void read_masks(const YamlNode& node, Regions& regions, ConfigDraft& draft) {
 }
 
 std::string write_masks(const Regions& regions, const WriteContext& context) {
-  return block_list(texts_of(
+  return yaml_block_list(texts_of(
       regions.mask, [&](const std::string& mask) { return path("").write(mask, context); }));
 }
 
@@ -74,10 +74,11 @@ void read_region_names(const YamlNode& node, Regions& regions, ConfigDraft& draf
 
 const Keys<Regions>& regions_keys() {
   static const Keys<Regions> keys = {
-      Key<Regions>{
-          "names", read_region_names,
-          [](const Regions& regions, const auto&) { return flow_list_of_names(regions.names); },
-          "such as [top, middle, bottom]"}
+      Key<Regions>{"names", read_region_names,
+                   [](const Regions& regions, const auto&) {
+                     return yaml_flow_list_of_names(regions.names);
+                   },
+                   "such as [top, middle, bottom]"}
           .with_accepted_values(concat("list of 1 to ", kMaxRegions, " names")),
       Key<Regions>{"mask", read_masks, write_masks, "the image whose channels are the regions"}
           .with_accepted_values("image file, or list of image files")};
@@ -100,8 +101,8 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
         "per\nregion, in the layout of the meshes' UVs (crowdface mask proposes one). Without it, "
         "the\nhead is a single region.\nregions: {names: [top, middle, bottom], mask: bands.png}"};
   }
-  return StarterLines{block_map({concat("names: [", join(facts.regions), ']'),
-                                 yaml_entry("mask", write_scalar(facts.mask_file))}),
+  return StarterLines{yaml_block_map({concat("names: [", join(facts.regions), ']'),
+                                      yaml_entry("mask", write_scalar(facts.mask_file))}),
                       "",
                       "Regions of the face that are blended separately: each colour channel of the "
                       "image masks one\nregion. \"regions: none\" makes the head a single region."};
@@ -109,7 +110,7 @@ std::optional<StarterLines> regions_starter(const StarterFacts& facts) {
 
 std::string write_regions(const Config& config, const WriteContext& context) {
   if (config.regions.names.empty()) return "none";
-  return block_map(write_keys(regions_keys(), config.regions, context));
+  return yaml_block_map(write_keys(regions_keys(), config.regions, context));
 }
 
 }  // namespace

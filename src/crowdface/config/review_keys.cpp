@@ -181,9 +181,9 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
 std::string format_mark(const ReviewMark& mark, const std::vector<std::string>& parts) {
   std::vector<std::string> entries = {yaml_entry("mark", word_of(mark.verdict))};
   const auto locked = texts_of(mark.locked_bands, [&](std::size_t k) { return parts[k]; });
-  if (!locked.empty()) entries.push_back(yaml_entry("lock", flow_list_of_names(locked)));
+  if (!locked.empty()) entries.push_back(yaml_entry("lock", yaml_flow_list_of_names(locked)));
   if (mark.note) entries.push_back(yaml_entry("note", write_scalar(*mark.note)));
-  return yaml_entry(write_scalar(mark.id), flow_map(entries));
+  return yaml_entry(write_scalar(mark.id), yaml_flow_map(entries));
 }
 
 }  // namespace
@@ -272,12 +272,12 @@ std::string format_review(const Review& review, const Config& config) {
   }
   const auto marks =
       texts_of(review.marks, [&](const ReviewMark& mark) { return format_mark(mark, parts); });
-  if (!marks.empty()) entries.push_back(yaml_entry("faces", block_map(marks)));
+  if (!marks.empty()) entries.push_back(yaml_entry("faces", yaml_block_map(marks)));
   if (!review.changes.empty()) {
     entries.push_back(yaml_entry("changes", write_changes(review.changes, {config, {}})));
   }
   if (marks.empty() && review.changes.empty()) entries.emplace_back("faces: {}");
-  return block_map(entries).substr(1) + '\n';
+  return yaml_block_map(entries).substr(1) + '\n';
 }
 
 Review parse_review(std::string_view text, const std::string& source, const Config& config,

@@ -108,7 +108,7 @@ void read_anchors(const YamlNode& node, Plane& plane, ConfigDraft& draft) {
 }
 
 std::string write_anchors(const Plane& plane, const WriteContext& context) {
-  return block_map(texts_of(plane.anchors, [&](const auto& anchor) {
+  return yaml_block_map(texts_of(plane.anchors, [&](const auto& anchor) {
     return yaml_entry(context.head(anchor.first), plane_point().write(anchor.second, context));
   }));
 }
@@ -161,7 +161,7 @@ void read_parts(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::string write_parts(const Config& config, const WriteContext& context) {
   if (!config.parts.follow_skin) return "none";
-  return block_map(write_keys(parts_keys(), config.parts, context));
+  return yaml_block_map(write_keys(parts_keys(), config.parts, context));
 }
 
 /// Makes a key whose value is the path of an existing file, or `none`.
@@ -321,11 +321,11 @@ std::set<std::string> keys_not_affecting_recipes() {
 std::string effective_config(const Config& config, const std::filesystem::path& directory) {
   const WriteContext context = {config,
                                 std::filesystem::absolute(directory / "").lexically_normal()};
-  return block_map(write_keys(root_keys(), config, context)).substr(1) + '\n';
+  return yaml_block_map(write_keys(root_keys(), config, context)).substr(1) + '\n';
 }
 
 std::string face_settings_yaml(const Config& config) {
-  return block_map(write_keys(
+  return yaml_block_map(write_keys(
       root_keys(), config,
       {.config = config, .folder = {}, .written_keys = WriteContext::WrittenKeys::kFaces}));
 }
@@ -334,7 +334,7 @@ std::string plan_settings_yaml(const Config& config, const std::filesystem::path
   WriteContext context = {config, std::filesystem::absolute(directory / "").lexically_normal()};
   const std::string changes = changes_key().write(config, context);
   context.written_keys = WriteContext::WrittenKeys::kPlan;
-  return block_map(write_keys(root_keys(), config, context)) + changes;
+  return yaml_block_map(write_keys(root_keys(), config, context)) + changes;
 }
 
 }  // namespace crowdface

@@ -104,7 +104,7 @@ Key<Section> per_region_key(std::string_view name, Member Region::*member,
           if (value.empty()) continue;
           entries.push_back(yaml_entry(names.empty() ? "default" : write_scalar(names[i]), value));
         }
-        return entries.empty() ? "" : block_map(entries);
+        return entries.empty() ? "" : yaml_block_map(entries);
       },
       {},
       {},
@@ -172,23 +172,24 @@ std::string write_position(const PositionDistribution& position, const WriteCont
   Keys<PositionDistribution> keys = position_keys();
   std::erase_if(keys,
                 [&](const auto& key) { return !contains(keys_of(position.kind).keys, key.name); });
-  return flow_map(write_keys(keys, position, context));
+  return yaml_flow_map(write_keys(keys, position, context));
 }
 
 /// Codec for a smoothness as in smoothness(), or as `{iterations: …}`.
 Codec<SmoothnessDistribution> sampled_smoothness() {
-  return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
-            if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
-            const MapReader map(node, {"iterations"}, draft.complaints);
-            const YamlNode* count = map.require("iterations", "a whole number or [low, high]");
-            return count == nullptr ? std::nullopt : iterations().read(*count, draft);
-          },
-          [](const SmoothnessDistribution& value, const WriteContext& context) {
-            return value.unit == SmoothnessDistribution::Unit::kIterations
-                       ? flow_map({yaml_entry("iterations", iterations().write(value, context))})
-                       : smoothness().write(value, context);
-          },
-          concat(smoothness().accepted_values, ", or `{iterations: …}`")};
+  return {
+      [](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
+        if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
+        const MapReader map(node, {"iterations"}, draft.complaints);
+        const YamlNode* count = map.require("iterations", "a whole number or [low, high]");
+        return count == nullptr ? std::nullopt : iterations().read(*count, draft);
+      },
+      [](const SmoothnessDistribution& value, const WriteContext& context) {
+        return value.unit == SmoothnessDistribution::Unit::kIterations
+                   ? yaml_flow_map({yaml_entry("iterations", iterations().write(value, context))})
+                   : smoothness().write(value, context);
+      },
+      concat(smoothness().accepted_values, ", or `{iterations: …}`")};
 }
 
 constexpr std::size_t kMaxBands = 4;
@@ -263,8 +264,9 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
 
 std::string write_bands(const SamplingOptions& sampling, const WriteContext& context) {
   if (sampling.bands.empty()) return "";
-  return block_map(texts_of(sampling.bands, [&](const BandSampling& band) {
-    return yaml_entry(write_scalar(band.name), block_map(write_keys(band_keys(), band, context)));
+  return yaml_block_map(texts_of(sampling.bands, [&](const BandSampling& band) {
+    return yaml_entry(write_scalar(band.name),
+                      yaml_block_map(write_keys(band_keys(), band, context)));
   }));
 }
 

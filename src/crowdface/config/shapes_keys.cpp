@@ -172,7 +172,7 @@ void read_shapes(const YamlNode& node, Config& config, ConfigDraft& draft) {
 
 std::string write_shapes(const Config& config, const WriteContext& context) {
   if (config.shapes.names.empty()) return "none";
-  return block_map(write_keys(shapes_keys(), config.shapes, context));
+  return yaml_block_map(write_keys(shapes_keys(), config.shapes, context));
 }
 
 }  // namespace

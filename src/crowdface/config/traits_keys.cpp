@@ -92,7 +92,7 @@ std::string limit_text(const TraitLimit& limit) {
   if (limit.at_least)
     ends.push_back(yaml_entry("at_least", bound_text(*limit.at_least, measurement)));
   if (limit.at_most) ends.push_back(yaml_entry("at_most", bound_text(*limit.at_most, measurement)));
-  return yaml_entry(measurement.name, flow_map(ends));
+  return yaml_entry(measurement.name, yaml_flow_map(ends));
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ Codec<TraitLimits> trait_limits() {
             return std::optional(limits);
           },
           [](const TraitLimits& limits, const WriteContext&) {
-            return limits.empty() ? "" : flow_map(texts_of(limits, limit_text));
+            return limits.empty() ? "" : yaml_flow_map(texts_of(limits, limit_text));
           },
           "`{measurement: [least, greatest]}` or `{measurement: {at_least: …, at_most: …}}`"};
 }

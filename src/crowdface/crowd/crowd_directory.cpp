@@ -95,7 +95,7 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   for (const fs::path& folder : folder_and_numbered_subfolders(directory.meshes())) {
     add(folder, [](const fs::path& path) {
       return mesh_format_of(path) || path.extension() == ".mtl" ||
-             path.filename().string().ends_with(concat('+', kPointsFollowingFaceFile));
+             path.filename().string().ends_with(concat('+', kFacePointsFileSuffix));
     });
     for (fs::path& file : list_files(folder / kBlendedFolder, is_file)) {
       files.push_back(std::move(file));  // this folder holds no other files

@@ -19,7 +19,7 @@ namespace crowdface {
 
 /// Second part of the name of the file with the points that move with a face's mesh. The first part
 /// is the face's id and '+'.
-inline constexpr const char* kPointsFollowingFaceFile = "points.json";
+inline constexpr const char* kFacePointsFileSuffix = "points.json";
 
 /// Paths of the files in a crowd's folder (docs/crowd-directory.md).
 struct CrowdDirectory {

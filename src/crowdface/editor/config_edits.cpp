@@ -29,9 +29,10 @@ YamlNode parsed(const std::string& text, const std::string& source) {
 
 /// Formats a YAML value on one line.
 std::string single_line_yaml(const YamlNode& node) {
-  if (node.kind == YamlNode::Kind::kList) return flow_list(texts_of(node.items, single_line_yaml));
+  if (node.kind == YamlNode::Kind::kList)
+    return yaml_flow_list(texts_of(node.items, single_line_yaml));
   if (node.kind == YamlNode::Kind::kMap) {
-    return flow_map(texts_of(node.entries, [](const YamlEntry& child) {
+    return yaml_flow_map(texts_of(node.entries, [](const YamlEntry& child) {
       return yaml_entry(write_scalar(child.key), single_line_yaml(child.value));
     }));
   }
@@ -44,7 +45,7 @@ std::string text_of(const YamlNode& edits) {
   if (edits.entries.empty()) text += "{}\n";
   for (const auto& [key, place, value] : edits.entries) {
     const bool is_list = value.kind == YamlNode::Kind::kList;
-    text += yaml_entry(key, is_list ? block_list(texts_of(value.items, single_line_yaml))
+    text += yaml_entry(key, is_list ? yaml_block_list(texts_of(value.items, single_line_yaml))
                                     : single_line_yaml(value));
     text += '\n';
   }
@@ -94,7 +95,7 @@ fs::path put_edit(const fs::path& config, const std::function<void(YamlNode& edi
 /// Makes paths relative to the config's folder, and formats them as a YAML list on one line.
 std::string paths_from(const fs::path& config, const std::vector<fs::path>& files) {
   const fs::path folder = fs::absolute(config).lexically_normal().parent_path();
-  return flow_list_of_names(texts_of(files, [&](const fs::path& file) {
+  return yaml_flow_list_of_names(texts_of(files, [&](const fs::path& file) {
     return fs::absolute(file).lexically_normal().lexically_proximate(folder).generic_string();
   }));
 }
@@ -113,7 +114,7 @@ fs::path save_recipe_in_edits(const ManualRecipe& recipe, const Config& config) 
 
 fs::path save_regions_in_edits(const fs::path& config, const std::vector<std::string>& names,
                                const std::vector<fs::path>& masks) {
-  return put_sections(config, concat("regions: {names: ", flow_list_of_names(names),
+  return put_sections(config, concat("regions: {names: ", yaml_flow_list_of_names(names),
                                      ", mask: ", paths_from(config, masks), "}\n"));
 }
 

@@ -197,7 +197,9 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
   measures.nearest_head = head.face;
   measures.nearest_head_distance_mm = head.distance_mm;
   measures.nearest_head_distance_as_built_mm =
-      (point.with_extrapolation - judge.space().head_point(head.face).with_extrapolation).norm();
+      (point.coordinates_with_extrapolation -
+       judge.space().head_point(head.face).coordinates_with_extrapolation)
+          .norm();
   if (crowd_) {
     const NearestFaceSearch::NearestFace nearest = nearest_other_face(point, recipe, opened_id);
     if (nearest.face >= 0) {

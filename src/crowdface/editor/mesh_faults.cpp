@@ -8,14 +8,15 @@ namespace crowdface {
 
 std::shared_ptr<const MeshFaults::TargetFaults> MeshFaults::target_faults(Index head) const {
   const std::lock_guard lock(mutex_);
-  if (!parts_through_skin_)
-    parts_through_skin_.emplace(parts_through_skin(job_.config, job_.inputs));
+  if (!protruding_parts_check_)
+    protruding_parts_check_.emplace(protruding_parts_check(job_.config, job_.inputs));
   std::shared_ptr<const TargetFaults>& target = target_faults_[head];
   if (!target) {
     const Positions& positions =
         job_.inputs.head_set.heads[static_cast<std::size_t>(head)].positions;
-    target = std::make_shared<const TargetFaults>(TargetFaults{
-        skin_check(job_.config, job_.inputs, {head}), parts_through_skin_->exposed_mm2(positions)});
+    target = std::make_shared<const TargetFaults>(
+        TargetFaults{skin_check(job_.config, job_.inputs, {head}),
+                     protruding_parts_check_->exposed_mm2(positions)});
   }
   return target;
 }
@@ -26,7 +27,8 @@ std::vector<std::string> MeshFaults::faults_of(const Recipe& recipe, const Posit
   const std::shared_ptr<const TargetFaults> target = this->target_faults(recipe.target);
   const SkinDefects defects = builder_.defects(target->skin_check, recipe, face);
   std::vector<std::string> faults;
-  if (parts_through_skin_->exposed_mm2(face) - target->exposed_parts_mm2 > limits.max_exposed_mm2) {
+  if (protruding_parts_check_->exposed_mm2(face) - target->exposed_parts_mm2 >
+      limits.max_exposed_mm2) {
     faults.emplace_back("gums, teeth or other parts stand out of the skin");
   }
   if (defects.exposed_back_face_mm2 > limits.max_exposed_mm2) {

@@ -10,7 +10,7 @@
 
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/pipeline.h"
-#include "crowdface/validity/parts_through_skin.h"
+#include "crowdface/validity/protruding_parts_check.h"
 
 namespace crowdface {
 
@@ -37,7 +37,7 @@ class MeshFaults {
   const Job& job_;
   const FaceBuilder& builder_;
   mutable std::mutex mutex_;
-  mutable std::optional<const PartsThroughSkin> parts_through_skin_;
+  mutable std::optional<const ProtrudingPartsCheck> protruding_parts_check_;
   mutable std::map<Index, std::shared_ptr<const TargetFaults>> target_faults_;
 };
 

@@ -93,8 +93,8 @@ BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
       topology_(neck.body->file.topology),
       uvs_(neck.body->file.uvs),
       body_optical_densities_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
-      fade_(topology_, build_adjacency(topology_), neck.body->file.positions, neck.body_rim,
-            falloff_mm / neck.mm_per_unit) {
+      neck_bend_for_colours_(topology_, build_adjacency(topology_), neck.body->file.positions,
+                             neck.body_rim, falloff_mm / neck.mm_per_unit) {
   if (texture.empty()) {
     const SquareLayout squares(topology_.face_count());
     lay_out(squares, topology_, uvs_);
@@ -116,9 +116,9 @@ BlendedPicture BodyPainter::paint(const Positions& ring_densities) const {
   const Positions difference = ring_densities - body_optical_densities_;
   const Eigen::RowVector3d mean = difference.colwise().mean();
   Positions added = mean.replicate(topology_.vertex_count, 1);
-  const Positions faded = fade_.bend(difference.rowwise() - mean);
-  for (std::size_t i = 0; i < fade_.vertices().size(); ++i) {
-    added.row(fade_.vertices()[i]) += faded.row(static_cast<Index>(i));
+  const Positions faded = neck_bend_for_colours_.bend(difference.rowwise() - mean);
+  for (std::size_t i = 0; i < neck_bend_for_colours_.vertices().size(); ++i) {
+    added.row(neck_bend_for_colours_.vertices()[i]) += faded.row(static_cast<Index>(i));
   }
   for (std::size_t i = 0; i < neck_.body_rim.size(); ++i) {
     added.row(neck_.body_rim[i]) = difference.row(static_cast<Index>(i));

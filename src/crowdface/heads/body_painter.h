@@ -38,7 +38,7 @@ class BodyPainter {
   Positions body_optical_densities_;  ///< the body's colours at the ring of the neck, #rim by 3
   /// Spreads colour differences from the ring over the body, with the method that NeckBend uses for
   /// displacements. The differences fade with the distance from the ring.
-  NeckBend fade_;
+  NeckBend neck_bend_for_colours_;
 };
 
 }  // namespace crowdface

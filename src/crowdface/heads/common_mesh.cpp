@@ -99,7 +99,7 @@ std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& h
     JoinedBorders by = joined_borders(found, positions);
     copies = std::move(by.first_copy_of_joined_vertex);
     if (std::ssize(copies) != expected.vertex_count) return std::nullopt;
-    for (std::uint32_t& vertex : found.corner_vertices) vertex = by.joined_vertex[vertex];
+    for (std::uint32_t& vertex : found.corner_vertices) vertex = by.joined_vertex_of_vertex[vertex];
     found.vertex_count = expected.vertex_count;
     positions = Positions(positions(copies, kAllColumns));
   }

@@ -103,14 +103,14 @@ ColourRows FaceTextures::vertex_colours(const Recipe& recipe) const {
   if (inputs_.vertex_colours.empty()) return ColourRows(0, 3);
   FaceColourWeights weights =
       face_colour_weights(recipe, inputs_.vertex_colours.size(), region_area_fractions_);
-  if (!are_blended_) weights.face = weights.target;
+  if (!are_blended_) weights.weights_for_skin = weights.weights_for_eyes_and_teeth;
   return blend_vertex_colours(inputs_.vertex_colours, weights, uses_target_colours_only_);
 }
 
 std::vector<double> FaceTextures::head_weights_in_mean_colour(const Recipe& recipe) const {
   const std::size_t heads = inputs_.head_set.heads.size();
   if (inputs_.textures.are_blended() || (are_blended_ && inputs_.textures.texture_sets.empty())) {
-    return face_colour_weights(recipe, heads, region_area_fractions_).face;
+    return face_colour_weights(recipe, heads, region_area_fractions_).weights_for_skin;
   }
   std::vector<double> shares(heads, 0.0);
   shares[static_cast<std::size_t>(recipe.target)] = 1;

@@ -40,7 +40,7 @@ HeadColourWeights::HeadColourWeights(const Config& config, const Inputs& inputs)
                             FaceArea::kFront, config.faces.front))) {}
 
 std::vector<double> HeadColourWeights::weights_of(const Recipe& recipe) const {
-  return face_colour_weights(recipe, heads_, region_area_fractions_).face;
+  return face_colour_weights(recipe, heads_, region_area_fractions_).weights_for_skin;
 }
 
 }  // namespace crowdface

@@ -21,7 +21,7 @@ JoinedBorders joined_ids(const FileMesh& mesh) {
         of_id.try_emplace({piece, mesh.vertex_ids[v]},
                           static_cast<std::uint32_t>(result.first_copy_of_joined_vertex.size()));
     if (is_new) result.first_copy_of_joined_vertex.push_back(v);
-    result.joined_vertex.push_back(place->second);
+    result.joined_vertex_of_vertex.push_back(place->second);
   }
   return result;
 }
@@ -36,7 +36,8 @@ void join_vertices(FileMesh& mesh) {
   mesh.positions = Positions(mesh.positions(by.first_copy_of_joined_vertex, kAllColumns));
   if (mesh.colours.rows() > 0)
     mesh.colours = Positions(mesh.colours(by.first_copy_of_joined_vertex, kAllColumns));
-  for (std::uint32_t& vertex : mesh.topology.corner_vertices) vertex = by.joined_vertex[vertex];
+  for (std::uint32_t& vertex : mesh.topology.corner_vertices)
+    vertex = by.joined_vertex_of_vertex[vertex];
   mesh.topology.vertex_count = mesh.positions.rows();
 }
 

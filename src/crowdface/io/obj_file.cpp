@@ -104,7 +104,7 @@ void take_scanned_values(ObjScan scan, ObjFile& result) {
 ObjScan scan_or_mend(ObjFile& obj, const ObjSummary& summary) {
   const std::string name = obj.path.string();
   try {
-    return scan_obj(obj.file.bytes(), name, summary, ObjLines::kAll);
+    return scan_obj(obj.file.bytes(), name, summary, ObjLineSelection::kAll);
   } catch (const InvalidInput&) {
     refuse_non_mesh_file(obj.file.bytes(), obj.path);
     auto mended = mend_obj(obj.file.bytes());
@@ -113,7 +113,7 @@ ObjScan scan_or_mend(ObjFile& obj, const ObjSummary& summary) {
     obj.notes = std::move(mended->notes);
     obj.is_mended = true;
   }
-  return scan_obj(obj.file.bytes(), name, summarise_obj(obj.file.bytes()), ObjLines::kAll);
+  return scan_obj(obj.file.bytes(), name, summarise_obj(obj.file.bytes()), ObjLineSelection::kAll);
 }
 
 }  // namespace
@@ -156,8 +156,8 @@ ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile fil
   ObjFile result;
   result.path = path;
   result.file = std::move(file);
-  take_scanned_values(scan_obj(result.file.bytes(), path.string(), summary, ObjLines::kAllButMesh),
-                      result);
+  take_scanned_values(
+      scan_obj(result.file.bytes(), path.string(), summary, ObjLineSelection::kAllButMesh), result);
   return result;
 }
 

@@ -129,8 +129,9 @@ class Summariser {
 
 class Scanner {
  public:
-  Scanner(std::string_view text, const std::string& name, const ObjSummary& summary, ObjLines lines)
-      : text_(text), name_(name), lines_(lines), total_(summary) {}
+  Scanner(std::string_view text, const std::string& name, const ObjSummary& summary,
+          ObjLineSelection line_selection)
+      : text_(text), name_(name), line_selection_(line_selection), total_(summary) {}
 
   ObjScan run() {
     if (text_.starts_with("\xEF\xBB\xBF")) {
@@ -144,11 +145,12 @@ class Scanner {
     require_at_most(kMaxPerVertex * input_limits().vertices, total_.normal_count, "normals");
     require_at_most(input_limits().faces, total_.face_count, "faces");
     scan_.positions.resize(static_cast<Index>(total_.vertex_count), 3);
-    scan_.uvs.resize(lines_ == ObjLines::kAll ? static_cast<Index>(total_.uv_count) : 0, 2);
+    scan_.uvs.resize(
+        line_selection_ == ObjLineSelection::kAll ? static_cast<Index>(total_.uv_count) : 0, 2);
     for_each_line(text_, [&](std::string_view line) {
       ++line_number_;
       in_cut_line_ = line.data() + line.size() == text_.data() + text_.size();
-      if (lines_ == ObjLines::kAll || !passes_over(line)) check(line);
+      if (line_selection_ == ObjLineSelection::kAll || !passes_over(line)) check(line);
     });
     in_cut_line_ = false;
     if (total_.vertex_count == 0 && first_other_line_ != 0) {
@@ -339,7 +341,7 @@ class Scanner {
   std::size_t line_number_ = 0;
   bool in_cut_line_ = false;  ///< whether the text ends in this line, without a line end
   std::vector<std::string_view> words_;
-  ObjLines lines_;
+  ObjLineSelection line_selection_;
   ObjSummary total_, seen_;  ///< counts in the whole text, and in the lines checked so far
   ObjScan scan_;
   std::string_view first_other_;  ///< first statement that OBJ does not define
@@ -355,8 +357,8 @@ ObjSummary summarise_obj(std::string_view text) {
 }
 
 ObjScan scan_obj(std::string_view text, const std::string& name, const ObjSummary& summary,
-                 ObjLines lines) {
-  return Scanner(text, name, summary, lines).run();
+                 ObjLineSelection line_selection) {
+  return Scanner(text, name, summary, line_selection).run();
 }
 
 }  // namespace crowdface

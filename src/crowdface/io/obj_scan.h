@@ -41,7 +41,7 @@ struct ObjSummary {
 ObjSummary summarise_obj(std::string_view text);
 
 /// Which lines `scan_obj` checks.
-enum class ObjLines {
+enum class ObjLineSelection {
   kAll,
   /// all lines except `f` and `vt`: for a text with the same `mesh_digest` as a text whose lines
   /// have all been checked
@@ -54,10 +54,10 @@ enum class ObjLines {
 /// vertex colours are valid; statements of other programs are ignored.
 /// \param name  name of the file, for messages.
 /// \param summary  summary of the text.
-/// \param lines  the lines to check; with kAllButMesh the result has no texture coordinates and no
-///               corners.
+/// \param line_selection  the lines to check; with kAllButMesh the result has no texture
+///                        coordinates and no corners.
 /// \throws InvalidInput naming file, line, what was expected and what was found.
 ObjScan scan_obj(std::string_view text, const std::string& name, const ObjSummary& summary,
-                 ObjLines lines);
+                 ObjLineSelection line_selection);
 
 }  // namespace crowdface

@@ -40,7 +40,7 @@ std::atomic<const char*> current_dependents_phrase{"run"};
 
 constexpr unsigned kLongestStart = 60;  ///< seconds that loading a library may take
 
-std::atomic<bool> guarded = false;
+std::atomic<bool> handles_crashes = false;
 volatile std::sig_atomic_t starting = 0;
 
 /// Runs when a library calls exit() while it is being loaded. For example, libgfortran does this if
@@ -86,19 +86,19 @@ class StartOfLibraries {
 void* open_library(const std::string& name, int flags, const char* dependents_phrase,
                    const char* failure_phrase) {
   std::optional<StartOfLibraries> start;
-  if (guarded) start.emplace(dependents_phrase);
+  if (handles_crashes) start.emplace(dependents_phrase);
   try {
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);
   } catch (...) {  // the dynamic loader stays locked, so recovery is impossible
-    if (guarded) end_without_libraries(0);
+    if (handles_crashes) end_without_libraries(0);
     throw IoError(concat(failure_phrase, ": their libraries failed to start"));
   }
 }
 
 }  // namespace
 
-void guard_library_loading() {
-  guarded = true;
+void handle_crashes_during_library_loading() {
+  handles_crashes = true;
 }
 
 void* load_library_function(const char* library, const char* function,

@@ -16,10 +16,10 @@ namespace crowdface {
 void* load_library_function(const char* library, const char* function,
                             const char* dependents_phrase, const char* failure_phrase);
 
-/// Installs handlers of signals and of exit. If a library aborts, calls exit, or needs longer than
-/// a minute while it is being loaded, the handlers end the process with code 74 and a message; this
-/// happens when memory or threads run out. Only a program may call this function, at its start,
-/// because the handlers and the alarm belong to the whole process.
-void guard_library_loading();
+/// Makes load_library_function install handlers of signals and of exit while it loads a library. If
+/// the library aborts, calls exit, or needs longer than a minute, the handlers end the process with
+/// code 74 and a message; this happens when memory or threads run out. Only a program may call this
+/// function, at its start, because the handlers and the alarm belong to the whole process.
+void handle_crashes_during_library_loading();
 
 }  // namespace crowdface

@@ -45,7 +45,7 @@ JoinedBorders joined_borders(const Topology& topology, const Positions& position
       joined = row_at_place.try_emplace({piece, row[0], row[1], row[2]}, next).first->second;
     }
     if (joined == next) result.first_copy_of_joined_vertex.push_back(v);
-    result.joined_vertex.push_back(joined);
+    result.joined_vertex_of_vertex.push_back(joined);
   }
   return result;
 }

@@ -11,8 +11,8 @@ namespace crowdface {
 /// The vertices of a mesh after its seams are closed. All copies of a vertex become one joined
 /// vertex.
 struct JoinedBorders {
-  std::vector<std::uint32_t>
-      joined_vertex;  ///< index of the joined vertex that each vertex becomes
+  /// for each vertex, the index of the joined vertex that the vertex becomes
+  std::vector<std::uint32_t> joined_vertex_of_vertex;
   /// for each joined vertex, the lowest index of its copies; ascending
   std::vector<std::uint32_t> first_copy_of_joined_vertex;
 };

@@ -19,7 +19,7 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
   parallel_for_each(positions.rows(), kRows, [&](Index v) {
     const auto i = static_cast<std::size_t>(v);
     Eigen::Vector3d place = map.barycentric[i][0] * positions.row(map.corners[i][0]).transpose();
-    if (!map.is_vertex(static_cast<std::uint32_t>(v))) {
+    if (!map.has_mirror_vertex(static_cast<std::uint32_t>(v))) {
       for (std::size_t c = 1; c < 3; ++c) {
         place += map.barycentric[i][c] * positions.row(map.corners[i][c]).transpose();
       }

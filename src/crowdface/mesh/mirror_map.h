@@ -33,8 +33,8 @@ struct MirrorMap {
   /// so that mirroring moves these vertices of the mean head only a little.
   Positions unpaired_offsets;
 
-  /// Whether the mirror point of vertex v is a vertex.
-  bool is_vertex(std::uint32_t v) const { return barycentric[v][0] == 1; }
+  /// Whether vertex v has a mirror vertex, `corners[v][0]`: its mirror point is a vertex.
+  bool has_mirror_vertex(std::uint32_t v) const { return barycentric[v][0] == 1; }
 };
 
 /// Returns the mirrored head M(A), #V by 3, for a head A = `positions`. Each vertex moves to the

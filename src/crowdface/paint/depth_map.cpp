@@ -50,21 +50,22 @@ DepthMap::AxisCells DepthMap::cells_at(double offset, double extent, Index count
   AxisCells cells;
   if (!(offset >= 0 && offset <= extent)) return cells;
   const double place = offset / cell_size_;
-  cells.containing = std::min(static_cast<Index>(place), count - 1);
+  cells.containing_cell = std::min(static_cast<Index>(place), count - 1);
   if (place < 0.5) return cells;
   const auto below = static_cast<Index>(place - 0.5);
   if (below + 1 >= count) return cells;
-  cells.centre_below = below;
-  cells.weight_above = place - 0.5 - static_cast<double>(below);
+  cells.cell_centred_below = below;
+  cells.next_cell_weight = place - 0.5 - static_cast<double>(below);
   return cells;
 }
 
-ReliefFit DepthMap::fit(double lateral, double height, double scale, double stretch) const {
+ReliefFit DepthMap::fit(double lateral_position, double height, double scale,
+                        double stretch) const {
   const Eigen::Vector2d extent = box_.sizes();
   std::array<AxisCells, kReliefColumns> columns;
   std::array<AxisCells, kReliefRows> rows;
   for (int c = 0; c < kReliefColumns; ++c) {
-    const double x = lateral + scale * cell_lateral_mm(c);
+    const double x = lateral_position + scale * cell_lateral_offset_mm(c);
     columns[static_cast<std::size_t>(c)] = cells_at(x - box_.min().x(), extent.x(), columns_);
   }
   for (int r = 0; r < kReliefRows; ++r) {
@@ -79,23 +80,23 @@ ReliefFit DepthMap::fit(double lateral, double height, double scale, double stre
   return fit_relief(depths);
 }
 
-double DepthMap::depth(double lateral, double height) const {
+double DepthMap::depth(double lateral_position, double height) const {
   const Eigen::Vector2d extent = box_.sizes();
-  return depth_in_cells(cells_at(lateral - box_.min().x(), extent.x(), columns_),
+  return depth_in_cells(cells_at(lateral_position - box_.min().x(), extent.x(), columns_),
                         cells_at(height - box_.min().y(), extent.y(), rows_));
 }
 
 double DepthMap::depth_in_cells(const AxisCells& column, const AxisCells& row) const {
-  if (column.containing < 0 || row.containing < 0) return kNoDepth;
-  if (column.centre_below >= 0 && row.centre_below >= 0) {
-    const double* corner =
-        &depths_[static_cast<std::size_t>(row.centre_below * columns_ + column.centre_below)];
-    const double s = column.weight_above, t = row.weight_above;
+  if (column.containing_cell < 0 || row.containing_cell < 0) return kNoDepth;
+  if (column.cell_centred_below >= 0 && row.cell_centred_below >= 0) {
+    const double* corner = &depths_[static_cast<std::size_t>(row.cell_centred_below * columns_ +
+                                                             column.cell_centred_below)];
+    const double s = column.next_cell_weight, t = row.next_cell_weight;
     const double depth = (1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
                          t * ((1 - s) * corner[columns_] + s * corner[columns_ + 1]);
     if (std::isfinite(depth)) return depth;
   }
-  return depths_[static_cast<std::size_t>(row.containing * columns_ + column.containing)];
+  return depths_[static_cast<std::size_t>(row.containing_cell * columns_ + column.containing_cell)];
 }
 
 std::size_t DepthMap::cell_index(double x, double y) const {

@@ -27,19 +27,20 @@ class DepthMap {
 
   /// Compares the depths of the surface with the depths of the mean face. The arguments place and
   /// scale the mean face.
-  /// \param lateral, height  coordinates of the point between the eyes.
+  /// \param lateral_position, height  coordinates of the point between the eyes.
   /// \param scale, stretch  see ReliefMatch
-  ReliefFit fit(double lateral, double height, double scale, double stretch = 1) const;
+  ReliefFit fit(double lateral_position, double height, double scale, double stretch = 1) const;
 
   /// Depth at a point; kNoDepth where the map shows no surface.
-  double depth(double lateral, double height) const;
+  double depth(double lateral_position, double height) const;
 
  private:
   /// Indices, along one axis of the grid, of the cells around a coordinate.
   struct AxisCells {
-    Index containing = -1;    ///< the cell that contains the coordinate; −1: none
-    Index centre_below = -1;  ///< largest index of a cell centred below the coordinate; −1: none
-    double weight_above = 0;  ///< interpolation weight of cell `centre_below` + 1
+    Index containing_cell = -1;  ///< the cell that contains the coordinate; −1: none
+    /// largest index of a cell whose centre is below the coordinate; −1: none
+    Index cell_centred_below = -1;
+    double next_cell_weight = 0;  ///< interpolation weight of cell `cell_centred_below` + 1
   };
   AxisCells cells_at(double offset, double extent, Index count) const;
   /// Depth at a point of the grid: interpolated bilinearly between the centres of the four nearest

@@ -85,8 +85,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   parallel_for_each(of_scale.size(), [&](std::size_t k) {
     Candidate& best = of_scale[k];
     const double scale = best.scale;
-    const double top = box.max().y() - 0.5 * kReliefTopRowMm * scale,
-                 low = box.min().y() + kReliefTopRowMm * scale;
+    const double top = box.max().y() - 0.5 * kReliefTopRowHeightMm * scale,
+                 low = box.min().y() + kReliefTopRowHeightMm * scale;
     // Try all heights, and lateral positions up to a quarter of the breadth from the middle.
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {

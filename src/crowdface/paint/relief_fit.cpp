@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMiddleMm = kReliefTopRowMm - kReliefSpacingMm * (kReliefRows - 1) / 2;
+constexpr double kMiddleMm = kReliefTopRowHeightMm - kReliefSpacingMm * (kReliefRows - 1) / 2;
 // Mean of 16 synthetic heads: depth in mm relative to the tip of the nose, negative behind the tip.
 // The first column is at the middle of the face, the last at the side.
 constexpr std::array<std::array<double, kHalfReliefColumns>, kReliefRows> kMeanRelief = {{
@@ -48,7 +48,8 @@ struct Terms {
 
   Terms() {
     for (int c = 0; c < kReliefCells; ++c) {
-      const double x = cell_lateral_mm(c) / kUnitMm, y = (cell_height_mm(c) - kMiddleMm) / kUnitMm;
+      const double x = cell_lateral_offset_mm(c) / kUnitMm,
+                   y = (cell_height_mm(c) - kMiddleMm) / kUnitMm;
       Coefficients& terms = of_cell[static_cast<std::size_t>(c)];
       terms = Coefficients(1, x, y, x * x, y * y, depth_of_mean_face_mm(c));
       products += terms * terms.transpose();

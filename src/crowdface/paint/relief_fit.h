@@ -16,18 +16,18 @@ inline constexpr int kReliefRows = 17, kHalfReliefColumns = 6,
 /// Distance between neighbouring rows and columns of the grid.
 inline constexpr double kReliefSpacingMm = 8;
 /// Height of the top row of the grid above the eyes.
-inline constexpr double kReliefTopRowMm = 32;
+inline constexpr double kReliefTopRowHeightMm = 32;
 /// Index of the cell that lies between the eyes.
 inline constexpr int kCellBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
 
 /// Signed sideways distance of a cell from the symmetry plane of the mean face, in mm.
-constexpr double cell_lateral_mm(int cell) {
+constexpr double cell_lateral_offset_mm(int cell) {
   return kReliefSpacingMm * (cell % kReliefColumns - (kHalfReliefColumns - 1));
 }
 /// Height of a cell above the eyes of the mean face, in mm.
 constexpr double cell_height_mm(int cell) {
   const int row = cell / kReliefColumns;
-  return kReliefTopRowMm - kReliefSpacingMm * row;
+  return kReliefTopRowHeightMm - kReliefSpacingMm * row;
 }
 /// Depth of the mean face in a cell of the grid, relative to the tip of the nose; negative behind
 /// the tip.

@@ -115,17 +115,17 @@ void agree_on_sides(FacingGroup& group) {
   const Eigen::Vector3d up = symmetric_eigen(spread).eigenvectors.col(0);
   for (FacingPair& pair : group) {
     if (pair.up.dot(up) >= 0) continue;
-    std::swap(pair.low, pair.high);
+    std::swap(pair.low_vertex, pair.high_vertex);
     pair.up = -pair.up;
   }
 }
 
-/// Returns the mean length of the mesh edges at the low vertices (FacingPair::low) of the pairs.
+/// Returns the mean length of the mesh edges at the low vertices of the pairs.
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {
-    for (const std::uint32_t n : adjacency.items_of(pair.low)) {
-      sum += (row3(positions, n) - row3(positions, pair.low)).norm();
+    for (const std::uint32_t n : adjacency.items_of(pair.low_vertex)) {
+      sum += (row3(positions, n) - row3(positions, pair.low_vertex)).norm();
       ++count;
     }
   }

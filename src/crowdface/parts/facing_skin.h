@@ -12,9 +12,10 @@ namespace crowdface {
 
 /// Two vertices of the skin that face each other across a narrow gap, as on two lips.
 struct FacingPair {
-  std::uint32_t low = 0, high = 0;  ///< vertex indices: on the low and high side
-  Eigen::Vector3d middle;           ///< midpoint
-  Eigen::Vector3d up;               ///< unit vector from the low side to the high side
+  /// vertex indices: the vertex on the low side and the vertex on the high side of the gap
+  std::uint32_t low_vertex = 0, high_vertex = 0;
+  Eigen::Vector3d middle;  ///< midpoint
+  Eigen::Vector3d up;      ///< unit vector from the low side to the high side
 };
 
 /// Pairs that are near each other. The low vertices of all pairs lie on the same side of the gap.

@@ -184,7 +184,7 @@ class PlaceFinder {
     map.barycentric[vertex] = {1, 0, 0};
   }
   /// Marks a vertex as having no mutual partner: the stored mirror point does not change, but
-  /// MirrorMap::is_vertex becomes false.
+  /// MirrorMap::has_mirror_vertex becomes false.
   static void mark_unpaired(MirrorMap& map, std::uint32_t vertex) {
     std::swap(map.corners[vertex][0], map.corners[vertex][1]);
     map.barycentric[vertex] = {0, 1, 0};
@@ -232,7 +232,7 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
                               const Eigen::Vector3d& side) {
   PlaneFit fit;
   for (const std::uint32_t v : skin) {
-    if (map.is_vertex(v)) fit.add(row3(mean, v), row3(mean, map.corners[v][0]));
+    if (map.has_mirror_vertex(v)) fit.add(row3(mean, v), row3(mean, map.corners[v][0]));
   }
   if (fit.pair_count() * 2 >= skin.size()) map.plane = fit.plane(side);
   const double best = mean_square(map, mean);
@@ -302,8 +302,8 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
     // Keep only mutual partners.
     const std::uint32_t partner = map.corners[v][0];
-    const bool agreed = map.is_vertex(partner) && map.corners[partner][0] == v;
-    if (map.is_vertex(v) && !agreed) PlaceFinder::mark_unpaired(map, v);
+    const bool agreed = map.has_mirror_vertex(partner) && map.corners[partner][0] == v;
+    if (map.has_mirror_vertex(v) && !agreed) PlaceFinder::mark_unpaired(map, v);
   }
   std::ranges::sort(map.unpaired_vertices);
   map.unpaired_offsets.setZero(static_cast<Index>(map.unpaired_vertices.size()), 3);
@@ -313,7 +313,7 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   found.rms_distance = std::sqrt(mean_square(map, mean, &found.max_distance));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
     if (std::ranges::binary_search(map.unpaired_vertices, v)) continue;
-    ++(map.is_vertex(v) ? found.paired_vertex_count : found.surface_mirrored_vertex_count);
+    ++(map.has_mirror_vertex(v) ? found.paired_vertex_count : found.surface_mirrored_vertex_count);
   }
   return found;
 }

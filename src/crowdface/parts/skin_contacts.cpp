@@ -55,8 +55,8 @@ Sides find_sides(const FacingGroup& group, const Adjacency& adjacency, const Pos
                  double reach) {
   std::vector<std::uint32_t> low, high;
   for (const FacingPair& pair : group) {
-    low.push_back(pair.low);
-    high.push_back(pair.high);
+    low.push_back(pair.low_vertex);
+    high.push_back(pair.high_vertex);
   }
   EdgeDistances from_low(adjacency, mean), from_high(adjacency, mean);
   parallel_for_each(2, [&](std::size_t i) {

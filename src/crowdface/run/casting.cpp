@@ -85,7 +85,7 @@ CrowdDistances measure_crowd_distances(const FaceSpace& space,
 std::vector<FamilyReport> report_families(const Config& config, const CastingResult& crowd_plan) {
   std::vector<FamilyReport> reports;
   NearestFaceSearch index(
-      crowd_plan.points.empty() ? 1 : crowd_plan.points[0].with_extrapolation.size());
+      crowd_plan.points.empty() ? 1 : crowd_plan.points[0].coordinates_with_extrapolation.size());
   for (const FaceSpace::Point& point : crowd_plan.points) index.add(point);
   for (std::size_t f = 0; f < crowd_plan.families.size(); ++f) {
     const FamilyPlan& family = crowd_plan.families[f];
@@ -107,7 +107,8 @@ std::vector<FamilyReport> report_families(const Config& config, const CastingRes
     report.founder_distances = quartiles(std::move(founder_distances));
     report.nearest_outsider_mm = nearest < HUGE_VAL ? nearest : 0;
     if (!config.families[f].parents.empty())
-      report.nearer_stranger_fraction = family.nearer_stranger_fraction;
+      report.fraction_of_strangers_nearer_than_parent =
+          family.fraction_of_strangers_nearer_than_parent;
     report.silhouette_coefficient =
         mean_silhouette_coefficient(crowd_plan.families, f, crowd_plan.points);
     reports.push_back(std::move(report));

@@ -49,10 +49,10 @@ struct FamilyReport {
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_outsider_mm = 0;
   double silhouette_coefficient = 0;  ///< see mean_silhouette_coefficient
-  /// For each child, take the fraction of the faces outside the family that are nearer to the child
-  /// than the child's farther parent. This value is the maximum over all children. Empty if the
-  /// family has no parents.
-  std::optional<double> nearer_stranger_fraction;
+  /// largest value, over all pairs of parent and child, of the fraction of strangers (random faces,
+  /// sampled with the settings of the family's group) that are nearer to the child than the parent
+  /// is. Empty if the family has no parents.
+  std::optional<double> fraction_of_strangers_nearer_than_parent;
 };
 
 /// The result of casting: the faces of a crowd, and the heads' positions on the weight plane.

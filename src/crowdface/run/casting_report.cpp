@@ -132,8 +132,9 @@ Json families_to_json(const CrowdPlan& crowd_plan) {
                     {"to_founder_mm", nearest_to_json(family.founder_distances)},
                     {"nearest_other_mm", rounded(family.nearest_outsider_mm)},
                     {"silhouette", rounded(family.silhouette_coefficient)}});
-    if (family.nearer_stranger_fraction) {
-      json.back()["strangers_nearer_than_a_parent"] = rounded(*family.nearer_stranger_fraction);
+    if (family.fraction_of_strangers_nearer_than_parent) {
+      json.back()["strangers_nearer_than_a_parent"] =
+          rounded(*family.fraction_of_strangers_nearer_than_parent);
     }
   }
   return json;

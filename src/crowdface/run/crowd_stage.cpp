@@ -78,8 +78,8 @@ std::string face_text(const CrowdDirectory& here, const std::string& prim, const
 
 }  // namespace
 
-std::string format_stage(const Config& config, const Inputs& inputs,
-                         std::span<const FacePlan> crowd) {
+std::string make_usd_stage_text(const Config& config, const Inputs& inputs,
+                                std::span<const FacePlan> crowd) {
   const std::string root = usda_name(config.crowd.name);
   std::string text = concat("#usda 1.0\n(\n    defaultPrim = \"", root, "\"\n",
                             usda_layer_metadata(config.faces.units, config.faces.up),

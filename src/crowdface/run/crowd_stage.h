@@ -10,9 +10,9 @@
 
 namespace crowdface {
 
-/// A USD layer in the crowd's folder that references the layers of all faces and places the faces
-/// in rows. With levels of detail, each face has a variant set `LOD`.
-std::string format_stage(const Config& config, const Inputs& inputs,
-                         std::span<const FacePlan> crowd);
+/// Returns the text of a USD layer in the crowd's folder. The layer references the layers of all
+/// faces and places the faces in rows. With levels of detail, each face has a variant set `LOD`.
+std::string make_usd_stage_text(const Config& config, const Inputs& inputs,
+                                std::span<const FacePlan> crowd);
 
 }  // namespace crowdface

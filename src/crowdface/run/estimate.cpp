@@ -33,7 +33,7 @@ std::string format_csv(const std::vector<EstimateRow>& rows) {
   std::string csv = "faces,spread_mm,first_fit_mm\r\n";
   for (const EstimateRow& row : rows) {
     csv += concat(row.face_count, ',', format_fixed(row.distance_in_spread_mode_mm, 3), ',',
-                  format_fixed(row.first_fit_distance_mm, 3), "\r\n");
+                  format_fixed(row.distance_in_first_fit_casting_mm, 3), "\r\n");
   }
   return csv;
 }
@@ -46,7 +46,7 @@ class Frame {
     double most = 1, high = asked_mm;
     for (const EstimateRow& row : rows) {
       most = std::max(most, static_cast<double>(row.face_count));
-      high = std::max({high, row.distance_in_spread_mode_mm, row.first_fit_distance_mm});
+      high = std::max({high, row.distance_in_spread_mode_mm, row.distance_in_first_fit_casting_mm});
     }
     most = std::max(most, static_cast<double>(asked_count));
     decades_ = std::max(1.0, std::ceil(std::log10(most) - 1));
@@ -92,7 +92,7 @@ std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t 
   for (const EstimateRow& row : rows) {
     table += concat(padded(concat(row.face_count), 8),
                     padded(format_fixed(row.distance_in_spread_mode_mm, 2), 13),
-                    padded(format_fixed(row.first_fit_distance_mm, 2), 16),
+                    padded(format_fixed(row.distance_in_first_fit_casting_mm, 2), 16),
                     row.face_count == asked_count ? "   <- asked for" : "", '\n');
   }
   if (asked_mm > 0) table += concat("asked for: min_distance ", asked_mm, " mm\n");
@@ -123,7 +123,7 @@ std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t as
     svg += text_at(x, bottom + 18, "middle", concat(faces));
   }
   svg += line_of(frame, rows, &EstimateRow::distance_in_spread_mode_mm, "#1f6fb4");
-  svg += line_of(frame, rows, &EstimateRow::first_fit_distance_mm, "#d0632a");
+  svg += line_of(frame, rows, &EstimateRow::distance_in_first_fit_casting_mm, "#d0632a");
   if (asked_mm > 0 && asked_count > 0) {
     const double x = frame.x(static_cast<double>(asked_count)), y = frame.y(asked_mm);
     svg += concat("<path d=\"M", px(x - 6), ' ', px(y - 6), 'L', px(x + 6), ' ', px(y + 6), 'M',

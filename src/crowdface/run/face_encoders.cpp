@@ -224,7 +224,7 @@ std::size_t FaceEncoders::memory_bytes() const {
   for (const auto& [format, encoders] : encoders_) {
     for (const MeshEncoder& encoder : encoders) bytes += encoder.memory_bytes;
   }
-  for (const auto& forms : attachments_) bytes += forms.memory_bytes();
+  for (const auto& attachments : attachments_) bytes += attachments.memory_bytes();
   return bytes;
 }
 
@@ -238,8 +238,8 @@ std::size_t FaceEncoders::encoding_memory_bytes() const {
       bytes += (has_own_files ? 1 + shapes : 1) * encoder.encoding_memory_bytes;
     }
   }
-  for (const auto& forms : attachments_) {
-    bytes += forms.encoding_memory_bytes([&](const Attachment& item) {
+  for (const auto& attachments : attachments_) {
+    bytes += attachments.encoding_memory_bytes([&](const Attachment& item) {
       return 1 + shapes_in_files(item, formats_, inputs_).size();
     });
   }

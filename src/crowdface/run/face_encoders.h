@@ -19,7 +19,7 @@
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/pictures/crowd_renders.h"
-#include "crowdface/run/attachment_forms.h"
+#include "crowdface/run/attachments_in_format.h"
 #include "crowdface/run/mesh_encoder.h"
 #include "crowdface/run/mesh_level.h"
 #include "crowdface/run/own_textures.h"
@@ -122,7 +122,7 @@ class FaceEncoders {
   std::vector<MeshLevel> levels_;
   std::map<MeshFormat, MeshEncoders> encoders_;
   /// one per level of detail; empty if attachments are not written to separate files
-  std::vector<AttachmentForms<MeshEncoder>> attachments_;
+  std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
   std::optional<OwnTextures> own_textures_;      ///< empty if faces have no textures of their own
   std::optional<PointCarrier> points_, joints_;  ///< empty if there are no such points or joints
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals

@@ -28,7 +28,7 @@ class MeshFileList {
     const std::size_t levels = options_.includes_all_variants ? inputs_.detail_levels.size() : 0;
     for (std::size_t level = 0; level <= levels; ++level) add_meshes(level);
     if (options_.includes_all_variants && !inputs_.points.empty()) {
-      add(kPointsFollowingFaceFile, {}, "following_points",
+      add(kFacePointsFileSuffix, {}, "following_points",
           [](const FinishedFace& face) { return face.encoders->points(face); });
     }
     if (has([](const auto& format) { return format.attachments == DataStorage::kOwnFiles; })) {

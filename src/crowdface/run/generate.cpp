@@ -252,7 +252,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   if (has_whole_crowd) warn(copy_materials(job.config, job.inputs, directory, crowd, ledger));
   if (has_whole_crowd && contains(job.config.output.meshes, MeshFormat::kUsd)) {
     ledger.write(directory.relative(directory.stage()),
-                 format_stage(job.config, job.inputs, crowd));
+                 make_usd_stage_text(job.config, job.inputs, crowd));
   }
   write_shared_files(job.config, job.inputs, directory, ledger);
   Lazy<CrowdPictures> pictures([&] {

@@ -17,8 +17,8 @@
 #include "crowdface/io/surface_materials.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
-#include "crowdface/run/attachment_forms.h"
-#include "crowdface/run/glb_form.h"
+#include "crowdface/run/attachments_in_format.h"
+#include "crowdface/run/crowd_glb_options.h"
 #include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {
@@ -179,19 +179,19 @@ MeshEncoders glb_encoders(const MeshSource& source) {
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     return part_of(item, looks.at(&item), inputs, here);
   };
-  using Form = MeshWithAttachments<GlbTemplate, GlbPart>;
+  using FormatData = MeshWithAttachments<GlbTemplate, GlbPart>;
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
     encoders.push_back(make_encoder(
-        std::make_shared<const Form>(
-            Form{GlbTemplate(level.topology(inputs), level.uvs(inputs),
-                             glb_options(source.config, inputs, source.shared_folder, level)),
-                 AttachmentForms<GlbPart>(inputs.attachments, level, make_part)}),
-        [](const Form& form, const FaceMesh& face) {
-          return form.mesh.encode(*face.positions, *face.normals, face.id, face.moves, face.images,
-                                  *face.points,
-                                  form.parts.placed<PlacedGlbPart>(face.placed_attachments),
-                                  *face.joints, *face.colours);
+        std::make_shared<const FormatData>(
+            FormatData{GlbTemplate(level.topology(inputs), level.uvs(inputs),
+                                   glb_options(source.config, inputs, source.shared_folder, level)),
+                       AttachmentsInFormat<GlbPart>(inputs.attachments, level, make_part)}),
+        [](const FormatData& format_data, const FaceMesh& face) {
+          return format_data.mesh.encode(
+              *face.positions, *face.normals, face.id, face.moves, face.images, *face.points,
+              format_data.parts.placed<PlacedGlbPart>(face.placed_attachments), *face.joints,
+              *face.colours);
         }));
   }
   return encoders;

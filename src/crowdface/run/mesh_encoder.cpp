@@ -7,7 +7,7 @@
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/ply_template.h"
-#include "crowdface/run/glb_form.h"
+#include "crowdface/run/crowd_glb_options.h"
 
 namespace crowdface {
 namespace {

@@ -79,12 +79,12 @@ struct MeshEncoder {
 /// One encoder for each level of detail for which files of the format are written.
 using MeshEncoders = std::vector<MeshEncoder>;
 
-/// Makes an encoder from a form. A form is an object with the data that are equal for all faces.
-/// \param encode  called with the form and a face
-template <class Form, class Encode>
-MeshEncoder make_encoder(std::shared_ptr<const Form> form, const Encode& encode) {
-  return {[=](const FaceMesh& face) { return encode(*form, face); }, form->memory_bytes(),
-          form->encoding_memory_bytes()};
+/// Makes an encoder from the data of a mesh, in one file format, that are equal for all faces.
+/// \param encode  called with `format_data` and a face
+template <class FormatData, class Encode>
+MeshEncoder make_encoder(std::shared_ptr<const FormatData> format_data, const Encode& encode) {
+  return {[=](const FaceMesh& face) { return encode(*format_data, face); },
+          format_data->memory_bytes(), format_data->encoding_memory_bytes()};
 }
 
 /// \throws InvalidInput if the format cannot store the mesh of the source.

@@ -43,7 +43,7 @@ SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<
           viewing_of(config)};
 }
 
-PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs) {
+ProtrudingPartsCheck protruding_parts_check(const Config& config, const Inputs& inputs) {
   const std::vector<SurfaceKind> kinds = surfaces_of(config, inputs).kinds;
   std::set<std::uint32_t> seen;  // components with at least one polygon that renders show
   for (std::size_t f = 0; f < kinds.size(); ++f) {

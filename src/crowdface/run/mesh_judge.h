@@ -9,7 +9,7 @@
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_files.h"
-#include "crowdface/validity/parts_through_skin.h"
+#include "crowdface/validity/protruding_parts_check.h"
 
 namespace crowdface {
 
@@ -20,9 +20,9 @@ bool skin_is_judged(const Config& config, const Inputs& inputs);
 /// Returns the check that compares the whole mesh of a face with the face's target head.
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets);
 
-/// Measures the area of gums, teeth and other parts (except eyeballs) that protrudes through the
-/// skin.
-PartsThroughSkin parts_through_skin(const Config& config, const Inputs& inputs);
+/// Returns the check that measures how much area of gums, teeth and other parts (except eyeballs)
+/// protrudes through the skin.
+ProtrudingPartsCheck protruding_parts_check(const Config& config, const Inputs& inputs);
 
 /// Whether casting builds the whole mesh of each candidate face to find defects in this mesh.
 bool casting_builds_candidate_meshes(const Config& config);

@@ -50,12 +50,13 @@ std::string library_line(const std::vector<MaterialFile>& files,
 
 /// Returns two sizes in bytes: the memory of all converted meshes together, and the maximum memory
 /// for encoding one of them.
-template <class Forms, class FormOf>
-std::pair<std::size_t, std::size_t> sizes_of(const Forms& forms, const FormOf& form_of) {
+template <class Templates, class TemplateOf>
+std::pair<std::size_t, std::size_t> sizes_of(const Templates& templates,
+                                             const TemplateOf& template_of) {
   std::size_t memory = 0, encode = 0;
-  for (const auto& each : forms) {
-    memory += form_of(each).memory_bytes();
-    encode = std::max(encode, form_of(each).encoding_memory_bytes());
+  for (const auto& each : templates) {
+    memory += template_of(each).memory_bytes();
+    encode = std::max(encode, template_of(each).encoding_memory_bytes());
   }
   return {memory, encode};
 }
@@ -103,25 +104,27 @@ MeshEncoder whole_encoder(const MeshSource& source) {
     made[t].emplace(source.inputs.head_files[static_cast<std::size_t>(targets[t])],
                     source.inputs.head_set.topology, !source.inputs.vertex_colours.empty(), fixed);
   });
-  const auto forms = std::make_shared<std::map<Index, ObjTemplate>>();
-  for (std::size_t t = 0; t < targets.size(); ++t) forms->emplace(targets[t], std::move(*made[t]));
+  const auto templates = std::make_shared<std::map<Index, ObjTemplate>>();
+  for (std::size_t t = 0; t < targets.size(); ++t)
+    templates->emplace(targets[t], std::move(*made[t]));
   const auto [memory, encode] = sizes_of(
-      *forms, [](const auto& each) -> auto& { return each.second; });
-  return {[forms](const FaceMesh& face) {
-            return forms->at(face.target).encode(*face.positions, face.display_name, *face.colours);
-          },
-          memory, encode};
+      *templates, [](const auto& each) -> auto& { return each.second; });
+  return {
+      [templates](const FaceMesh& face) {
+        return templates->at(face.target).encode(*face.positions, face.display_name, *face.colours);
+      },
+      memory, encode};
 }
 
 /// Returns the encoder for a level of detail: plain OBJ files that do not copy the text of the
 /// target head's file. Target heads with the same materials share a template.
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
-  struct Forms {
+  struct LevelTemplates {
     std::vector<PlainObjTemplate> obj;
     std::map<Index, std::size_t> of_target;  ///< index into `obj` for each target
   };
   const Inputs& inputs = source.inputs;
-  const auto forms = std::make_shared<Forms>();
+  const auto templates = std::make_shared<LevelTemplates>();
   std::vector<std::vector<MaterialRange>> known;
   for (const Index target : source.target_heads) {
     const std::vector<MaterialRange> ranges =
@@ -130,20 +133,21 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
     const auto same = std::find_if(known.begin(), known.end(), [&](const auto& others) {
       return std::equal(others.begin(), others.end(), ranges.begin(), ranges.end(), is_same);
     });
-    forms->of_target[target] = static_cast<std::size_t>(same - known.begin());
+    templates->of_target[target] = static_cast<std::size_t>(same - known.begin());
     if (same != known.end()) continue;
     known.push_back(ranges);
-    forms->obj.emplace_back(level.topology, level.uvs, ranges, PlainObjTemplate::Normals::kVertex);
+    templates->obj.emplace_back(level.topology, level.uvs, ranges,
+                                PlainObjTemplate::Normals::kVertex);
   }
   const auto [memory, encode] = sizes_of(
-      forms->obj, [](const auto& each) -> auto& { return each; });
-  return {[forms, &inputs](const FaceMesh& face) {
+      templates->obj, [](const auto& each) -> auto& { return each; });
+  return {[templates, &inputs](const FaceMesh& face) {
             std::string head;
             for (const std::string& library :
                  inputs.head_files[static_cast<std::size_t>(face.target)].material_libraries) {
               head += concat("mtllib ", library, '\n');
             }
-            EncodedFile plain = forms->obj[forms->of_target.at(face.target)].encode(
+            EncodedFile plain = templates->obj[templates->of_target.at(face.target)].encode(
                 concat(head, "o ", face.id, '\n'), *face.positions, *face.normals,
                 face.display_name);
             if (face.colours->rows() == 0) return plain;

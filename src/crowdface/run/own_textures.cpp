@@ -205,7 +205,7 @@ EncodedFile OwnTextures::material_file(const FacePlan& face) const {
                                            formats_of(config_, picture).front());
     }
   }
-  return {materials.file.text(textures)};
+  return {materials.merged_materials.text(textures)};
 }
 
 std::uint64_t OwnTextures::encoding_memory_bytes() const {

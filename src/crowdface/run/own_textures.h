@@ -74,7 +74,7 @@ class OwnTextures {
   /// The materials of a target head. Also, for each texture kind and material name, the image
   /// (index into face_picture_names).
   struct Materials {
-    MergedMaterials file;
+    MergedMaterials merged_materials;
     std::map<TextureKind, std::map<std::string, std::size_t>> picture_indices;
   };
 

@@ -13,8 +13,8 @@
 #include "crowdface/io/surface_materials.h"
 #include "crowdface/io/usda_template.h"
 #include "crowdface/io/usda_text.h"
-#include "crowdface/run/attachment_forms.h"
-#include "crowdface/run/glb_form.h"
+#include "crowdface/run/attachments_in_format.h"
+#include "crowdface/run/crowd_glb_options.h"
 #include "crowdface/run/mesh_encoder.h"
 
 namespace crowdface {
@@ -108,22 +108,22 @@ MeshEncoders usd_encoders(const MeshSource& source) {
     return UsdaPart(prim, here->topology, here->uvs, materials,
                     select_rows(of_face, here->source_faces), targets, std::move(fixed));
   };
-  using Form = MeshWithAttachments<UsdaTemplate, UsdaPart>;
+  using FormatData = MeshWithAttachments<UsdaTemplate, UsdaPart>;
   MeshEncoders encoders;
   for (const MeshLevel& level : source.levels) {
     // Meshes at a reduced level of detail are not subdivided, because they are coarse on purpose.
     const Subdivision subdivision =
         level.is_whole_mesh() ? source.config.output.subdivision : Subdivision::kNone;
     encoders.push_back(make_encoder(
-        std::make_shared<const Form>(
-            Form{UsdaTemplate(level.topology(inputs), level.uvs(inputs),
-                              glb_options(source.config, inputs, source.shared_folder, level),
-                              subdivision),
-                 AttachmentForms<UsdaPart>(inputs.attachments, level, make_part)}),
-        [](const Form& form, const FaceMesh& face) {
-          return form.mesh.encode(
+        std::make_shared<const FormatData>(
+            FormatData{UsdaTemplate(level.topology(inputs), level.uvs(inputs),
+                                    glb_options(source.config, inputs, source.shared_folder, level),
+                                    subdivision),
+                       AttachmentsInFormat<UsdaPart>(inputs.attachments, level, make_part)}),
+        [](const FormatData& format_data, const FaceMesh& face) {
+          return format_data.mesh.encode(
               *face.positions, *face.normals, face.id, face.moves, face.image_names, *face.points,
-              form.parts.placed<PlacedUsdaPart>(face.placed_attachments), *face.colours);
+              format_data.parts.placed<PlacedUsdaPart>(face.placed_attachments), *face.colours);
         }));
   }
   return encoders;

@@ -76,8 +76,8 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
 
 /// Excludes the white areas of a mask from the fit: multiplies the skin's `ambient_visibility` by
 /// 1 − mask.
-void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& wrap_template,
-            Hasher& digest) {
+void exclude_ignored_area(const std::string& mask, const ObjFile& file, WrapTemplate& wrap_template,
+                          Hasher& digest) {
   const std::vector<double> ignored = mask_values(file.topology, file.uvs, MaskSource(mask));
   for (std::size_t v = 0; v < wrap_template.skin.vertices.size(); ++v) {
     const double left = 1 - std::clamp(ignored[wrap_template.skin.vertices[v]], 0.0, 1.0);
@@ -89,7 +89,7 @@ void ignore(const std::string& mask, const ObjFile& file, WrapTemplate& wrap_tem
 int texture_size_of(const WrapOptions& options) {
   constexpr std::uint64_t kMin = 64, kMax = 16384;
   if (options.texture_size.empty()) {
-    if (options.delight) throw UsageError("--delight: expected --texture SIZE, found none");
+    if (options.removes_shading) throw UsageError("--delight: expected --texture SIZE, found none");
     return 0;
   }
   const auto size = parse_unsigned(options.texture_size);
@@ -174,7 +174,8 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
                     {.front = unit_vector(inputs.frame.front), .up = unit_vector(inputs.frame.up)});
   inputs.regions = face_regions(inputs.wrap_template);
   if (inputs.model) inputs.model = skin_model(*inputs.model, inputs.wrap_template);
-  if (!options.ignore.empty()) ignore(options.ignore, inputs.file, inputs.wrap_template, digest);
+  if (!options.ignored_area_mask.empty())
+    exclude_ignored_area(options.ignored_area_mask, inputs.file, inputs.wrap_template, digest);
   inputs.hint = pose_hint(options);
   const auto proposed = propose_landmarks(inputs.wrap_template);
   inputs.features = face_features(inputs.wrap_template, proposed);
@@ -201,7 +202,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options) {
   if (options.strict) digest.add("--strict");
   inputs.texture_size = texture_size_of(options);
   if (inputs.texture_size > 0) {
-    digest.add("--texture").add(inputs.texture_size).add(options.delight ? 1 : 0);
+    digest.add("--texture").add(inputs.texture_size).add(options.removes_shading ? 1 : 0);
     for (const MaterialFile& used :
          find_material_files(inputs.file.material_path(), inputs.file.material_libraries).files) {
       digest.add(hash_file(used.source).digest);

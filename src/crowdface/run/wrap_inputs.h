@@ -24,12 +24,14 @@ struct WrapOptions {
   std::string template_file;  ///< the template
   std::string scan;           ///< a scan; `out` is then the head to write
   std::string batch;          ///< a folder of scans; `out` is then a folder
-  std::string out, landmarks, template_landmarks, model, ignore;
+  std::string out, landmarks, template_landmarks, model;
+  std::string ignored_area_mask;  ///< mask of the areas that are not fitted to the scan
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string texture_size;  ///< side length of the textures to bake, in texels
-  bool no_pictures = false, force = false, dry_run = false, estimate = false, delight = false;
-  bool strict = false;  ///< whether to refuse doubtful heads
-  Shard shard;          ///< the part of the batch to wrap
+  bool no_pictures = false, force = false, dry_run = false, estimate = false;
+  bool removes_shading = false;  ///< `--delight`: see BakeOptions::removes_shading
+  bool strict = false;           ///< whether to refuse doubtful heads
+  Shard shard;                   ///< the part of the batch to wrap
 };
 
 /// The value of `--landmarks` with which the program neither reads landmarks from files nor detects

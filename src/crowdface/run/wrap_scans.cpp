@@ -85,7 +85,7 @@ std::vector<Task> tasks_of(const WrapOptions& options, const LandmarkFile& given
 }
 
 void refuse_to_write_over_inputs(const WrapOptions& options, const std::vector<Task>& tasks) {
-  std::vector<fs::path> inputs = {options.template_file, options.ignore};
+  std::vector<fs::path> inputs = {options.template_file, options.ignored_area_mask};
   if (options.landmarks != kNoLandmarks) inputs.emplace_back(options.landmarks);
   if (!options.model.empty()) {
     for (fs::path& head : list_heads(options.model)) inputs.push_back(std::move(head));
@@ -289,7 +289,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   head.write(task.head);
   facts.mesh_digest = head.digest().hex();
   if (options.estimate) {
-    facts.leave_out_wrap_errors_mm = leave_out_distances(
+    facts.cross_validated_wrap_errors_mm = cross_validate_wrap(
         shared.wrap_template, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
   }
   write_file(task.report,

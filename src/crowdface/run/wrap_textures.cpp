@@ -43,7 +43,7 @@ std::vector<fs::path> TextureFiles::all_paths() const {
 
 WrapTextures::WrapTextures(const WrapOptions& options, const WrapInputs& inputs)
     : inputs_(inputs),
-      options_{.remove_shading = options.delight},
+      options_{.removes_shading = options.removes_shading},
       target_(inputs.file, inputs.wrap_template, inputs.texture_size) {
   for (const std::string& warning : target_.warnings()) log_warning(warning);
 }

@@ -333,7 +333,8 @@ void LidClosure::restore_closure(const Positions& face, const RigidMotion& face_
   std::vector<double> gains =
       gap_excesses(measure_gaps(axes, face, moves), targets, face_motion.scale);
   for (std::size_t p = 0; p < sections_.size(); ++p) {
-    gains[p] = std::max(gains[p], 0.0) / (face_motion.scale * sections_[p].template_closing);
+    gains[p] =
+        std::max(gains[p], 0.0) / (face_motion.scale * sections_[p].gap_reduction_on_template);
   }
   const Positions carried = moves;
   move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);
@@ -372,7 +373,8 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
       sure = std::min(sure, kMaxExtraClosing * face_motion.scale * radius_);
     }
     for (std::size_t p = 0; p < sections_.size(); ++p) {
-      gains[p] += (missing[p] + sure) / (face_motion.scale * sections_[p].template_closing);
+      gains[p] +=
+          (missing[p] + sure) / (face_motion.scale * sections_[p].gap_reduction_on_template);
     }
   }
   move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);

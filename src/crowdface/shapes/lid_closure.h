@@ -120,8 +120,9 @@ class LidClosure {
   };
   struct LidSection {
     std::vector<ProfilePoint> lower_profile, upper_profile;
-    double along_opening;     ///< position along the lid opening
-    double template_closing;  ///< length by which the shape narrows the gap on the template
+    double along_opening;  ///< position along the lid opening
+    /// length by which the shape narrows the gap on the template
+    double gap_reduction_on_template;
   };
   /// Unit vectors on a face: `along` the lid opening, and `up` from the lower lid to the upper lid.
   struct EyeAxes {

@@ -24,7 +24,7 @@ using RowVector = std::vector<Row<T>>;
 /// Number of the tile's own rows whose vertices are fixed. These rows come first, because fixed
 /// vertices have valence 0 and rows are sorted by valence.
 std::uint32_t fixed_rows(const Tile& tile) {
-  return tile.run_counts[0] == 0 ? tile.row_count : tile.runs[0].first_row;
+  return tile.run_count_up_to_ring[0] == 0 ? tile.row_count : tile.runs[0].first_row;
 }
 
 double coefficient(const ChebyshevSeries& series, Index k) {
@@ -74,8 +74,8 @@ class Recurrence {
     for (int step = 0; step < steps; ++step) {
       const T scale = k == 0 ? T(1) : T(2);  // T_1 = W T_0, T_{k+1} = 2 W T_k − T_{k−1}
       const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings that later steps need
-      recurrence_step<T>(tile.runs.data(), tile.run_counts[reach], tile.neighbours.data(), scale,
-                         now.data(), previous.data());
+      recurrence_step<T>(tile.runs.data(), tile.run_count_up_to_ring[reach], tile.neighbours.data(),
+                         scale, now.data(), previous.data());
       now.swap(previous);
       ++k;
       add_term(tile, k, now.data());

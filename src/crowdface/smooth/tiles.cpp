@@ -85,7 +85,7 @@ class TileBuilder {
       sort_by_valence(end, vertices_.size());
       number(end);
       add_runs(tile, begin, end);
-      tile.run_counts.push_back(static_cast<std::uint32_t>(tile.runs.size()));
+      tile.run_count_up_to_ring.push_back(static_cast<std::uint32_t>(tile.runs.size()));
       begin = end;
     }
     for (std::size_t l = tile.row_count; l < vertices_.size(); ++l) {

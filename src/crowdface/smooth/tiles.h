@@ -30,8 +30,9 @@ struct Tile {
   std::vector<std::uint32_t> halo;
   /// runs of rows whose vertices are not fixed: first runs of own rows, then of ring 1, ring 2, …
   std::vector<ValenceRun> runs;
-  /// The first run_counts[r] entries of `runs` cover the tile's own rows and rings 1 to r.
-  std::vector<std::uint32_t> run_counts;
+  /// The first run_count_up_to_ring[r] entries of `runs` cover the tile's own rows and the rings 1
+  /// to r.
+  std::vector<std::uint32_t> run_count_up_to_ring;
   std::vector<std::uint32_t>
       neighbours;  ///< neighbour lists (local rows), each in the operator's order
 

@@ -84,10 +84,10 @@ class TextureBlender {
 std::vector<double> region_area_fractions(const RegionWeights& regions,
                                           const std::vector<double>& vertex_areas);
 
-/// Colour weights of the heads: `face` for the skin (W of TextureBlender), `target` for eyes and
-/// teeth.
+/// Colour weights of the heads, #heads, each list summing to one. The skin has the weights W of
+/// TextureBlender. Eyes and teeth have the heads' weights in the target's colours.
 struct FaceColourWeights {
-  std::vector<double> face, target;  ///< #heads, each summing to one
+  std::vector<double> weights_for_skin, weights_for_eyes_and_teeth;
 };
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
                                       const std::vector<double>& region_area_fractions);

@@ -32,8 +32,9 @@ std::vector<double> normalized_over_coloured(std::vector<double> weights,
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,
                                 const std::vector<bool>& uses_target_colours_only) {
-  const std::vector<double> whole = normalized_over_coloured(weights.face, heads),
-                            target = normalized_over_coloured(weights.target, heads);
+  const std::vector<double> whole = normalized_over_coloured(weights.weights_for_skin, heads),
+                            target =
+                                normalized_over_coloured(weights.weights_for_eyes_and_teeth, heads);
   const auto first = std::ranges::find_if(heads, [](const auto& rows) { return rows.rows() > 0; });
   ColourRows blended(first->rows(), 3);
   const std::vector<Density>& densities = densities_of_srgb8();

@@ -12,8 +12,9 @@ namespace crowdface {
 /// are constant over the face, so that forehead and chin match in colour. Heads without colours get
 /// no weight.
 /// \param heads  the colours of each head, #V by 3, or no rows; at least one head has colours.
-/// \param uses_target_colours_only  for each vertex, whether it uses weights.target instead of
-///                                  weights.face, as the eyes do; may be empty.
+/// \param uses_target_colours_only  for each vertex, whether it uses
+///                                  weights.weights_for_eyes_and_teeth instead of
+///                                  weights.weights_for_skin; may be empty.
 /// \return #V by 3.
 ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 const FaceColourWeights& weights,

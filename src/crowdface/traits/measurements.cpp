@@ -94,7 +94,7 @@ class TableWriter {
            const std::vector<std::vector<std::string>>& sides) {
     Measurement& row = rows_.emplace_back(Measurement{name, symbol, kind, definition});
     for (const auto& names : sides) {
-      auto& side = row.landmarks_of_sides.emplace_back();
+      auto& side = row.landmark_indices_by_face_side.emplace_back();
       for (std::size_t i = 0; i < side.size(); ++i) {
         side[i] = landmark(names[std::min(i, names.size() - 1)]);
       }
@@ -268,7 +268,7 @@ std::vector<std::size_t> landmarks_of(const Measurement& measurement) {
       needed.insert(needed.end(), part.begin(), part.end());
     }
   }
-  for (const auto& side : measurement.landmarks_of_sides)
+  for (const auto& side : measurement.landmark_indices_by_face_side)
     needed.insert(needed.end(), side.begin(), side.end());
   if (measurement.kind == Kind::kSlope) {
     for (const char* name : {"nose_bridge", "nose_base"}) needed.push_back(landmark(name));
@@ -285,10 +285,10 @@ double measure(const Measurement& measurement, const Positions& landmarks) {
     return divisor > 0 ? measure(all[measurement.dividend], landmarks) / divisor : 0;
   }
   double sum = 0;
-  for (const auto& side : measurement.landmarks_of_sides) {
+  for (const auto& side : measurement.landmark_indices_by_face_side) {
     sum += measure_side(measurement.kind, side, landmarks);
   }
-  return sum / static_cast<double>(measurement.landmarks_of_sides.size());
+  return sum / static_cast<double>(measurement.landmark_indices_by_face_side.size());
 }
 
 }  // namespace crowdface

@@ -38,10 +38,11 @@ struct Measurement {
   std::string_view symbol;  ///< the landmarks' symbols, such as "al-al"
   Kind kind;
   std::string_view definition;
-  /// The landmarks for each side of the face, as indices into trait_landmarks(). The value of the
-  /// measurement is the mean over the sides. Paired measurements have two sides, other measurements
-  /// one side. Ratios have none.
-  std::vector<std::array<std::size_t, 3>> landmarks_of_sides = {};
+  /// The landmarks for each side of the face, as indices into trait_landmarks(). If the measurement
+  /// needs two landmarks, the third entry repeats the second. The value of the measurement is the
+  /// mean over the sides. Paired measurements have two sides, other measurements one side. Ratios
+  /// have none.
+  std::vector<std::array<std::size_t, 3>> landmark_indices_by_face_side = {};
   std::size_t dividend = 0, divisor = 0;  ///< only for ratios: indices into measurements()
 };
 /// Returns all measurements, in the order of docs/traits.md. A ratio comes after its dividend and

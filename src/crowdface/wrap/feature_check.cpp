@@ -163,7 +163,8 @@ Eigen::VectorXd relief(const Positions& positions, const Positions& normals,
   return relief(coordinates_of(frame, positions, vertices), weights);
 }
 
-double correlation_in_place(const SkinPair& pair, const std::vector<std::uint32_t>& vertices) {
+double relief_correlation_at_feature(const SkinPair& pair,
+                                     const std::vector<std::uint32_t>& vertices) {
   const Eigen::VectorXd weights = pair.areas(vertices);
   return weighted_correlation(relief(pair.before, pair.normals_before, vertices, weights, pair.up),
                               relief(pair.after, pair.normals_after, vertices, weights, pair.up),
@@ -233,8 +234,9 @@ std::vector<ReliefCorrelation> relief_correlations(const WrapTemplate& wrap_temp
   const SkinPair pair(wrap_template, wrapped);
   std::vector<ReliefCorrelation> correlations;
   for (const FaceFeature& feature : features) {
-    ReliefCorrelation correlation{correlation_in_place(pair, feature.skin_vertices)};
-    if (!correlation.is_high()) correlation.best_nearby = correlation_beside(pair, feature);
+    ReliefCorrelation correlation{relief_correlation_at_feature(pair, feature.skin_vertices)};
+    if (!correlation.is_high())
+      correlation.best_correlation_nearby = correlation_beside(pair, feature);
     correlations.push_back(correlation);
   }
   return correlations;

@@ -26,18 +26,21 @@ std::vector<FaceFeature> face_features(const WrapTemplate& wrap_template,
 /// How well a feature's relief before and after a wrap agree. The relief is the height of the skin
 /// above a quadratic surface that is fitted to the feature.
 struct ReliefCorrelation {
-  double in_place = 1;  ///< correlation between the template's and the wrapped head's relief
+  /// correlation between the template's and the wrapped head's relief
+  double correlation_at_feature = 1;
   /// the highest correlation between the template's relief and the relief of the wrapped head 4, 8
-  /// or 12 mm above or below the feature; computed only if `in_place` is not high
-  double best_nearby = -1;
+  /// or 12 mm above or below the feature; computed only if `correlation_at_feature` is not high
+  double best_correlation_nearby = -1;
 
-  bool is_high() const { return in_place >= 0.7; }
+  bool is_high() const { return correlation_at_feature >= 0.7; }
   /// Whether the template's feature probably lies on another part of the scan: the correlation is
-  /// low, or hardly higher than `best_nearby`. (On heads whose vertices are known, mouths that
-  /// are right within 2 mm have correlations from 0.55 to 0.9, which are at least 0.14 higher than
-  /// `best_nearby`. Mouths that are wrong by more than 4 mm have −0.1 to 0.86.)
+  /// low, or hardly higher than `best_correlation_nearby`. (On heads whose vertices are known,
+  /// mouths that are right within 2 mm have correlations from 0.55 to 0.9, which are at least 0.14
+  /// higher than `best_correlation_nearby`. Mouths that are wrong by more than 4 mm have −0.1 to
+  /// 0.86.)
   bool is_doubtful() const {
-    return in_place < 0.55 || (!is_high() && in_place - best_nearby < 0.1);
+    return correlation_at_feature < 0.55 ||
+           (!is_high() && correlation_at_feature - best_correlation_nearby < 0.1);
   }
 };
 

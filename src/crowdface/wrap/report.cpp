@@ -152,9 +152,9 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const Wr
     warnings.push_back(concat("the ", feature.name,
                               " is doubtful: on the wrapped head it does not look like the "
                               "template's (agreement ",
-                              format_fixed(feature.correlation.in_place, 2),
+                              format_fixed(feature.correlation.correlation_at_feature, 2),
                               "; a few mm above or below ",
-                              format_fixed(feature.correlation.best_nearby, 2),
+                              format_fixed(feature.correlation.best_correlation_nearby, 2),
                               "): check the picture, where it is red, and pick landmarks "
                               "there"));
   }
@@ -279,19 +279,19 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_
     if (landmark.is_found_by_program) {
       report["landmarks"].back()["detected_within_mm"] = rounded(landmark.error_mm);
     }
-    for (const auto& [key, all] : {std::pair{"left_out_mm", &facts.leave_out_pose_errors_mm},
-                                   std::pair{"unseen_mm", &facts.leave_out_wrap_errors_mm}}) {
+    for (const auto& [key, all] : {std::pair{"left_out_mm", &facts.cross_validated_pose_errors_mm},
+                                   std::pair{"unseen_mm", &facts.cross_validated_wrap_errors_mm}}) {
       const auto found = all->find(landmark.name);
       if (found != all->end()) report["landmarks"].back()[key] = rounded(found->second);
     }
   }
-  if (!facts.leave_out_wrap_errors_mm.empty()) {
+  if (!facts.cross_validated_wrap_errors_mm.empty()) {
     std::vector<double> all;
-    for (const auto& [name, mm] : facts.leave_out_wrap_errors_mm) all.push_back(mm);
+    for (const auto& [name, mm] : facts.cross_validated_wrap_errors_mm) all.push_back(mm);
     report["correspondence_mm"] = spread_json(all);
   }
   for (const FeatureCheck& feature : result.features) {
-    report["features"][feature.name] = rounded(feature.correlation.in_place);
+    report["features"][feature.name] = rounded(feature.correlation.correlation_at_feature);
   }
   if (!result.dropped_landmarks.empty()) report["dropped_landmarks"] = result.dropped_landmarks;
   report["warnings"] = warnings;

@@ -43,10 +43,10 @@ struct WrapFacts {
   /// Leave-one-out error of the pose by landmark name, in mm. A similarity that is fitted to the
   /// other landmarks predicts the position of the landmark. The error is the landmark's distance
   /// from this prediction. A landmark that cannot be predicted has no entry.
-  std::map<std::string, double> leave_out_pose_errors_mm;
-  /// Leave-out error of the wrap by landmark name, in mm: the result of `leave_out_distances`;
-  /// empty if the user did not request it.
-  std::map<std::string, double> leave_out_wrap_errors_mm = {};
+  std::map<std::string, double> cross_validated_pose_errors_mm;
+  /// Error of the wrap by landmark name, in mm: the result of `cross_validate_wrap`; empty if the
+  /// user did not request it.
+  std::map<std::string, double> cross_validated_wrap_errors_mm = {};
   /// Fraction of the texels, 0 … 1, that are filled in because the scan does not cover them.
   std::optional<double> share_without_scan = {};
 };

@@ -72,7 +72,8 @@ class Regression {
       variances(i) = one.variance;
     }
     const double local = options_.local_variance_fraction,
-                 smooth = options_.smooth_deviation_mm * options_.smooth_deviation_mm;
+                 smooth = options_.smooth_deformation_deviation_mm *
+                          options_.smooth_deformation_deviation_mm;
     const Eigen::MatrixXd heads = along.transpose() * along;
     Eigen::MatrixXd covariance = (1 - local) * heads + pose.transpose() * pose;
     for (Index i = 0; i < count; ++i) {

@@ -17,7 +17,7 @@ struct RegressionOptions {
   double correlation_length_mm = 45;  ///< correlation length of the local variation
   /// Standard deviation, along each axis, of an additional smooth random deformation with the same
   /// correlation length. This deformation allows shapes that a few heads do not span.
-  double smooth_deviation_mm = 1.8;
+  double smooth_deformation_deviation_mm = 1.8;
   double noise_deviation_mm = 1;   ///< standard deviation of the scan's noise
   std::size_t sample_count = 800;  ///< number of sampled vertices of the skin
   std::vector<double> search_radii_mm = {10, 8, 6, 5, 4, 4, 4};  ///< search radius of each round

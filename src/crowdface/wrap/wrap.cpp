@@ -269,7 +269,8 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
   const auto worst = [](const WrapResult& result) {
     ReliefCorrelation correlation;
     for (const FeatureCheck& feature : result.features) {
-      if (feature.correlation.in_place < correlation.in_place) correlation = feature.correlation;
+      if (feature.correlation.correlation_at_feature < correlation.correlation_at_feature)
+        correlation = feature.correlation;
     }
     return correlation;
   };
@@ -301,7 +302,7 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
     });
     if (dropped == 0) continue;
     WrapResult other = wrapped_with(landmarks);
-    if (worst(other).in_place <= worst(best).in_place) continue;
+    if (worst(other).correlation_at_feature <= worst(best).correlation_at_feature) continue;
     for (const WrapLandmark& landmark : all_landmarks) {
       if (std::ranges::find(landmarks, landmark.name, &WrapLandmark::name) == landmarks.end()) {
         other.dropped_landmarks.push_back(landmark.name);
@@ -312,7 +313,7 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
   return best;
 }
 
-std::map<std::string, double> leave_out_distances(const WrapTemplate& wrap_template,
+std::map<std::string, double> cross_validate_wrap(const WrapTemplate& wrap_template,
                                                   const ShapeModel* model, const Scan& scan,
                                                   const std::vector<WrapLandmark>& landmarks,
                                                   const std::optional<PoseHint>& hint) {

@@ -84,13 +84,13 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
                         const std::vector<WrapLandmark>& landmarks,
                         const std::optional<PoseHint>& hint);
 
-/// Leave-out validation: the distance in mm between each landmark's picked position and its
-/// position in a wrap that does not use this landmark. The distance estimates the error of the wrap
-/// in places without landmarks, plus the picking error. The function runs one wrap per landmark if
-/// there are at most eleven landmarks, otherwise four wraps. The result is empty if too few
-/// landmarks would remain.
+/// Cross-validates the wrap: returns, by landmark name, the distance in mm between the landmark's
+/// picked position and its position in a wrap that does not use this landmark. The distance
+/// estimates the error of the wrap in places without landmarks, plus the picking error. The
+/// function runs one wrap per landmark if there are at most eleven landmarks, otherwise four wraps.
+/// The result is empty if too few landmarks would remain.
 /// \param wrap_template, model, scan, landmarks, hint  as for `wrap`
-std::map<std::string, double> leave_out_distances(const WrapTemplate& wrap_template,
+std::map<std::string, double> cross_validate_wrap(const WrapTemplate& wrap_template,
                                                   const ShapeModel* model, const Scan& scan,
                                                   const std::vector<WrapLandmark>& landmarks,
                                                   const std::optional<PoseHint>& hint);

@@ -79,7 +79,7 @@ Vector3d on_ring(double around, double b) {
   Vector3d ear = ear_point(reach * round, height_at(round, from));
   if (b >= kAttached) return ear;
   const GuideRay ray = opening_ray(opening_of(SkinPatch::kEar), around);
-  const Vector3d edge = project_onto_skin(ray.origin, ray.guide);
+  const Vector3d edge = project_onto_skin(ray.origin, ray.point_near_skin);
   const double part = b / kAttached;
   const Vector3d between = edge + part * (ear - edge);
   return project_onto_skin({ray.origin.x() * (1 - part), between.y(), between.z()}, between);

@@ -90,21 +90,21 @@ struct GuideRays {
     };
     GuideRay ray;
     if (k <= kBackColumn) {
-      ray.guide = point(k);
+      ray.point_near_skin = point(k);
     } else {
       const double from = column_distance(kBackColumn), to = column_distance(kColumns - 1);
       const double f = (column_distance(k) - from) / (to - from), g = f * (2 - f);
       const Vector3d corner = point(kBackColumn), back = point(kPlaced - 1);
-      ray.guide = {corner.x() * (1 - f), corner.y() + (back.y() - corner.y()) * g,
-                   corner.z() + (back.z() - corner.z()) * g};
+      ray.point_near_skin = {corner.x() * (1 - f), corner.y() + (back.y() - corner.y()) * g,
+                             corner.z() + (back.z() - corner.z()) * g};
     }
-    ray.origin = {0.4 * ray.guide.x(), row.origin_y, row.origin_z};
+    ray.origin = {0.4 * ray.point_near_skin.x(), row.origin_y, row.origin_z};
     for (const NearOrigin& o : kNearOrigins) {
       if (o.row == j && o.column == k) ray.origin = {o.x, o.y, o.z};
     }
-    // Move the guide points onto the skin, so that points interpolated between them stay near the
-    // skin.
-    ray.guide = project_onto_skin(ray.origin, ray.guide);
+    // Move the point onto the skin, so that points interpolated between lattice points stay near
+    // the skin.
+    ray.point_near_skin = project_onto_skin(ray.origin, ray.point_near_skin);
     rays[static_cast<std::size_t>(j)][static_cast<std::size_t>(k)] = ray;
   }
 
@@ -116,7 +116,7 @@ struct GuideRays {
     if (k < -(kColumns - 1)) k += around;
     GuideRay ray = rays[static_cast<std::size_t>(j)][static_cast<std::size_t>(std::abs(k))];
     if (k < 0) {
-      ray.guide.x() = -ray.guide.x();
+      ray.point_near_skin.x() = -ray.point_near_skin.x();
       ray.origin.x() = -ray.origin.x();
     }
     return ray;
@@ -182,7 +182,7 @@ GuideRay strip_ray(double a, double b) {
       const GuideRay ray = guide_rays().at(rows.knots[j], columns.knots[k]);
       const double weight = rows.weights[j] * columns.weights[k];
       sum.origin += weight * ray.origin;
-      sum.guide += weight * ray.guide;
+      sum.point_near_skin += weight * ray.point_near_skin;
     }
   }
   return sum;
@@ -204,8 +204,8 @@ GuideRay cap_ray(double a, double b) {
            s * t * part(c11);
   };
   GuideRay ray{coons([](const GuideRay& r) { return r.origin; }),
-               coons([](const GuideRay& r) { return r.guide; })};
-  ray.guide.y() += 2.5 * 16 * s * (1 - s) * t * (1 - t);
+               coons([](const GuideRay& r) { return r.point_near_skin; })};
+  ray.point_near_skin.y() += 2.5 * 16 * s * (1 - s) * t * (1 - t);
   return ray;
 }
 

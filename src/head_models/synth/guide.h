@@ -10,7 +10,7 @@ namespace crowdface::synth {
 /// A line from a point inside the head through a point near the skin, cm. The point where the line
 /// intersects the skin is a vertex of the mesh.
 struct GuideRay {
-  Eigen::Vector3d origin, guide;
+  Eigen::Vector3d origin, point_near_skin;
 };
 
 /// Returns the ray for an address (a, b) of the strip, interpolated smoothly from hand-placed

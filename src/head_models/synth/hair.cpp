@@ -44,7 +44,7 @@ HairStyle random_hair_style(std::uint64_t seed, std::uint64_t index) {
     style.side_thickness = kind < 0.75 ? 0.3 : 0.7;
     return style;
   }
-  style.low_edge = true;
+  style.has_low_hairline = true;
   style.top_thickness = 1.0;
   style.side_thickness = 0.8;
   if (kind < 0.5 && person.age_years < 60) {
@@ -92,7 +92,7 @@ double Hair::hanging_fraction(const Vector3d& p) const {
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
 }
 
-double height_above_hairline(const Vector3d& p, bool low_edge, double recession) {
+double height_above_hairline(const Vector3d& p, bool has_low_hairline, double recession) {
   // clang-format off
   const std::array<Vector2d, 9> high = {{
       {0.0, 7.6 + 3.2 * recession}, {0.25, 7.5 + 4.2 * recession}, {0.42, 6.6 + 3.0 * recession},
@@ -101,7 +101,8 @@ double height_above_hairline(const Vector3d& p, bool low_edge, double recession)
       {0.0, 7.4}, {0.25, 7.0}, {0.42, 5.8}, {0.55, 3.6}, {0.68, 1.0}, {0.80, 0.2}, {0.92, 2.4}, {1.35, -7.5}}};
   // clang-format on
   const double around = around_head(p);
-  return p.y() - (low_edge ? interpolate_knots(low, around) : interpolate_knots(high, around));
+  return p.y() -
+         (has_low_hairline ? interpolate_knots(low, around) : interpolate_knots(high, around));
 }
 
 /// Returns the density of the hair that remains after balding, 0 … 1; balding starts at the crown.
@@ -116,8 +117,8 @@ bool Hair::may_cover(const Vector3d& p) const {
 
 double Hair::coverage(const Vector3d& p, double strand_brightness) const {
   const double frayed = height_above_edge(p) + 0.25 * edge_.at(p) +
-                        (style_.low_edge ? 0.15 : 0.25) * strand_brightness;
-  const double edge = smooth_step(-0.2, style_.low_edge ? 0.6 : 1.0, frayed);
+                        (style_.has_low_hairline ? 0.15 : 0.25) * strand_brightness;
+  const double edge = smooth_step(-0.2, style_.has_low_hairline ? 0.6 : 1.0, frayed);
   return std::max(edge * density_after_balding(p), smooth_step(0.02, 0.2, hanging_fraction(p)));
 }
 

@@ -19,13 +19,14 @@ struct HairStyle {
   double curliness = 0;       ///< 0 (straight) … 1 (tight curls)
   /// −1 … 1: additional volume of the top hair on one side; positive: on the side x > 0
   double extra_volume_to_side = 0;
-  bool low_edge = false;  ///< low hairline: hair covers the temples and grows in front of the ears
+  /// whether hair covers the temples and grows in front of the ears
+  bool has_low_hairline = false;
 };
 
 /// Returns the height of a point above the hairline, cm; negative below.
-/// \param low_edge  whether the hairline is low, as of women: hair covers the temples.
-/// \param recession  0 (full hairline) … 1 (bald); ignored if `low_edge` is set.
-double height_above_hairline(const Eigen::Vector3d& p, bool low_edge, double recession = 0);
+/// \param has_low_hairline  whether the hairline is low, as of women: hair covers the temples.
+/// \param recession  0 (full hairline) … 1 (bald); ignored if `has_low_hairline` is set.
+double height_above_hairline(const Eigen::Vector3d& p, bool has_low_hairline, double recession = 0);
 
 /// Returns whether a person's hair is curly.
 bool has_curls(std::uint64_t seed, std::uint64_t index);
@@ -50,7 +51,7 @@ class Hair {
 
  private:
   double height_above_edge(const Eigen::Vector3d& p) const {
-    return height_above_hairline(p, style_.low_edge, recession_);
+    return height_above_hairline(p, style_.has_low_hairline, recession_);
   }
   double density_after_balding(const Eigen::Vector3d& p) const;
   double hanging_fraction(const Eigen::Vector3d& p) const;

@@ -92,7 +92,7 @@ Vector3d into_opening(SkinPatch patch, const Vector3d& edge, const Vector2d& c, 
 }
 
 SkinPoint on_skin(const GuideRay& ray) {
-  const Vector3d position = project_onto_skin(ray.origin, ray.guide);
+  const Vector3d position = project_onto_skin(ray.origin, ray.point_near_skin);
   return {position, skin_normal(position), 1};
 }
 
@@ -105,9 +105,9 @@ SkinPoint ring_skin(const Address& address) {
     return {into_opening(address.patch, edge.position, circle, address.b), edge.normal, 0};
   }
   const GuideRay outer = opening_ray(opening_of(address.patch), address.a);
-  const Vector3d inner_guide = project_onto_skin(inner.origin, inner.guide);
+  const Vector3d inner_skin_point = project_onto_skin(inner.origin, inner.point_near_skin);
   return on_skin({outer.origin + address.b * (inner.origin - outer.origin),
-                  outer.guide + address.b * (inner_guide - outer.guide)});
+                  outer.point_near_skin + address.b * (inner_skin_point - outer.point_near_skin)});
 }
 
 SkinPoint ear_skin(const Address& address) {

@@ -77,8 +77,8 @@ double carried(double wavelength, double edge) {
 }  // namespace
 
 Relief::Relief(const Identity& identity, double edge_cm)
-    : place_noise_x_(mix(identity.seed(), identity.index(), 11), 1.4),
-      place_noise_y_(mix(identity.seed(), identity.index(), 12), 1.4),
+    : fold_offset_noise_x_(mix(identity.seed(), identity.index(), 11), 1.4),
+      fold_offset_noise_y_(mix(identity.seed(), identity.index(), 12), 1.4),
       curve_noise_(mix(identity.seed(), identity.index(), 14), 1.1),
       fold_gap_noise_(mix(identity.seed(), identity.index(), 15), 0.9),
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
@@ -122,8 +122,9 @@ void Relief::add_stroke(std::size_t fold_index, double side, double depth) {
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;
     Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
-    p += fold.wave_amplitude * Vector2d(0.5 * curve_noise_.at({stroke.noise_row, 0.5 * p.y(), 5}),
-                                        curve_noise_.at({0.5 * p.x(), stroke.noise_row, 0}));
+    p += fold.wave_amplitude *
+         Vector2d(0.5 * curve_noise_.at({stroke.noise_coordinate, 0.5 * p.y(), 5}),
+                  curve_noise_.at({0.5 * p.x(), stroke.noise_coordinate, 0}));
     p.x() *= side;
     stroke.points[static_cast<std::size_t>(i)] = p;
   }
@@ -151,9 +152,10 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
   // groove.
   const double distance = std::sqrt(nearest);
   double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
-  if (stroke.noise_length > 0)
-    taper *= smooth_step(-0.7, 0.3,
-                         fold_gap_noise_.at({along * stroke.noise_length, stroke.noise_row, 0}));
+  if (stroke.gap_noise_length > 0)
+    taper *= smooth_step(
+        -0.7, 0.3,
+        fold_gap_noise_.at({along * stroke.gap_noise_length, stroke.noise_coordinate, 0}));
   double height = -bump(distance / stroke.width);
   const double beside = side * distance * (stroke.bulge < 0 ? -1 : 1);
   height += std::abs(stroke.bulge) * bump((beside - 1.5 * stroke.width) / (1.5 * stroke.width));
@@ -163,7 +165,8 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
 double Relief::fold_height(const Vector3d& p) const {
   const double front = smooth_step(0.5, 2.5, p.z());
   if (front <= 0) return 0;
-  const Vector2d place(p.x() + 0.08 * place_noise_x_.at(p), p.y() + 0.08 * place_noise_y_.at(p));
+  const Vector2d place(p.x() + 0.08 * fold_offset_noise_x_.at(p),
+                       p.y() + 0.08 * fold_offset_noise_y_.at(p));
   double sum = 0;
   for (const Stroke& stroke : strokes_) sum += stroke_height(stroke, place);
   return front * sum;

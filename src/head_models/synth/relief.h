@@ -33,9 +33,11 @@ class Relief {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    /// The curve has gaps where `fold_gap_noise_` is low. Along the curve, the noise is sampled
-    /// from (0, noise_row, 0) to (noise_length, noise_row, 0). No gaps if noise_length is 0.
-    double noise_row = 0, noise_length = 0;
+    /// a coordinate in the noise fields, different for each curve, so that curves are independent
+    double noise_coordinate = 0;
+    /// The curve has gaps where `fold_gap_noise_` is low. Along the curve, this noise is sampled
+    /// from (0, noise_coordinate, 0) to (gap_noise_length, noise_coordinate, 0). 0: no gaps.
+    double gap_noise_length = 0;
     Eigen::AlignedBox2d affected_box;  ///< bounding box of the curve's effect
   };
   double grain(const Eigen::Vector3d& position) const;
@@ -43,9 +45,9 @@ class Relief {
   void add_stroke(std::size_t fold_index, double side, double depth);
 
   std::vector<Stroke> strokes_;
-  SmoothNoise place_noise_x_, place_noise_y_;  ///< shift the places of all folds
-  SmoothNoise curve_noise_;                    ///< shifts the curves of single folds
-  SmoothNoise fold_gap_noise_;                 ///< folds have gaps where this noise is low
+  SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< shift the places of all folds
+  SmoothNoise curve_noise_;                                ///< shifts the curves of single folds
+  SmoothNoise fold_gap_noise_;  ///< folds have gaps where this noise is low
   struct Octave {
     SmoothNoise noise;
     double amplitude;

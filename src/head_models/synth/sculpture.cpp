@@ -127,12 +127,12 @@ Vector3d skin_normal(const Vector3d& point) {
   return length > 0 ? Vector3d(gradient / length) : Vector3d(0, 0, 1);
 }
 
-Vector3d project_onto_skin(const Vector3d& origin, const Vector3d& guide) {
-  const Vector3d direction = (guide - origin).normalized();
+Vector3d project_onto_skin(const Vector3d& origin, const Vector3d& point_near_skin) {
+  const Vector3d direction = (point_near_skin - origin).normalized();
   const auto at = [&](double t) { return skin_distance(origin + t * direction); };
-  // Step from the guide point along the line, towards the skin, until the distance changes its
+  // Step from `point_near_skin` along the line, towards the skin, until the distance changes its
   // sign.
-  double t0 = (guide - origin).norm(), d0 = at(t0);
+  double t0 = (point_near_skin - origin).norm(), d0 = at(t0);
   double t1 = t0, d1 = d0;
   for (int i = 0; i < 80 && (d1 > 0) == (d0 > 0); ++i) {
     t0 = t1;

@@ -25,9 +25,10 @@ Eigen::Vector3d central_differences(const Distance& distance, const Eigen::Vecto
 /// Returns the unit normal of the skin at a point on or near the skin.
 Eigen::Vector3d skin_normal(const Eigen::Vector3d& point);
 
-/// Intersects the line from `origin` through `guide` with the skin. Returns the intersection
-/// nearest to `guide`.
-Eigen::Vector3d project_onto_skin(const Eigen::Vector3d& origin, const Eigen::Vector3d& guide);
+/// Intersects the line from `origin` through `point_near_skin` with the skin. Returns the
+/// intersection nearest to `point_near_skin`.
+Eigen::Vector3d project_onto_skin(const Eigen::Vector3d& origin,
+                                  const Eigen::Vector3d& point_near_skin);
 
 /// Centre of the eyeball at x > 0, cm. The eyeball is larger than a real eyeball, because only its
 /// front is visible.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/validity/parts_through_skin.h"
+#include "crowdface/validity/protruding_parts_check.h"
 
 #include <numeric>
 #include <set>
@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-PartsThroughSkin::PartsThroughSkin(const Topology& topology, const Components& components,
-                                   std::span<const std::uint32_t> parts, const Positions& mean,
-                                   ViewSetup view_setup)
+ProtrudingPartsCheck::ProtrudingPartsCheck(const Topology& topology, const Components& components,
+                                           std::span<const std::uint32_t> parts,
+                                           const Positions& mean, ViewSetup view_setup)
     : triangles_(triangles_of(topology, components, components.largest())),
       skin_count_(static_cast<std::uint32_t>(triangles_.size())),
       view_setup_(std::move(view_setup)) {
@@ -22,7 +22,7 @@ PartsThroughSkin::PartsThroughSkin(const Topology& topology, const Components& c
   tree_ = TriangleTree(triangles_, mean);
 }
 
-double PartsThroughSkin::exposed_mm2(const Positions& positions) const {
+double ProtrudingPartsCheck::exposed_mm2(const Positions& positions) const {
   if (triangles_.size() == skin_count_) return 0;
   const TriangleScene scene(triangles_, tree_, positions, ray_margin(positions));
   std::set<std::uint32_t> through;  // triangles of parts that pass through the skin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/validity/parts_through_skin.h"
+#include "crowdface/validity/protruding_parts_check.h"
 
 #include <array>
 
@@ -40,19 +40,19 @@ struct Scene {
   Components components;
 };
 
-TEST(PartsThroughSkin, MeasuresTheVisibleAreaThatPassesThroughTheSkin) {
+TEST(ProtrudingPartsCheck, MeasuresTheVisibleAreaThatPassesThroughTheSkin) {
   const Scene scene;
   const std::array<std::uint32_t, 1> parts{1U - scene.components.largest()};
   const ViewSetup around{{{2, 0.3, 1}, {-2, 0.3, 1}, {0.3, 2, 1}, {0.3, -2, 1}}, 10};
-  const PartsThroughSkin check(scene.topology, scene.components, parts, scene.at(0), around);
+  const ProtrudingPartsCheck check(scene.topology, scene.components, parts, scene.at(0), around);
   EXPECT_EQ(check.exposed_mm2(scene.at(-2)), 0) << "behind the skin";
   // The four sides, 2 wide and 1 high above the skin.
   EXPECT_NEAR(check.exposed_mm2(scene.at(0)), 800, 160);
   EXPECT_EQ(check.exposed_mm2(scene.at(2)), 0) << "in front of it and apart, as glasses are";
   const ViewSetup below{{{0.2, 0.3, -1}, {-0.2, 0.3, -1}}, 10};
-  const PartsThroughSkin other(scene.topology, scene.components, parts, scene.at(0), below);
+  const ProtrudingPartsCheck other(scene.topology, scene.components, parts, scene.at(0), below);
   EXPECT_GT(other.exposed_mm2(scene.at(0)), 0);
-  const PartsThroughSkin no_parts(scene.topology, scene.components, {}, scene.at(0), around);
+  const ProtrudingPartsCheck no_parts(scene.topology, scene.components, {}, scene.at(0), around);
   EXPECT_EQ(no_parts.exposed_mm2(scene.at(0)), 0);
 }
 

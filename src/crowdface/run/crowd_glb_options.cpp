@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/glb_form.h"
+#include "crowdface/run/crowd_glb_options.h"
 
 #include <algorithm>
 #include <array>

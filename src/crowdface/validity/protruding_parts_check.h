@@ -12,13 +12,13 @@ namespace crowdface {
 
 /// Measures how much of the parts that belong behind the skin, such as gums and teeth, protrudes
 /// visibly through the skin. Const methods are thread-safe.
-class PartsThroughSkin {
+class ProtrudingPartsCheck {
  public:
   /// \param parts  indices of the components that are behind the skin
   /// \param mean   a typical head, #V by 3
-  PartsThroughSkin(const Topology& topology, const Components& components,
-                   std::span<const std::uint32_t> parts, const Positions& mean,
-                   ViewSetup view_setup);
+  ProtrudingPartsCheck(const Topology& topology, const Components& components,
+                       std::span<const std::uint32_t> parts, const Positions& mean,
+                       ViewSetup view_setup);
 
   /// Returns the visible area, in mm², of those triangles of the parts that pass through the skin.
   double exposed_mm2(const Positions& positions) const;

@@ -14,33 +14,33 @@
 
 namespace crowdface {
 
-/// The attachments of a crowd at one level of detail. The "form" of an attachment is its data,
-/// converted for one file format.
-/// \tparam Form  the part of an attachment's data that is equal for all faces. A file combines this
-///               part with the attachment's positions on one face.
-template <class Form>
-class AttachmentForms {
+/// The attachments of a crowd at one level of detail, converted for one file format.
+/// \tparam FormatData  the data of an attachment in this format that are equal for all faces. A
+///                     file combines these data with the attachment's positions on one face.
+template <class FormatData>
+class AttachmentsInFormat {
  public:
-  /// \param make  function that returns the form of an attachment. The function's second argument
-  ///              is the attachment's level of detail, or null if the attachment is not reduced.
+  /// \param make  function that returns the FormatData of an attachment. The function's second
+  ///              argument is the attachment's level of detail, or null if the attachment is not
+  ///              reduced.
   template <class Make>
-  AttachmentForms(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
+  AttachmentsInFormat(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
     for (const Attachment* item : level.attachments_in_files(set)) {
-      forms_.emplace(item, make(*item, level.find(*item)));
+      data_of_attachment_.emplace(item, make(*item, level.find(*item)));
     }
   }
 
-  const Form& at(const Attachment& item) const { return forms_.at(&item); }
-  /// Combines a face's attachments with their forms (data converted for one file format). The
-  /// result refers to `attachments` and to this object.
-  /// \tparam Placed  a struct with a form, positions, displacements and a PartLook
+  const FormatData& at(const Attachment& item) const { return data_of_attachment_.at(&item); }
+  /// Combines a face's attachments with their data in this format. The result refers to
+  /// `attachments` and to this object.
+  /// \tparam Placed  a struct with a pointer to FormatData, positions, displacements and a PartLook
   template <class Placed>
   std::vector<Placed> placed(std::span<const PlacedAttachment> attachments) const {
     std::vector<Placed> placed;
     for (const PlacedAttachment& one : attachments) {
       const AttachmentLook look = one.look();
       const std::string name = one.face_id.empty() ? look.label() : one.face_id;
-      placed.push_back({&forms_.at(one.item), &one.positions, one.moves,
+      placed.push_back({&data_of_attachment_.at(one.item), &one.positions, one.moves,
                         PartLook{look.tint(), name, one.texture_png}});
     }
     return placed;
@@ -48,7 +48,8 @@ class AttachmentForms {
 
   std::size_t memory_bytes() const {
     std::size_t bytes = 0;
-    for (const auto& [item, form] : forms_) bytes += std::invoke(&Form::memory_bytes, form);
+    for (const auto& [item, format_data] : data_of_attachment_)
+      bytes += std::invoke(&FormatData::memory_bytes, format_data);
     return bytes;
   }
   /// Maximum memory, in bytes, for encoding the attachments of one face. A face wears at most one
@@ -57,9 +58,9 @@ class AttachmentForms {
   template <class Files>
   std::size_t encoding_memory_bytes(const Files& files) const {
     std::map<std::string, std::size_t> most_bytes_of_kind;
-    for (const auto& [item, form] : forms_) {
+    for (const auto& [item, format_data] : data_of_attachment_) {
       std::size_t& most = most_bytes_of_kind[item->kind];
-      most = std::max(most, std::invoke(&Form::encoding_memory_bytes, form) *
+      most = std::max(most, std::invoke(&FormatData::encoding_memory_bytes, format_data) *
                                 static_cast<std::size_t>(files(*item)));
     }
     std::size_t bytes = 0;
@@ -71,7 +72,7 @@ class AttachmentForms {
   }
 
  private:
-  std::map<const Attachment*, Form> forms_;  ///< the converted data of each attachment
+  std::map<const Attachment*, FormatData> data_of_attachment_;
 };
 
 /// The data of the mesh and of the attachments that are equal for all faces, converted for one file
@@ -79,7 +80,7 @@ class AttachmentForms {
 template <class Mesh, class Part>
 struct MeshWithAttachments {
   Mesh mesh;
-  AttachmentForms<Part> parts;
+  AttachmentsInFormat<Part> parts;
 
   std::size_t memory_bytes() const { return mesh.memory_bytes() + parts.memory_bytes(); }
   std::size_t encoding_memory_bytes() const {
