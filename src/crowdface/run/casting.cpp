@@ -158,8 +158,8 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
 /// the crowd's folder keep their own minimum distance in these trials.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
   if (config.crowd.existing_face_count) {
-    casting.diversity.min_distance_mm_by_last_face.try_emplace(*config.crowd.existing_face_count,
-                                                               casting.diversity.min_distance_mm);
+    casting.diversity.min_distance_mm_up_to_face.try_emplace(*config.crowd.existing_face_count,
+                                                             casting.diversity.min_distance_mm);
   }
   return casting;
 }
