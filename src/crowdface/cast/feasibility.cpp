@@ -41,8 +41,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   Remedy remedy;
   remedy.binding_constraint = shortfall.rejections.most_frequent();
   CastingOptions easier = casting;
-  if (!shortfall.family.empty() || !shortfall.reviewed_face.empty() ||
-      !shortfall.manual_face.empty() || !shortfall.changed_face.empty()) {
+  if (!shortfall.family.empty() || !shortfall.reviewed_face_id.empty() ||
+      !shortfall.manual_face_id.empty() || !shortfall.unchangeable_face_id.empty()) {
     return remedy;
   }
   easier.reviews.clear();
