@@ -67,12 +67,13 @@ class PythonJob {
   Index vertex_count() const { return job_.inputs.head_set.topology.vertex_count; }
 
   std::vector<std::string> cast() {
-    FindMeshDefects defects;
+    MeshDefectFinder find_mesh_defects;
     if (casting_builds_candidate_meshes(job_.config)) {
-      defects = mesh_defects(job_.config, job_.inputs, builder());
+      find_mesh_defects = mesh_defect_finder(job_.config, job_.inputs, builder());
     }
     std::vector<std::string> lines;
-    const CrowdPlan plan = plan_crowd(job_.config, job_.inputs, prepared(), defects, cache_);
+    const CrowdPlan plan =
+        plan_crowd(job_.config, job_.inputs, prepared(), find_mesh_defects, cache_);
     std::string text;
     annotated_plan_text(plan.crowd, job_.names, job_.settings,
                         head_tags_and_attachment_kinds(job_.config))(

@@ -124,8 +124,9 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   tasks.scratch_folder = options.scratch;
   tasks.processor_count = parse_whole_number("--processors", options.processors, 1, kMaxProcessors);
   tasks.memory_bytes = parse_byte_size("--memory", options.memory);
-  tasks.prepare_task_count = count_from("--prepare-tasks", options.prepares,
-                                        suitable_prepare_count(job.inputs, tasks.processor_count));
+  tasks.prepare_task_count =
+      count_from("--prepare-tasks", options.prepares,
+                 suitable_prepare_task_count(job.inputs, tasks.processor_count));
   tasks.shard_count = count_from(
       "--shards", options.shards,
       suitable_shard_count(job.config, job.inputs, face_count(job.config), tasks.processor_count));

@@ -125,7 +125,7 @@ TEST(ExpressionCheck, TellsExpressionsOfTheIctModel) {
   }
   const ObjFile neutral = read_obj(folder / "ict_shapes/generic_neutral_mesh.obj");
   HeadSet all{neutral.topology, neutral.uvs, {}};
-  for (const fs::path& file : list_files(folder / "ict16", has_extension(".obj"))) {
+  for (const fs::path& file : list_files(folder / "ict16", extension_filter(".obj"))) {
     all.heads.push_back({file.stem().string(), read_obj(file).positions});
   }
   EXPECT_EQ(warnings_of(all), "");

@@ -95,7 +95,7 @@ TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
   const Folder with("auto"), without("none");
   const Job& job = *with.job;
   const FaceBuilder builder(job.config, job.inputs, *with.prepared);
-  const FindMeshDefects defects = mesh_defects(job.config, job.inputs, builder);
+  const MeshDefectFinder find_mesh_defects = mesh_defect_finder(job.config, job.inputs, builder);
   const auto mirror = required_mirror_map(job.config, job.inputs, "a test");
   for (const double asymmetry : {1.0, 1.5}) {
     Recipe plain = recipe(0, 1, 60, 1.3);
@@ -105,7 +105,7 @@ TEST(FaceBuilder, GivesAMirroredFaceTheContactsOfItsTwin) {
     const Positions face = with.build(plain);
     EXPECT_GT((face - without.build(plain)).cwiseAbs().maxCoeff(), 0.02) << "something to correct";
     EXPECT_TRUE(mirrored(*mirror, face) == with.build(image));
-    const SkinDefects of_plain = defects(plain), of_image = defects(image);
+    const SkinDefects of_plain = find_mesh_defects(plain), of_image = find_mesh_defects(image);
     constexpr double kRounding = 1e-6;
     EXPECT_NEAR(of_plain.gap_excess_mm, of_image.gap_excess_mm, kRounding);
     EXPECT_NEAR(of_plain.local.stretch_factor, of_image.local.stretch_factor, kRounding);

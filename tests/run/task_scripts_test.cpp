@@ -111,7 +111,7 @@ TEST(FittingTasks, GrowWithTheCrowdAndAreNeverMoreThanItsFaces) {
               8.0 * static_cast<double>(suitable_shard_count(job.config, job.inputs, 1'000'000, 8)),
               8);
   EXPECT_EQ(suitable_shard_count(job.config, job.inputs, 1'000'000'000, 1), 1000U);
-  EXPECT_EQ(suitable_prepare_count(job.inputs, 1), 1U);
+  EXPECT_EQ(suitable_prepare_task_count(job.inputs, 1), 1U);
 }
 
 }  // namespace

@@ -136,7 +136,7 @@ std::optional<IctModel> ict_model(const std::vector<std::string>& shapes) {
   if (!fs::exists(folder / "ict_shapes")) return std::nullopt;
   const ObjFile neutral = read_obj(folder / "ict_shapes/generic_neutral_mesh.obj");
   HeadSet faces{neutral.topology, neutral.uvs, {}};
-  for (const fs::path& file : list_files(folder / "ict16", has_extension(".obj"))) {
+  for (const fs::path& file : list_files(folder / "ict16", extension_filter(".obj"))) {
     faces.heads.push_back({file.stem().string(), read_obj(file).positions});
   }
   ShapeSet set{neutral.positions, {}};

@@ -66,13 +66,13 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
 }
 
 /// Casts the sampled faces `from` … `to`. Their minimum distances may differ, see
-/// DiversityOptions::min_distance_mm_by_last_face.
+/// DiversityOptions::min_distance_mm_up_to_face.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceDistribution>& distributions,
                     const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
                     CrowdSoFar& crowd, PopulationBalance& population,
                     const FaceJoinedCallback& on_face_joined, CastingResult& result) {
-  const auto& distances = casting.diversity.min_distance_mm_by_last_face;
+  const auto& distances = casting.diversity.min_distance_mm_up_to_face;
   while (from <= to && !result.shortfall) {
     const auto same = distances.lower_bound(from);
     const std::uint64_t last = same == distances.end() ? to : std::min(to, same->first);

@@ -23,9 +23,9 @@ struct Shortfall {
   Rejections rejections;    ///< how often each constraint rejected a candidate for the next face
   int group_index = -1;     ///< group of the sampled face that could not be found, or −1
   std::string family = {};  ///< name of the family that could not be cast, if any
-  std::string reviewed_face = {};  ///< id of the face that could not be redrawn, if any
-  std::string manual_face = {};    ///< id of the hand-written face that could not be cast, if any
-  std::string changed_face = {};   ///< id of the face that could not be changed, if any
+  std::string reviewed_face_id = {};  ///< id of the face that could not be redrawn, if any
+  std::string manual_face_id = {};  ///< id of the hand-written face that could not be cast, if any
+  std::string unchangeable_face_id = {};  ///< id of the face that could not be changed, if any
 };
 
 struct ChangedFace;

@@ -22,7 +22,7 @@ struct DiversityOptions {
   /// kFirstFit: values that replace `min_distance_mm` for the first sampled faces. The key is the
   /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and
   /// families have 1.2 mm, faces 25 … 40 have 1 mm, and later faces have `min_distance_mm`.
-  std::map<std::uint64_t, double> min_distance_mm_by_last_face = {};
+  std::map<std::uint64_t, double> min_distance_mm_up_to_face = {};
   /// smallest distance of a face from every input head (key `min_distance_to_faces`)
   double min_distance_to_heads_mm = 0;
   /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
@@ -52,8 +52,8 @@ struct DiversityOptions {
   ///
   /// \param index  number of the sampled face, from 1; 0: a face of a family.
   double min_distance_mm_of(std::uint64_t index) const {
-    const auto first = min_distance_mm_by_last_face.lower_bound(index);
-    return first == min_distance_mm_by_last_face.end() ? min_distance_mm : first->second;
+    const auto first = min_distance_mm_up_to_face.lower_bound(index);
+    return first == min_distance_mm_up_to_face.end() ? min_distance_mm : first->second;
   }
   /// Returns a copy of these options with the `min_distance_mm` of one sampled face.
   DiversityOptions options_of_face(std::uint64_t index) const {

@@ -231,7 +231,7 @@ class Changing {
     cast_.rejections.add(found.rejections());
     if (!face) {
       cast_.shortfall = Shortfall{casting_.count, found.rejections()};
-      cast_.shortfall->changed_face = changed_.face.id;
+      cast_.shortfall->unchangeable_face_id = changed_.face.id;
     }
     return face;
   }

@@ -26,7 +26,7 @@ std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
 
 FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability, const ProxySkin* proxy_skin,
-                     FindMeshDefects find_mesh_defects)
+                     MeshDefectFinder find_mesh_defects)
     : space_(space),
       diversity_(diversity),
       believability_(believability),

@@ -20,7 +20,7 @@ std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
 
 /// Builds the whole mesh of a recipe, and compares the mesh's skin with the target's skin. Must be
 /// callable from any thread.
-using FindMeshDefects = std::function<SkinDefects(const Recipe&)>;
+using MeshDefectFinder = std::function<SkinDefects(const Recipe&)>;
 
 /// Judges one candidate at a time, without regard to the other faces of the crowd.
 class FaceJudge {
@@ -31,7 +31,7 @@ class FaceJudge {
   ///                           pass the coarse check.
   FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
             const BelievabilityOptions& believability, const ProxySkin* proxy_skin = nullptr,
-            FindMeshDefects find_mesh_defects = {});
+            MeshDefectFinder find_mesh_defects = {});
 
   /// Sets limits on measurements. \param rules  must outlive this object; null: no limits
   void set_trait_rules(const TraitRules* rules) { trait_rules_ = rules; }
@@ -76,7 +76,7 @@ class FaceJudge {
   double same_person_mm_;
   Plausibility plausibility_;
   const ProxySkin* proxy_skin_;
-  FindMeshDefects find_mesh_defects_;
+  MeshDefectFinder find_mesh_defects_;
   const TraitRules* trait_rules_ = nullptr;
 };
 

@@ -82,7 +82,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     // The limit grows with the number of tries. If both parents are new, a pair that matches well
     // is soon found; if one parent is given, there may be no good match.
     const double enough =
-        kMaxStrangerFractionForFounder * (0.5 + static_cast<double>(f) / kCouples);
+        kMaxFractionOfNearerStrangersForFounder * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child (not part of the crowd) replaces the founder.
@@ -91,9 +91,9 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
           [&](std::uint32_t attempt) { return sampler.twins_prototype(cast, attempt); }, judge,
           of_founder, 1, f * attempts_each);
       auto child = model.choose_face(crowd, [&](const FaceSpace::Point& point) {
-        const bool too_far = to_half <= kMaxStrangerFractionForFounder &&
+        const bool too_far = to_half <= kMaxFractionOfNearerStrangersForFounder &&
                              sampler.fraction_of_strangers_nearer_than_parent(point) >
-                                 kMaxStrangerFractionForFounder;
+                                 kMaxFractionOfNearerStrangersForFounder;
         return too_far ? std::optional(Reason::kFamily)
                        : sampler.rejection_reason(cast, point, {}, family_separation);
       });

@@ -34,7 +34,7 @@ constexpr double kTwinsReach = 0.5;
 
 /// A child counts as resembling a parent if at most this fraction of strangers is nearer to the
 /// child than the parent is.
-constexpr double kMaxStrangerFractionForChild = 0.1;
+constexpr double kMaxFractionOfNearerStrangersForChild = 0.1;
 /// Limit for children of parents that are far apart: the largest difference between a child's
 /// distance from a parent and the founder's distance from this parent, as a fraction of
 /// max_distance.
@@ -115,7 +115,7 @@ void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan fa
 /// Determines the third contributor, and the substitutes for the parents' heads that are outside
 /// the family's group. Called when the parents are known.
 void FamilySampler::prepare_inheritance() {
-  random_contributor_distribution_ = random_contributor();
+  third_contributor_distribution_ = third_contributor_distribution();
   if (!family_.group || parents_.empty()) return;
   const FaceDistribution kind = distribution_of_group(casting_, family_.group);
   std::vector<Index> taken, targets;
@@ -145,7 +145,7 @@ std::vector<SourceWeight> FamilySampler::coarse_shape_of(std::size_t parent) con
 /// Returns the parameters from which the third contributor is drawn. This contributor provides what
 /// members inherit from neither parent. It is a random mixture of at least three heads that have
 /// most of the tags which both parents share, so that the child's skin tone stays plausible.
-FaceDistribution FamilySampler::random_contributor() const {
+FaceDistribution FamilySampler::third_contributor_distribution() const {
   constexpr std::size_t kMin = 3;
   FaceDistribution kind = distribution_of_group(casting_, family_.group);
   if (parents_.empty() || casting_.tags.empty()) return kind;
@@ -246,7 +246,7 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   open.target = family_.target;
   open.age = Range{0, 0};
   FacePlan face = random_face_plan(casting_, open, {0, attempt, concat("family/", family_.name)},
-                                   random_contributor_distribution_);
+                                   third_contributor_distribution_);
   if (parents_.empty()) {
     // mark the face as a member, so that the family's limits on measurements apply
     face.family = family_.name;
@@ -336,7 +336,7 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   if (parents_.empty()) open.target = family_plan.founder.recipe.target;
   open.age = Range{0, 0};
   MemberDraft draft;
-  draft.random_face = random_face_plan(casting_, open, key, random_contributor_distribution_);
+  draft.random_face = random_face_plan(casting_, open, key, third_contributor_distribution_);
   draft.random_face.family = family_.name;
   if (!parents_.empty()) inherit_from_parents(draft.random_face, key);
   const std::string purpose = concat(key.purpose_prefix, "/how");
@@ -414,9 +414,10 @@ std::optional<Reason> FamilySampler::rejection_reason(
 /// parent is not much larger than the founder's distance from this parent.
 bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
                                       const FaceSpace::Point& point) const {
-  if (fraction_of_strangers_nearer_than_parent(point) <= kMaxStrangerFractionForChild) return true;
+  if (fraction_of_strangers_nearer_than_parent(point) <= kMaxFractionOfNearerStrangersForChild)
+    return true;
   if (fraction_of_strangers_nearer_than_parent(family_plan.founder_point) <=
-      kMaxStrangerFractionForFounder)
+      kMaxFractionOfNearerStrangersForFounder)
     return false;
   return std::all_of(parents_.begin(), parents_.end(), [&](const KnownParent& parent) {
     return FaceSpace::distance(point, parent.point) <=

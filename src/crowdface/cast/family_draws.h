@@ -31,7 +31,7 @@ struct FamilyPlan {
 /// Largest allowed FamilySampler::fraction_of_strangers_nearer_than_parent of a family's founder.
 /// The founder is the mean of both parents. The limit for children is larger, so that children can
 /// differ from the founder.
-inline constexpr double kMaxStrangerFractionForFounder = 0.06;
+inline constexpr double kMaxFractionOfNearerStrangersForFounder = 0.06;
 
 /// Makes random faces of one family. Each member lies between the founder and a random face. The
 /// member's distance from the founder is random, and at most max_distance.
@@ -94,7 +94,7 @@ class FamilySampler {
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
   void prepare_inheritance();
   std::vector<SourceWeight> coarse_shape_of(std::size_t parent) const;
-  FaceDistribution random_contributor() const;
+  FaceDistribution third_contributor_distribution() const;
   const SamplingOptions& sampling_of(const FacePlan& face) const;
   BandRecipe parent_band(std::size_t parent, std::size_t region, std::size_t band,
                          const BandRecipe& random_band) const;
@@ -117,7 +117,7 @@ class FamilySampler {
   std::vector<FaceSearch::FoundFace> new_parents_;
   /// Distribution of the third contributor: a random face from which members inherit what comes
   /// from neither parent.
-  FaceDistribution random_contributor_distribution_;
+  FaceDistribution third_contributor_distribution_;
   /// maps each target head of a parent to a similar target head of the family's group
   SubstituteHeads target_substitutes_;
   /// For each band, the heads of the family's group that substitute for the parents' sources

@@ -37,12 +37,12 @@ double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& trial_done,
-                   const TraitRules* traits, const FindMeshDefects& meshes) {
+                   const TraitRules* traits, const MeshDefectFinder& find_mesh_defects) {
   Remedy remedy;
   remedy.binding_constraint = shortfall.rejections.most_frequent();
   CastingOptions easier = casting;
-  if (!shortfall.family.empty() || !shortfall.reviewed_face.empty() ||
-      !shortfall.manual_face.empty() || !shortfall.changed_face.empty()) {
+  if (!shortfall.family.empty() || !shortfall.reviewed_face_id.empty() ||
+      !shortfall.manual_face_id.empty() || !shortfall.unchangeable_face_id.empty()) {
     return remedy;
   }
   easier.reviews.clear();
@@ -53,9 +53,9 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   if (!constraint.is_distance()) return remedy;
   double& distance = easier.diversity.*constraint.diversity_limit;
   std::uint64_t draws = 0;
-  const auto shortfall_at = [&](double mm, const FindMeshDefects& defects) {
+  const auto shortfall_at = [&](double mm, const MeshDefectFinder& finder) {
     distance = mm;
-    FaceJudge judge(space, easier.diversity, believability, skin, defects);
+    FaceJudge judge(space, easier.diversity, believability, skin, finder);
     judge.set_trait_rules(traits);
     const CastingResult cast = cast_crowd(easier, judge);
     draws += cast.rejections.total() +
@@ -78,7 +78,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
     }
   }
   // The trials above check coarse meshes only. Repeat the check with whole meshes.
-  for (int trial = 0; meshes && works > 0 && shortfall_at(works, meshes); ++trial) {
+  for (int trial = 0; find_mesh_defects && works > 0 && shortfall_at(works, find_mesh_defects);
+       ++trial) {
     works = trial + 1 < kMaxMeshTrials ? whole_hundredths(0.93 * works) : 0;
   }
   if (works > 0) remedy.largest_distance_mm = works;

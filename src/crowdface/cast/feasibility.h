@@ -22,12 +22,13 @@ struct Remedy {
 /// so the trials of a large crowd cast only its first faces.
 ///
 /// \param trial_done  Called after each trial.
-/// \param meshes      If given, the last trials also judge the candidates' meshes. If four of these
-///                    trials fail, the remedy has no distance.
+/// \param find_mesh_defects  If given, the last trials also judge the candidates' meshes. If four
+///                           of these trials fail, the remedy has no distance.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& trial_done = {},
-                   const TraitRules* traits = nullptr, const FindMeshDefects& meshes = {});
+                   const TraitRules* traits = nullptr,
+                   const MeshDefectFinder& find_mesh_defects = {});
 
 /// Checks in seconds whether a crowd of more than 3200 faces is impossible in spread mode: tries to
 /// place 400 faces by first fit. Spread mode finds at most twice as many faces as first fit, so if

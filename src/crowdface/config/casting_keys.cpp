@@ -164,7 +164,7 @@ void read_first_distances(const YamlNode& node, DiversityOptions& diversity, Con
           entry.key_place,
           concat(node.path, ": expected a number of faces, found ", quoted(entry.key)));
     } else if (const auto mm = length(kMaxDistanceMm).read(entry.value, draft)) {
-      diversity.min_distance_mm_by_last_face[*faces] = *mm;
+      diversity.min_distance_mm_up_to_face[*faces] = *mm;
     }
   }
   if (!node.entries.empty() && diversity.mode != DiversityOptions::Mode::kFirstFit) {
@@ -173,7 +173,7 @@ void read_first_distances(const YamlNode& node, DiversityOptions& diversity, Con
 }
 
 std::string write_first_distances(const DiversityOptions& diversity, const WriteContext& context) {
-  const auto entries = texts_of(diversity.min_distance_mm_by_last_face, [&](const auto& first) {
+  const auto entries = texts_of(diversity.min_distance_mm_up_to_face, [&](const auto& first) {
     return yaml_entry(std::to_string(first.first),
                       length(kMaxDistanceMm).write(first.second, context));
   });

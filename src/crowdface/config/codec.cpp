@@ -279,7 +279,7 @@ Codec<SmoothnessDistribution> smoothness() {
           "fraction, 0 … 1, or a size, or a range of either"};
 }
 
-Codec<SmoothnessDistribution> iterations() {
+Codec<SmoothnessDistribution> smoothness_in_iterations() {
   return smoothness_in_unit(Unit::kIterations, iteration_count());
 }
 

@@ -69,7 +69,7 @@ Codec<Range> extrapolation();
 Codec<SmoothnessDistribution> smoothness();
 /// Codec for a smoothness, given as a whole number of smoothing iterations or as a range of such
 /// numbers.
-Codec<SmoothnessDistribution> iterations();
+Codec<SmoothnessDistribution> smoothness_in_iterations();
 Codec<std::string> name();
 /// Codec for a text that is not empty.
 ///

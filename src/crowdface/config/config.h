@@ -292,7 +292,7 @@ struct Config {
     MeshComparison compare;
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
     /// number of faces whose expressions (blend shapes) are shown on separate pages
-    int shape_faces = 0;
+    int face_count_on_shape_pages = 0;
     SheetTexture texture = SheetTexture::kAuto;
 
     /// Returns the size of a cell without a distance map and with two lines of text. Sheets of

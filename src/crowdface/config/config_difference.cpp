@@ -136,7 +136,7 @@ std::optional<RequiredDistances> distances_of(const YamlNode& root) {
     const auto faces = parse_unsigned(entry.key);
     const auto mm = millimetres_of(entry.value);
     if (!faces || !mm) return std::nullopt;
-    distances.min_distance_mm_by_last_face[*faces] = *mm;
+    distances.min_distance_mm_up_to_face[*faces] = *mm;
   }
   return distances;
 }
@@ -149,14 +149,14 @@ bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   if (!before || !now || !count) return false;
   DiversityOptions a, b;
   a.min_distance_mm = before->min_distance_mm;
-  a.min_distance_mm_by_last_face = before->min_distance_mm_by_last_face;
+  a.min_distance_mm_up_to_face = before->min_distance_mm_up_to_face;
   b.min_distance_mm = now->min_distance_mm;
-  b.min_distance_mm_by_last_face = now->min_distance_mm_by_last_face;
+  b.min_distance_mm_up_to_face = now->min_distance_mm_up_to_face;
   // The required distance is constant between these face numbers, so it is enough to compare the
   // distances at these numbers.
   std::set<std::uint64_t> ends = {0, *count};
   for (const auto* distances : {&*before, &*now}) {
-    for (const auto& first : distances->min_distance_mm_by_last_face)
+    for (const auto& first : distances->min_distance_mm_up_to_face)
       ends.insert(std::min(first.first, *count));
   }
   return std::ranges::all_of(ends, [&](std::uint64_t face) {

@@ -32,8 +32,8 @@ struct RequiredDistances {
   double min_distance_mm = 0;  ///< smallest distance between any two faces
   /// Values that replace `min_distance_mm` for the first faces of the crowd. Each key is the number
   /// of the last face to which the value applies; see
-  /// DiversityOptions::min_distance_mm_by_last_face.
-  std::map<std::uint64_t, double> min_distance_mm_by_last_face;
+  /// DiversityOptions::min_distance_mm_up_to_face.
+  std::map<std::uint64_t, double> min_distance_mm_up_to_face;
 };
 
 /// Returns the smallest distances that a config.yaml requires. Returns nothing if the distances

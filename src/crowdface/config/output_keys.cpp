@@ -161,7 +161,8 @@ const Keys<Sheet>& contact_sheet_keys() {
           .not_affecting_face_files(),
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
           .not_affecting_face_files(),
-      key("shapes", &Sheet::shape_faces, restricted(whole_number(0, 64), can_be_shown))
+      key("shapes", &Sheet::face_count_on_shape_pages,
+          restricted(whole_number(0, 64), can_be_shown))
           .not_affecting_face_files(),
       word_key("texture", &Sheet::texture)};
   return keys;

@@ -38,7 +38,8 @@ const Keys<HandBand>& recipe_band_keys() {
       // Both keys are stored in one member. The unit of the stored value decides which of the keys
       // is written.
       key("smoothness", &HandBand::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
-      key("iterations", &HandBand::smoothness, iterations()).written_if(in_iterations),
+      key("iterations", &HandBand::smoothness, smoothness_in_iterations())
+          .written_if(in_iterations),
       key("extrapolation", &HandBand::extrapolation, extrapolation())};
   return keys;
 }

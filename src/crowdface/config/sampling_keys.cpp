@@ -177,19 +177,19 @@ std::string write_position(const PositionDistribution& position, const WriteCont
 
 /// Codec for a smoothness as in smoothness(), or as `{iterations: …}`.
 Codec<SmoothnessDistribution> sampled_smoothness() {
-  return {
-      [](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
-        if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
-        const MapReader map(node, {"iterations"}, draft.complaints);
-        const YamlNode* count = map.require("iterations", "a whole number or [low, high]");
-        return count == nullptr ? std::nullopt : iterations().read(*count, draft);
-      },
-      [](const SmoothnessDistribution& value, const WriteContext& context) {
-        return value.unit == SmoothnessDistribution::Unit::kIterations
-                   ? yaml_flow_map({yaml_entry("iterations", iterations().write(value, context))})
-                   : smoothness().write(value, context);
-      },
-      concat(smoothness().accepted_values, ", or `{iterations: …}`")};
+  return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<SmoothnessDistribution> {
+            if (node.kind != YamlNode::Kind::kMap) return smoothness().read(node, draft);
+            const MapReader map(node, {"iterations"}, draft.complaints);
+            const YamlNode* count = map.require("iterations", "a whole number or [low, high]");
+            return count == nullptr ? std::nullopt : smoothness_in_iterations().read(*count, draft);
+          },
+          [](const SmoothnessDistribution& value, const WriteContext& context) {
+            return value.unit == SmoothnessDistribution::Unit::kIterations
+                       ? yaml_flow_map({yaml_entry(
+                             "iterations", smoothness_in_iterations().write(value, context))})
+                       : smoothness().write(value, context);
+          },
+          concat(smoothness().accepted_values, ", or `{iterations: …}`")};
 }
 
 constexpr std::size_t kMaxBands = 4;

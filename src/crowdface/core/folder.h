@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> list_files(
     std::error_code* error = nullptr);
 
 /// Predicate for list_files: the path's extension is `ending`, such as ".obj".
-inline auto has_extension(const char* ending) {
+inline auto extension_filter(const char* ending) {
   return [ending](const std::filesystem::path& path) { return path.extension() == ending; };
 }
 

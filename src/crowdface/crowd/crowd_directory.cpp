@@ -102,10 +102,10 @@ std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
     }
   }
   for (const fs::path& folder : folder_and_numbered_subfolders(directory.renders())) {
-    add(folder, has_extension(".png"));
+    add(folder, extension_filter(".png"));
   }
   for (const fs::path& folder : folder_and_numbered_subfolders(directory.gallery_faces())) {
-    for (fs::path& file : list_files(folder, has_extension(".js")))
+    for (fs::path& file : list_files(folder, extension_filter(".js")))
       files.push_back(std::move(file));
   }
   return files;
@@ -306,13 +306,13 @@ std::vector<fs::path> files_made_together_with_sheets(const CrowdDirectory& dire
     }
   };
   for (const fs::path& picture : {directory.head_render(""), directory.founder_render("")}) {
-    add(picture.parent_path(), has_extension(".png"));
+    add(picture.parent_path(), extension_filter(".png"));
   }
   add(directory.gallery(), is_gallery_page_file);
   for (const fs::path& folder :
        {directory.gallery() / "data", directory.gallery_pages(),
         directory.gallery_head("").parent_path(), directory.gallery_attachment("").parent_path()}) {
-    add(folder, has_extension(".js"));
+    add(folder, extension_filter(".js"));
   }
   return files;
 }

@@ -244,8 +244,9 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) {
         const ImageSize& file = sizes.at(found.heads[h].files[row].path);
         channels = std::max(channels, file.channels);
-        name.has_only_bytes = name.has_only_bytes && file.has_8_bit_values;
-        name.has_floats = name.has_floats || file.has_floats;
+        name.all_files_have_8_bit_values =
+            name.all_files_have_8_bit_values && file.has_8_bit_values;
+        name.some_file_has_floats = name.some_file_has_floats || file.has_floats;
       }
     }
     const auto& first = found.heads[pictures[p].head].files[pictures[p].file_index].path;

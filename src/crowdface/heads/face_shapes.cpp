@@ -69,14 +69,14 @@ FaceShapes::FaceShapes(const Config& config, const Inputs& inputs) : inputs_(inp
                                               head_axes(config), set, inputs.regions);
   if (set.head_shapes.empty()) return;
   for (const Shape& shape : set.shapes) {
-    shape_fractions_after_one_iteration_.push_back(
+    shape_fractions_kept_per_smoothing_iteration_.push_back(
         kept_by_smoothing(inputs.adjacency, shape.moves, config.smoothing.operator_kind));
   }
 }
 
 std::vector<RegionShares> FaceShapes::shares_of(const Recipe& recipe) const {
   std::vector<RegionShares> shares;
-  for (const double kept : shape_fractions_after_one_iteration_) {
+  for (const double kept : shape_fractions_kept_per_smoothing_iteration_) {
     RegionShares& of_shape = shares.emplace_back();
     for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
       of_shape.push_back(shares_in(recipe, k, inputs_.head_set.heads.size(), kept));
@@ -101,7 +101,7 @@ std::vector<Displacements> FaceShapes::shapes_of_head(Index head) const {
   const RegionShares everywhere(static_cast<std::size_t>(inputs_.regions.alpha.cols()), own);
   return transfer_->transfer_to_face(
       head, inputs_.head_set.heads[static_cast<std::size_t>(head)].positions,
-      std::vector<RegionShares>(shape_fractions_after_one_iteration_.size(), everywhere));
+      std::vector<RegionShares>(shape_fractions_kept_per_smoothing_iteration_.size(), everywhere));
 }
 
 std::size_t FaceShapes::memory_bytes() const {

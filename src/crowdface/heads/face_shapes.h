@@ -38,7 +38,7 @@ class FaceShapes {
 
   const Inputs& inputs_;
   /// the fraction of each blend shape that remains after one smoothing iteration
-  std::vector<double> shape_fractions_after_one_iteration_;
+  std::vector<double> shape_fractions_kept_per_smoothing_iteration_;
   std::unique_ptr<const ShapeTransfer> transfer_;  ///< null if there are no shapes
 };
 

@@ -22,8 +22,9 @@ struct PictureName {
   std::string material;  ///< name of the image's material; empty if there is only one
   int tile = 0;          ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
-  /// Whether every texture file has 8-bit channels, and whether any texture file has floats.
-  bool has_only_bytes = true, has_floats = false;
+  /// Whether all texture files from which the image is blended have 8 bits per value, and whether
+  /// at least one of these files has floats.
+  bool all_files_have_8_bit_values = true, some_file_has_floats = false;
 };
 
 /// The heads' textures of one kind, for blending or for renders.

@@ -123,7 +123,8 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
       surfaces_(options.materials),
       shared_folder_(options.shared_folder) {
   UsdaNames names;
-  for (const std::string& point : options.point_names) points_.push_back(names.add(point));
+  for (const std::string& point : options.point_names)
+    point_prim_names_.push_back(names.add(point));
 }
 
 EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& normals,
@@ -156,12 +157,12 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
 
 void UsdaTemplate::add_points(EncodedFile& file, const Positions& points,
                               const std::string& what) const {
-  require_finite(points, static_cast<Index>(points_.size()), what);
-  if (points_.empty()) return;
+  require_finite(points, static_cast<Index>(point_prim_names_.size()), what);
+  if (point_prim_names_.empty()) return;
   std::string text = "\n        def Scope \"points\"\n        {\n";
   for (Index p = 0; p < points.rows(); ++p) {
     text += concat(
-        "            def Xform \"", points_[static_cast<std::size_t>(p)],
+        "            def Xform \"", point_prim_names_[static_cast<std::size_t>(p)],
         "\"\n            {\n                double3 xformOp:translate = ", usda_rows(points.row(p)),
         "\n                uniform token[] xformOpOrder = [\"xformOp:translate\"]\n"
         "            }\n");

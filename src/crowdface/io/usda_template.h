@@ -56,8 +56,8 @@ class UsdaTemplate {
   std::string
       axis_transform_;  ///< transform of the mesh if the stage's axes differ from the heads' axes
   std::vector<GlbMaterial> surfaces_;
-  std::string shared_folder_;        ///< see `GlbOptions::shared_folder`
-  std::vector<std::string> points_;  ///< prim names of the points
+  std::string shared_folder_;                  ///< see `GlbOptions::shared_folder`
+  std::vector<std::string> point_prim_names_;  ///< prim names of the points
 };
 
 /// Reads the positions of a file that `UsdaTemplate` wrote.

@@ -50,7 +50,7 @@ bool have_same_positions(const Positions& before, const Positions& after,
 
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<double> unit_weights;  ///< all 1, one per vertex; for fits of the part's shape
+  std::vector<double> equal_weights;  ///< all 1, one per vertex; for fits of the part's shape
   Socket socket;
   bool is_eyeball = false;
   EyeSocket eye;        ///< used if the part is an eyeball
@@ -83,11 +83,11 @@ Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
 }
 
 EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMean& skin) {
-  const std::vector<double> unit_weights(part.vertices.size(), 1.0);
+  const std::vector<double> equal_weights(part.vertices.size(), 1.0);
   std::vector<BallRadii> maps(skin.heads.heads.size());
   parallel_for_each(maps.size(), [&](std::size_t i) {
     const Positions& head = skin.heads.heads[i].positions;
-    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, unit_weights);
+    const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, equal_weights);
     maps[i] = BallRadii(skin.heads.topology, skin.around, head, part.surface,
                         motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
   });
@@ -99,7 +99,7 @@ EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMea
 RigidPart bind_rigid(const Part& part, const PartList& parts, const SkinOfMean& skin) {
   RigidPart bound;
   bound.vertices = part.vertices;
-  bound.unit_weights.assign(part.vertices.size(), 1.0);
+  bound.equal_weights.assign(part.vertices.size(), 1.0);
   bound.is_eyeball = part.is_eyeball;
   if (!part.is_eyeball) {
     bound.socket = socket_of(part, kSocketReach * skin.extent, skin);
@@ -235,7 +235,7 @@ void PartFollower::State::place(const RigidPart& part, std::size_t target, const
   }
   // First move the blended part rigidly onto the target's part, so that only the shape of the
   // blended part is kept.
-  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.unit_weights);
+  const RigidMotion home = fit_rigid_motion(result, before, part.vertices, part.equal_weights);
   for (const std::uint32_t v : part.vertices) {
     result.row(v) = found.part.apply(home.apply(result.row(v).transpose())).transpose();
   }

@@ -80,7 +80,7 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
   std::vector<const Positions*> heads;
   for (const Head& head : inputs.head_set.heads) heads.push_back(&head.positions);
   std::vector<Positions> acting;
-  if (sheet.shape_faces > 0 && !inputs.shapes.shapes.empty()) {
+  if (sheet.face_count_on_shape_pages > 0 && !inputs.shapes.shapes.empty()) {
     const Positions moves = lowest_moves(inputs.shapes, unit_vector(config.faces.up));
     for (const Head& head : inputs.head_set.heads) acting.emplace_back(head.positions + moves);
   }

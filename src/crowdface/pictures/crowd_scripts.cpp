@@ -218,7 +218,7 @@ void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
         ",\n\"columns\":", columns(crowd, names, likeness.likeness),
         ",\n\"likeness\":", list_of(crowd.size(), [&](std::size_t i) { return rank[i]; }), '}');
   }
-  for (const auto& path : list_files(directory_.gallery_pages(), has_extension(".js"))) {
+  for (const auto& path : list_files(directory_.gallery_pages(), extension_filter(".js"))) {
     if (!pages.contains(path)) remove_if_exists(path);
   }
   write_file(directory_.gallery() / "data/crowd.js", concat("crowdface.setCrowd(", script, ");\n"));

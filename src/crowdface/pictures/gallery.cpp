@@ -35,7 +35,7 @@ constexpr std::size_t kMaxHidden = 2'000;
 /// textures.
 constexpr int kMaxTexels = 1024;
 constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are omitted
-constexpr float kMinLight = 0.004F;  ///< lower bound of `visibility_` if there are shapes
+constexpr float kMinLight = 0.004F;  ///< lower bound of `sky_visibility_` if there are shapes
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 
 /// Returns the visible fraction of the sky at the vertices of `triangles`, which are part of a
@@ -178,7 +178,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
   mesh_ = preview_from_split_mesh(split, triangles, surfaces.uvs);
   draft_triangles_ = draft_triangles(mesh_, mean, kMaxDraftTriangles);
-  for (const std::uint32_t vertex : mesh_.vertices) visibility_.push_back(open[vertex]);
+  for (const std::uint32_t vertex : mesh_.vertices) sky_visibility_.push_back(open[vertex]);
   colours_ =
       surface_colours(topology, surfaces, mean, config.faces.front)(mesh_.vertices, kAllColumns);
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
@@ -223,16 +223,16 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   // because an open mouth lets light reach more vertices.
   const auto& shapes = inputs_.shapes.shapes;
   const auto way = [](const Shape& shape) { return shape.moves.moves.squaredNorm(); };
-  largest_motion_shape_ = static_cast<std::size_t>(
+  shape_with_largest_motion_ = static_cast<std::size_t>(
       std::max_element(shapes.begin(), shapes.end(),
                        [&](const Shape& a, const Shape& b) { return way(a) < way(b); }) -
       shapes.begin());
   Positions acting = mean;
-  shapes[largest_motion_shape_].moves.add_to(acting);
-  visibility_in_largest_motion_shape_ =
+  shapes[shape_with_largest_motion_].moves.add_to(acting);
+  sky_visibility_in_shape_with_largest_motion_ =
       vertex_visibility(pictured_mesh_.topology(), surfaces.kinds, acting, mesh_.vertices);
   // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
-  for (float& open : visibility_) open = std::max(open, kMinLight);
+  for (float& open : sky_visibility_) open = std::max(open, kMinLight);
 }
 
 std::string GalleryMeshes::pack_shapes(std::span<const Displacements> shape_moves) const {
@@ -315,10 +315,10 @@ std::string GalleryMeshes::shared_script() const {
     }
     return base64(bytes);
   };
-  json["light"] = light(visibility_);
+  json["light"] = light(sky_visibility_);
   if (!shown_shapes_.empty())
-    json["widest"] = {{"shape", largest_motion_shape_},
-                      {"light", light(visibility_in_largest_motion_shape_)}};
+    json["widest"] = {{"shape", shape_with_largest_motion_},
+                      {"light", light(sky_visibility_in_shape_with_largest_motion_)}};
   for (const ShownShape& shown : shown_shapes_) {
     json["moved"].push_back(base64(little_endian(shown.vertices)));
   }

@@ -73,7 +73,7 @@ class GalleryMeshes {
   /// colours of surfaces without textures, per vertex of the reduced mesh
   VertexColours colours_;
   /// visible fraction of the sky at the vertices of the reduced mesh, on the mean head
-  std::vector<float> visibility_;
+  std::vector<float> sky_visibility_;
   /// one entry per vertex of the reduced mesh; empty if there are no textures
   std::vector<TexturePlace> texture_places_;
   Eigen::Vector3d box_min_, box_max_;  ///< bounding box of all heads and the shoulders of the body
@@ -85,9 +85,9 @@ class GalleryMeshes {
   };
   std::vector<ShownShape> shown_shapes_;  ///< one entry per blend shape
   /// index of the shape that moves most, such as an open jaw
-  std::size_t largest_motion_shape_ = 0;
-  /// like `visibility_`, but in the shape `largest_motion_shape_`
-  std::vector<float> visibility_in_largest_motion_shape_;
+  std::size_t shape_with_largest_motion_ = 0;
+  /// like `sky_visibility_`, but in the shape `shape_with_largest_motion_`
+  std::vector<float> sky_visibility_in_shape_with_largest_motion_;
 };
 
 }  // namespace crowdface

@@ -32,7 +32,7 @@ std::optional<std::filesystem::path> page_for(const Config& config) {
 /// Removes scripts whose name is not in `names`, such as scripts of faces that are no longer in the
 /// crowd.
 void remove_others(const fs::path& folder, const std::set<std::string>& names) {
-  for (const fs::path& path : list_files(folder, has_extension(".js"))) {
+  for (const fs::path& path : list_files(folder, extension_filter(".js"))) {
     if (!names.contains(path.stem().string())) remove_if_exists(path);
   }
 }

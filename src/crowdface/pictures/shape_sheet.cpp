@@ -57,7 +57,8 @@ void add_row(const CrowdRenders& renders, std::span<const Column> columns, const
 void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages) {
   const ShapeSet& set = crowd.inputs.shapes;
   const std::size_t faces = std::min(
-      crowd.faces.size(), static_cast<std::size_t>(crowd.config.output.contact_sheet->shape_faces));
+      crowd.faces.size(),
+      static_cast<std::size_t>(crowd.config.output.contact_sheet->face_count_on_shape_pages));
   if (faces == 0) return;
   std::vector<Displacements> of_template;
   for (const Shape& shape : set.shapes) of_template.push_back(shape.moves);

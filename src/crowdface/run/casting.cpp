@@ -158,8 +158,8 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
 /// the crowd's folder keep their own minimum distance in these trials.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
   if (config.crowd.existing_face_count) {
-    casting.diversity.min_distance_mm_by_last_face.try_emplace(*config.crowd.existing_face_count,
-                                                               casting.diversity.min_distance_mm);
+    casting.diversity.min_distance_mm_up_to_face.try_emplace(*config.crowd.existing_face_count,
+                                                             casting.diversity.min_distance_mm);
   }
   return casting;
 }
@@ -225,7 +225,8 @@ AttachmentOptions attachment_options(const Config& config) {
 }
 
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                     const FindMeshDefects& defects, const std::filesystem::path& cache) {
+                     const MeshDefectFinder& find_mesh_defects,
+                     const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
   const FaceSpace& space = judged_in.face_space;
   const Eigen::MatrixXd head_distances = space.head_distances();
@@ -234,7 +235,8 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     log_warning(concat("reviews made at the same time disagree about ", conflict));
   }
   const BelievabilityOptions& believability = config.believability;
-  FaceJudge judge(space, casting.diversity, believability, &judged_in.proxy_skin, defects);
+  FaceJudge judge(space, casting.diversity, believability, &judged_in.proxy_skin,
+                  find_mesh_defects);
   const auto traits = face_traits_of_config(config, inputs, prepared);
   std::optional<TraitRules> rules;
   if (traits) judge.set_trait_rules(&rules.emplace(traits->measurer(), casting));
@@ -253,7 +255,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
     Progress progress("searching for values that work", kMaxTrials);
     const Remedy remedy = find_remedy(
         with_existing_faces(config, casting), space, believability, &judged_in.proxy_skin,
-        *crowd.shortfall, [&] { progress.step(); }, judge.trait_rules(), defects);
+        *crowd.shortfall, [&] { progress.step(); }, judge.trait_rules(), find_mesh_defects);
     std::vector<std::string> trait_advice_lines;
     if (remedy.binding_constraint == Reason::kTraits) {
       trait_advice_lines = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);

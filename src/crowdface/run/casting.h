@@ -75,11 +75,11 @@ struct CrowdPlan {
 AttachmentOptions attachment_options(const Config& config);
 
 /// Chooses the recipes of all faces ("casts" the crowd).
-/// \param defects  judges a candidate's whole mesh; empty: meshes are not judged
+/// \param find_mesh_defects  judges a candidate's whole mesh; empty: meshes are not judged
 /// \param cache    see casting_space
 /// \throws Unsatisfiable if the constraints cannot be met; the message names the constraint that
 ///     prevented more faces, the number of faces that were cast, and a change that would help.
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                     const FindMeshDefects& defects, const std::filesystem::path& cache);
+                     const MeshDefectFinder& find_mesh_defects, const std::filesystem::path& cache);
 
 }  // namespace crowdface

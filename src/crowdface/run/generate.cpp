@@ -157,10 +157,10 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
                                      StageSeconds& stages) {
   auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
   crowd->crowd_plan = timed(stages, "cast", [&] {
-    FindMeshDefects defects;
+    MeshDefectFinder find_mesh_defects;
     if (casting_builds_candidate_meshes(job.config))
-      defects = mesh_defects(job.config, job.inputs, crowd->builder.get());
-    return plan_crowd(job.config, job.inputs, crowd->prepared, defects, options.cache);
+      find_mesh_defects = mesh_defect_finder(job.config, job.inputs, crowd->builder.get());
+    return plan_crowd(job.config, job.inputs, crowd->prepared, find_mesh_defects, options.cache);
   });
   log_casting(crowd->crowd_plan);
   crowd->warnings = casting_warnings(job, crowd->crowd_plan);

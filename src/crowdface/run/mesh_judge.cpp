@@ -66,8 +66,8 @@ bool casting_builds_candidate_meshes(const Config& config) {
          config.believability.meshes == BelievabilityOptions::MeshChecks::kJudge;
 }
 
-FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
-                             const FaceBuilder& builder) {
+MeshDefectFinder mesh_defect_finder(const Config& config, const Inputs& inputs,
+                                    const FaceBuilder& builder) {
   std::set<Index> targets;
   for (std::size_t h = 0; h < inputs.head_set.heads.size(); ++h)
     targets.insert(static_cast<Index>(h));

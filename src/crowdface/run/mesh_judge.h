@@ -29,8 +29,8 @@ bool casting_builds_candidate_meshes(const Config& config);
 
 /// Returns a function that builds the mesh of a candidate face and finds defects in this mesh.
 /// \param builder must outlive the result.
-FindMeshDefects mesh_defects(const Config& config, const Inputs& inputs,
-                             const FaceBuilder& builder);
+MeshDefectFinder mesh_defect_finder(const Config& config, const Inputs& inputs,
+                                    const FaceBuilder& builder);
 
 /// Warns about faces whose whole mesh exceeds a limit of believability, although the sampled
 /// vertices that casting checks stay below this limit. \return one warning that names the faces;

@@ -62,7 +62,8 @@ std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
 std::string encode_picture(const BlendedPicture& picture, const PictureName& name,
                            TextureFormat format) {
   if (format == TextureFormat::kExr) return encode_exr_of(picture);
-  if (!picture.values_16_bit.empty()) return encode_words(picture, name.has_only_bytes);
+  if (!picture.values_16_bit.empty())
+    return encode_words(picture, name.all_files_have_8_bit_values);
   return format == TextureFormat::kJpeg
              ? encode_jpeg(picture.width, picture.height, picture.srgb)
              : encode_png(picture.width, picture.height, 3, picture.srgb);
@@ -73,7 +74,9 @@ constexpr std::uint64_t kChannels = 3;  // maximum number of channels of a textu
 /// Maximum size of an encoded image, in bytes per texel and channel.
 std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) {
   if (format == TextureFormat::kExr) return sizeof(float);
-  return picture.has_only_bytes || picture.kind == TextureKind::kColour ? 1 : sizeof(std::uint16_t);
+  return picture.all_files_have_8_bit_values || picture.kind == TextureKind::kColour
+             ? 1
+             : sizeof(std::uint16_t);
 }
 
 /// Maps each material name of a head to the index of the material's image in a texture layout.
@@ -97,7 +100,7 @@ std::vector<TextureFormat> formats_of(const Config& config, const PictureName& p
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =
       picture.kind == TextureKind::kDisplacement || picture.kind == TextureKind::kBump;
-  if (is_height && picture.has_floats) return {TextureFormat::kExr};
+  if (is_height && picture.some_file_has_floats) return {TextureFormat::kExr};
   std::vector<TextureFormat> formats;
   for (TextureFormat format : config.textures.formats) {
     if (format == TextureFormat::kJpeg) format = TextureFormat::kPng;

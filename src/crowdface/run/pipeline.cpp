@@ -131,12 +131,12 @@ Config with_kept_distances(Config config, const std::string& before) {
   DiversityOptions& diversity = config.diversity;
   const auto kept = distances_in_config(before);
   const auto count = number_in_config(before, "crowd.count");
-  const bool is_own = !diversity.min_distance_mm_by_last_face.empty() && kept &&
-                      diversity.min_distance_mm_by_last_face != kept->min_distance_mm_by_last_face;
+  const bool is_own = !diversity.min_distance_mm_up_to_face.empty() && kept &&
+                      diversity.min_distance_mm_up_to_face != kept->min_distance_mm_up_to_face;
   if (!kept || !count || is_own || diversity.min_distance_mm > kept->min_distance_mm) return config;
-  diversity.min_distance_mm_by_last_face = kept->min_distance_mm_by_last_face;
+  diversity.min_distance_mm_up_to_face = kept->min_distance_mm_up_to_face;
   if (diversity.min_distance_mm < kept->min_distance_mm) {
-    diversity.min_distance_mm_by_last_face[*count] = kept->min_distance_mm;
+    diversity.min_distance_mm_up_to_face[*count] = kept->min_distance_mm;
   }
   return config;
 }

@@ -34,10 +34,10 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
             ? concat("diversity.min_distance: ", *remedy.largest_distance_mm, " mm",
                      remedy.trial_face_count == config.crowd.count ? "" : " or less")
             : std::string("a smaller diversity.min_distance");
-    advice.push_back(
-        concat(smaller, shortfall.changed_face.empty() ? "" : ", and the change in a review",
-               "; the ", *config.crowd.existing_face_count, " faces that exist stay as they are, ",
-               "only new, redrawn and changed faces come nearer"));
+    advice.push_back(concat(
+        smaller, shortfall.unchangeable_face_id.empty() ? "" : ", and the change in a review",
+        "; the ", *config.crowd.existing_face_count, " faces that exist stay as they are, ",
+        "only new, redrawn and changed faces come nearer"));
   } else if (remedy.binding_constraint == Reason::kRejected) {
     advice.emplace_back(
         "a change of the face in place of the mark (group, lock, traits or variant_of): changes do "
@@ -129,16 +129,16 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
                       "within max_distance of a founder, min_distance apart and nearer to each ",
                       "other than to all other faces (most candidates violate ",
                       asked_of(config, remedy.binding_constraint), ")");
-  } else if (!shortfall.manual_face.empty()) {
-    message += concat("the recipe ", shortfall.manual_face,
+  } else if (!shortfall.manual_face_id.empty()) {
+    message += concat("the recipe ", shortfall.manual_face_id,
                       " cannot be drawn: ", asked_of(config, remedy.binding_constraint),
                       ", cannot be met");
-  } else if (!shortfall.changed_face.empty()) {
-    message += concat(shortfall.changed_face,
+  } else if (!shortfall.unchangeable_face_id.empty()) {
+    message += concat(shortfall.unchangeable_face_id,
                       " cannot be changed: ", asked_of(config, remedy.binding_constraint),
                       ", cannot be met");
-  } else if (!shortfall.reviewed_face.empty()) {
-    message += concat(shortfall.reviewed_face, ", which the review rejects, cannot be redrawn: ",
+  } else if (!shortfall.reviewed_face_id.empty()) {
+    message += concat(shortfall.reviewed_face_id, ", which the review rejects, cannot be redrawn: ",
                       asked_of(config, remedy.binding_constraint), ", cannot be met");
   } else {
     message += concat(
@@ -146,7 +146,7 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
         ", cannot be met; reached ", shortfall.cast_count, " of ", config.crowd.count, " faces");
   }
   if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
-      shortfall.manual_face.empty()) {
+      shortfall.manual_face_id.empty()) {
     message += concat(" (for the next face ", by_main, " of ", rejected,
                       " candidates were rejected for this reason)");
   }

@@ -241,7 +241,7 @@ std::uint64_t suitable_shard_count(const Config& config, const Inputs& inputs, s
   return tasks_for(all / static_cast<double>(processor_count), kSeconds, std::min(kMax, faces));
 }
 
-std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processor_count) {
+std::uint64_t suitable_prepare_task_count(const Inputs& inputs, std::uint64_t processor_count) {
   constexpr double kSeconds = 60, kVertex = 1.1e-5;
   const std::uint64_t heads = inputs.head_set.heads.size();
   const double all = kVertex * static_cast<double>(inputs.head_set.topology.vertex_count) *

@@ -49,7 +49,7 @@ struct JobEngineOptions {
 /// \param faces  number of faces in the crowd
 std::uint64_t suitable_shard_count(const Config& config, const Inputs& inputs, std::uint64_t faces,
                                    std::uint64_t processor_count);
-std::uint64_t suitable_prepare_count(const Inputs& inputs, std::uint64_t processor_count);
+std::uint64_t suitable_prepare_task_count(const Inputs& inputs, std::uint64_t processor_count);
 
 /// Writes `submit/` in the crowd's folder: `task.sh STAGE NUMBER` runs one task on the machine that
 /// starts the script; `submit.sh` submits all tasks to the job engine.

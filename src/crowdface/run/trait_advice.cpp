@@ -35,8 +35,8 @@ std::string farthest_heads(const Config& config, const std::vector<double>& of_h
 /// limits of this group, family or recipe.
 FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
                              std::uint32_t attempt) {
-  const auto hand = std::ranges::find(casting.recipes, shortfall.manual_face, &ManualRecipe::id);
-  if (!shortfall.manual_face.empty() && hand != casting.recipes.end()) {
+  const auto hand = std::ranges::find(casting.recipes, shortfall.manual_face_id, &ManualRecipe::id);
+  if (!shortfall.manual_face_id.empty() && hand != casting.recipes.end()) {
     return completed_face_plan(casting, *hand, attempt);
   }
   const auto family = std::ranges::find(casting.families, shortfall.family, &FamilyOptions::name);

@@ -60,7 +60,7 @@ FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> 
                        std::span<const std::uint32_t> used)
     : neutral_(&neutral),
       sampled_skin_(evenly_spaced_items(skin, kMaxSkin)),
-      unit_weights_(sampled_skin_.size(), 1.0) {
+      equal_weights_(sampled_skin_.size(), 1.0) {
   const auto chosen =
       spread_over(neutral, evenly_spaced_items(skin, kMaxCandidates), kSpacing * extent);
   nodes_.resize(chosen.size());
@@ -112,12 +112,12 @@ FrameField::Node FrameField::node_at(const Positions& neutral, std::span<const s
   // patch's scatter.
   const double whole = kRegularisation * (spread(0, 0) + spread(1, 1) + spread(2, 2));
   if (!(whole > 0)) {
-    node.whole_skin_weight = Eigen::Matrix3d::Identity();
+    node.similarity_weight_matrix = Eigen::Matrix3d::Identity();
     return node;
   }
   for (Index i = 0; i < 3; ++i) spread(i, i) += whole;
   const Eigen::Matrix3d inverse = inverse3(spread);
-  node.whole_skin_weight = whole * inverse;
+  node.similarity_weight_matrix = whole * inverse;
   for (std::size_t i = 0; i < patch.size(); ++i) {
     const Eigen::Vector3d from = row3(neutral, patch[i]) - node.centre - mean;
     node.samples.push_back({patch[i], weights[i] * multiply3(inverse, from)});
@@ -126,19 +126,19 @@ FrameField::Node FrameField::node_at(const Positions& neutral, std::span<const s
 }
 
 FrameField::Frames FrameField::frames(const Positions& face) const {
-  Frames frames{fit_rigid_motion(*neutral_, face, sampled_skin_, unit_weights_), {}};
+  Frames frames{fit_rigid_motion(*neutral_, face, sampled_skin_, equal_weights_), {}};
   frames.node_maps.resize(nodes_.size());
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
     const Node& node = nodes_[p];
     Eigen::Matrix3d& map = frames.node_maps[p];
     for (Index c = 0; c < 3; ++c)
-      map.col(c) = frames.face_motion.apply_to_direction(node.whole_skin_weight.col(c));
+      map.col(c) = frames.face_motion.apply_to_direction(node.similarity_weight_matrix.col(c));
     // Use positions relative to the node's vertex, so that rounding does not depend on where the
     // face lies in space.
     const Eigen::Vector3d origin = row3(face, node.vertex);
     for (const Sample& sample : node.samples) {
       const Eigen::Vector3d from = row3(face, sample.vertex) - origin;
-      map += from * sample.fit_vector.transpose();
+      map += from * sample.weight_vector.transpose();
     }
   }
   return frames;

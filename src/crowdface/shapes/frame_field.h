@@ -40,7 +40,7 @@ class FrameField {
   /// A vertex of the skin around a node.
   struct Sample {
     std::uint32_t vertex;
-    Eigen::Vector3d fit_vector;  ///< w in the map of the node
+    Eigen::Vector3d weight_vector;  ///< w in the map of the node
   };
   /// The map of a node is the matrix Σ d·wᵀ + R·W:
   ///
@@ -52,7 +52,8 @@ class FrameField {
     Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    Eigen::Matrix3d whole_skin_weight;  ///< W
+    /// W, the weight of the whole skin's similarity transform
+    Eigen::Matrix3d similarity_weight_matrix;
   };
   struct NodeWeight {
     std::uint32_t node;
@@ -64,7 +65,7 @@ class FrameField {
 
   const Positions* neutral_ = nullptr;
   std::vector<std::uint32_t> sampled_skin_;
-  std::vector<double> unit_weights_;  ///< all 1, one per vertex of sampled_skin_
+  std::vector<double> equal_weights_;  ///< all 1, one per vertex of sampled_skin_
   std::vector<Node> nodes_;
   /// for each vertex: the nodes whose maps are interpolated there, with weights
   CompressedRows<NodeWeight> node_weights_;

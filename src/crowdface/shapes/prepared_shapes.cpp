@@ -111,10 +111,10 @@ PreparedShapes::PreparedShapes(const HeadSet& all_heads, const Adjacency& adjace
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
   RigidPart bound{
       part.vertices, evenly_spaced_items(part.vertices, kMaxFitted), {}, Eigen::Vector3d::Zero()};
-  bound.unit_weights.assign(bound.fitted_vertices.size(), 1.0);
+  bound.equal_weights.assign(bound.fitted_vertices.size(), 1.0);
   if (part.is_eyeball) {
     const RigidMotion motion =
-        fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.unit_weights);
+        fit_rigid_motion(mean, shape_set.neutral, bound.fitted_vertices, bound.equal_weights);
     bound.centre = motion.apply(parts.shapes[part.ball_component].centre);
   } else {
     bound.centre = centre_of(shape_set.neutral, part.vertices);
@@ -126,7 +126,7 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
   const RigidPart& bound = rigid_parts.back();
   const auto map_in = [&](const Positions& head) {
     const RigidMotion motion =
-        fit_rigid_motion(mean, head, bound.fitted_vertices, bound.unit_weights);
+        fit_rigid_motion(mean, head, bound.fitted_vertices, bound.equal_weights);
     return BallRadii(head_set.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
                      motion.scale * ball.radius, axes);
   };

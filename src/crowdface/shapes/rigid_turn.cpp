@@ -63,14 +63,14 @@ RigidMotion motion_in_shape(const RigidPart& part, const Positions& mesh,
     const std::uint32_t place = index_in_list(vertices, part.fitted_vertices[i]);
     if (place != kNoIndex) shape.row(i) += moves.row(rows[place]);
   }
-  return fit_rigid_motion(rest, shape, all, part.unit_weights);
+  return fit_rigid_motion(rest, shape, all, part.equal_weights);
 }
 
 }  // namespace
 
 PlacedPart::PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& positions,
                        const RigidMotion& motion, const Eigen::Matrix3d& skin)
-    : centre(fit_rigid_motion(neutral, positions, part.fitted_vertices, part.unit_weights)
+    : centre(fit_rigid_motion(neutral, positions, part.fitted_vertices, part.equal_weights)
                  .apply(part.centre)),
       mesh(positions),
       face_motion(motion),

@@ -17,7 +17,7 @@ struct RigidPart {
   std::vector<std::uint32_t> vertices;
   std::vector<std::uint32_t> fitted_vertices;  ///< the subset of `vertices` that determines motions
   /// all 1, one per fitted vertex; for fit_rigid_motion
-  std::vector<double> unit_weights;
+  std::vector<double> equal_weights;
   /// centre of rotation: the centre of an eyeball, or the mean of the teeth
   Eigen::Vector3d centre;
 };

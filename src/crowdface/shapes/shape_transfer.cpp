@@ -29,7 +29,7 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
   for (const auto& [number, eye, balls] : prepared.eyes) {
     const RigidPart& part = prepared.rigid_parts[number];
     const RigidMotion motion = fit_rigid_motion(prepared.head_set.heads[target].positions, face,
-                                                part.fitted_vertices, part.unit_weights);
+                                                part.fitted_vertices, part.equal_weights);
     there.push_back(make_face_eye(eye, balls[target], motion, face));
   }
   return there;
