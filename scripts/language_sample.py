@@ -37,7 +37,7 @@ def comments():
 
 def identifiers():
     """Declarations in headers: file, enclosing classes, and the whole declaration."""
-    declaration = re.compile(r"^\s*(?:class|struct|enum class|[\w:<>,&*\s\[\]]+?[\s&*])(\w{3,})\s*[({=;]")
+    declaration = re.compile(r"^\s*(?:class|struct|enum class|(?=\S)[\w:<>,&*\s\[\]]+?[\s&*])(\w{3,})\s*[({=;]")
     scope_start = re.compile(r"^(\s*)(?:class|struct|enum class) (\w+)[^;]*\{$")
     for path in sources(".h"):
         scopes = []  # (indentation, name) of the classes around the line

@@ -25,10 +25,10 @@ struct AttachmentOptions {
   /// names and colours.
   std::map<std::string, double> quotas = {};
   std::vector<std::string> head_names = {};  ///< names of the heads, because a parent may be a head
-  /// By group: the fraction of the faces that have each named hair colour, before age makes hair
-  /// grey. The key "" is for groups without an entry and for faces without a group. Children
-  /// inherit their parents' colours. Any other face without an entry gets its colour from the tags
-  /// of its typical head.
+  /// For each group, the fraction of the faces that have each named hair colour, before age makes
+  /// hair grey. The entry "" applies to groups without an entry of their own and to faces without a
+  /// group. If there is no entry "", these faces get their colours from the tags of their typical
+  /// heads. Children inherit their parents' colours.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
   std::set<std::string> twin_families = {};  ///< names of the families whose members are twins
 };

@@ -69,7 +69,8 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   if (sides.size() < 2) {
     throw InvalidInput("the loop of neck.body_rim does not separate the body from the head");
   }
-  // For all other parts: the total height of the part's polygons above the middle of the loop.
+  // For each part that does not touch the loop: the sum, over the part's polygons, of the height
+  // above the middle of the loop. The sum is stored at the index of the part's root polygon.
   std::vector<double> height_above_middle(faces, 0.0);
   for (std::uint32_t f = 0; f < faces; ++f) {
     height_above_middle[parts.root(f)] += height(topology, positions, f, up) - middle;

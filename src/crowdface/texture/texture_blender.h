@@ -73,7 +73,7 @@ class TextureBlender {
   const CrowdTextures& textures_;
   TextureBlendOptions options_;
   std::vector<SurfaceTexels> texels_;  ///< #pictures
-  std::vector<MapCoding> codings_;     ///< #pictures: coding of the blended picture
+  std::vector<MapCoding> codings_;     ///< #pictures, of the blended pictures
   SurfaceStatistics statistics_;
   std::vector<double>
       region_area_fractions_;  ///< #regions: fraction of the face that each region covers
