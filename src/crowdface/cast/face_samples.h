@@ -46,7 +46,8 @@ using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 Trajectory sample_smoothing_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                                        const NodeFields& fields, const FaceSamples& samples);
 
-/// A row of a trajectory, and the row's weight in an interpolation between rows.
+/// A row of a trajectory (the displacements at one smoothing level), and the row's weight in an
+/// interpolation between levels.
 struct WeightedTrajectoryRow {
   Index row = 0;  ///< index of the row in the trajectory
   double weight = 0;

@@ -23,16 +23,16 @@ constexpr std::size_t kDirections = 60;
 constexpr std::size_t kMaxLids = 2500;
 
 /// kMeanGapWeight: weight of the error of a lid's mean gap, relative to the mean square error of
-/// the gaps at the rim. kMeanGapTolerance: tolerance of the mean gap, as a fraction of the radius
-/// (0.05 mm).
+/// the gaps at the rim. kMeanGapTolerance: tolerance of the mean gap, as a fraction of the radius;
+/// about 0.05 mm.
 constexpr double kMeanGapWeight = 20, kMeanGapTolerance = 0.004;
 /// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the cost of
 /// errors of the gaps.
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
 /// Largest decrease and increase of the eyeball's size.
 constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
-/// Gap that is kept at lid vertices that are outside the eyeball in all heads: fraction of the
-/// radius (0.025 mm).
+/// Gap that is kept at lid vertices that are outside the eyeball in all heads, as a fraction of the
+/// radius; about 0.025 mm.
 constexpr double kMargin = 0.002;
 /// Smallest gap of lid vertices that count as outside the eyeball, as a fraction of the radius. It
 /// is negative: vertices up to 0.04 mm inside the eyeball also count as outside.
