@@ -90,7 +90,7 @@ class FaceSpace {
   Eigen::MatrixXd head_distances() const;
 
  private:
-  /// A face in the basis of scalar functions, #P by 3, before alignment.
+  /// The coefficients of a face before alignment: a row per basis function (#P), a column per axis.
   using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   struct BasisRowOrder;

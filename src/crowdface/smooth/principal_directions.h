@@ -17,8 +17,8 @@ struct TestedLevels {
 };
 TestedLevels make_tested_levels(const LevelNodes& nodes);
 
-/// Displacements of some vertices at the nodes: coordinate c of vertex v at node n is
-/// displacements[(v·#nodes + n)·3 + c].
+/// Displacements of some vertices at the node levels (LevelNodes): coordinate c of vertex v at node
+/// n is displacements[(v·#nodes + n)·3 + c].
 struct NodeDisplacements {
   Index node_count = 0;
   std::vector<double> displacements;
@@ -27,7 +27,7 @@ struct NodeDisplacements {
 
 /// Orthogonal directions in the space of vertex trajectories, most important first. A trajectory is
 /// the displacement of a vertex as a function of the level. All directions together reproduce the
-/// displacements at the nodes exactly; the first few directions reproduce them approximately.
+/// displacements at the node levels exactly; the first few directions reproduce them approximately.
 struct PrincipalDirections {
   /// #nodes by #nodes, coefficients of the level functions:
   /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the weights of LevelNodes
