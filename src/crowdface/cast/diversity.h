@@ -34,9 +34,9 @@ struct DiversityOptions {
   /// A face whose distance from a head is smaller than this value counts as the same person as the
   /// head.
   static constexpr double kSamePersonMm = 0.5;
-  /// Casting rejects a candidate that is the same person as a head (see kSamePersonMm), but only
-  /// among the first candidates for each face: this many. It accepts later candidates, because some
-  /// configs yield only faces near heads.
+  /// Number of candidates for each face that casting rejects if they are the same person as a head
+  /// (see kSamePersonMm). Casting does not check later candidates for this, because some configs
+  /// yield only faces near heads.
   static constexpr std::uint32_t kCandidatesCheckedForSamePerson = 100;
   /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;

@@ -94,8 +94,8 @@ std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint6
   };
   const std::size_t none = shares.size();
   shares.push_back(std::max(0.0, 1 - std::reduce(shares.begin(), shares.end())));
-  // can_serve looks `horizon` faces ahead: far enough that two of these faces belong to the
-  // smallest share, but at most 1000 faces.
+  // can_serve looks `horizon` faces ahead. The horizon contains two faces of the smallest share,
+  // but at most 1000 faces.
   double smallest = 1;
   for (const double share : shares) {
     if (share > kRounding) smallest = std::min(smallest, share);

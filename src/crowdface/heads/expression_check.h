@@ -19,8 +19,8 @@ namespace crowdface {
 ///
 /// The check compares the heads with each other. It measures how far each feature (such as a corner
 /// of the mouth) is displaced from the vertex-wise median of all heads, relative to the skin around
-/// the feature. A displacement causes a warning if it is large compared with the displacements of
-/// the other heads.
+/// the feature. The check warns of a feature whose displacement is much larger than on the other
+/// heads.
 ///
 /// \param is_skin  #V, whether each vertex is skin.
 /// \param axes     axes of all heads.
