@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Unit normals as means of the triangles' by their areas.
-/// \param twin     as of cornersAround; null: no vertices share a place.
-/// \param normals  takes them. \param stride  numbers a vertex of points and normals.
-export function normalsOf(points, triangles, twin, normals, stride = 4) {
-  normals.fill(0);
+/// \param twin      as of cornersAround; null: no vertices share a place.
+/// \param normals   takes them. \param stride  numbers a vertex of points and normals.
+/// \param vertices  in ascending order, the corners with their twins; null: all.
+export function normalsOf(points, triangles, twin, normals, stride = 4, vertices = null) {
+  const count = vertices ? vertices.length : normals.length / stride;
+  for (let i = 0; i < count; i += 1) {
+    const v = stride * (vertices ? vertices[i] : i);
+    normals[v] = 0;
+    normals[v + 1] = 0;
+    normals[v + 2] = 0;
+  }
   for (let t = 0; t < triangles.length; t += 3) {
     const a = stride * triangles[t];
     const b = stride * triangles[t + 1];
@@ -24,7 +31,8 @@ export function normalsOf(points, triangles, twin, normals, stride = 4) {
       normals[v + 2] += nz;
     }
   }
-  for (let v = 0; v < normals.length; v += stride) {
+  for (let i = 0; i < count; i += 1) {
+    const v = stride * (vertices ? vertices[i] : i);
     const from = twin ? stride * twin[v / stride] : v;
     const length = Math.hypot(normals[from], normals[from + 1], normals[from + 2]) || 1;
     if (from !== v) { // the twin stands before and is of unit length by now

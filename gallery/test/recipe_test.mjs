@@ -253,6 +253,29 @@ test('a blend on the processor is Eq. 7, also after a change', () => {
   }
 });
 
+test('while something moves, the corners of the draft have the points and the relief of the whole blend', () => {
+  const { mesh, all } = blender();
+  mesh.draft = mesh.triangles.filter((_, i) => Math.floor(i / 3) % 4 === 0);
+  const blend = new ProcessorBlend(mesh, 2);
+  all.forEach((head, h) => blend.setHead(h, head));
+  const corners = new Set([...mesh.draft].flatMap((v) => [v, mesh.twin[v]]));
+  assert.ok(corners.size > 20 && corners.size < mesh.vertices - 5);
+  const blendOf = (document) => [coefficients(job, document, all), targetShares(job, document.recipe)];
+  blend.blend(...blendOf(face({ smoothness: 0.8 })));
+  const after = blend.points.slice();
+  blend.blend(...blendOf(face()));
+  const before = { points: blend.points.slice(), normals: blend.normals.slice() };
+  blend.blendDraft(...blendOf(face()));
+  before.points.forEach((value, i) => near(blend.points[i], value, 1e-6));
+  before.normals.forEach((value, i) => near(blend.normals[i], value, 1e-6));
+  blend.blendDraft(...blendOf(face({ smoothness: 0.8 })));
+  for (let i = 0; i < 4 * mesh.vertices; i += 1) {
+    near(blend.points[i], (corners.has(Math.floor(i / 4)) ? after : before.points)[i], 1e-6);
+  }
+  blend.blend(...blendOf(face({ smoothness: 0.8 })));
+  after.forEach((value, i) => near(blend.points[i], value, 1e-6));
+});
+
 test('what the program’s face has beyond the preview stays while one goes on', () => {
   const { mesh, blend, all } = blender();
   const shares = targetShares(job, face().recipe);

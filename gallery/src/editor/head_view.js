@@ -271,14 +271,25 @@ export class HeadView extends Stage {
 
   /// \param exact  the program's own face of it, or nothing: then what its last one had is kept.
   blend(lists, shares, exact = null) {
-    this.blender.blend(lists, shares);
+    this.blended = [lists, shares];
+    this.isBehind = Boolean(this.moving && this.draft && !exact);
+    if (this.isBehind) this.blender.blendDraft(lists, shares);
+    else this.blender.blend(lists, shares);
     if (exact) this.blender.settle(exact.positions, exact.normals);
     this.isPlaced = false;
     this.draw();
   }
 
+  /// The whole mesh takes the face that only the draft had while it moved.
+  catchUp() {
+    if (!this.isBehind) return;
+    this.isBehind = false;
+    this.blender.blend(...this.blended);
+  }
+
   /// The program's own face, while heads are missing to blend one.
   standAs({ positions, normals }) {
+    this.isBehind = false;
     this.blender.place(positions, normals);
     this.isPlaced = false;
     this.draw();
@@ -297,6 +308,7 @@ export class HeadView extends Stage {
 
   draw() {
     if (this.isPlaced === undefined || this.silent) return; // there is no face yet
+    if (!this.moving) this.catchUp();
     if (this.draft) {
       this.placeDraft();
       this.draft.light(this.camera, this.group, this.blender.normals, 4, (v, colour) => this.surfaceAt(v, colour),
@@ -437,8 +449,14 @@ export class HeadView extends Stage {
     return count > 0 ? sum.divideScalar(count).applyMatrix4(this.group.matrix).y - 0.12 : 0.1;
   }
 
+  /// The points of the face, three numbers a vertex.
+  read() {
+    this.catchUp();
+    return this.blender.read();
+  }
+
   /// Where a pixel of the window lies on the skin; nothing beside it. \param points  of the preview's vertices
-  hit(x, y, points = this.blender.read()) {
+  hit(x, y, points = this.read()) {
     const box = this.node.getBoundingClientRect();
     const at = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
     this.camera.updateMatrixWorld();

@@ -115,7 +115,7 @@ export class Painting {
   /// Where a pixel lies on the head; nothing beside it.
   at(x, y) {
     const { view } = this.editor;
-    this.points ??= view.blender.read();
+    this.points ??= view.read();
     return view.hit(x, y, this.points);
   }
 

@@ -6,15 +6,25 @@ import { floatTexture, layoutOf, padded, targetPositions } from './surface.js';
 
 const block = 512; // vertices whose sums stay in the nearest cache while the fields pass over them
 
+/// The corners of triangles and the vertices whose normals they share, in ascending order.
+function verticesOf(triangles, twin) {
+  const vertices = new Set(triangles);
+  if (twin) for (const v of triangles) vertices.add(twin[v]);
+  return Uint32Array.from(vertices).sort();
+}
+
 export class ProcessorBlend {
-  /// \param mesh  vertices, triangles, twin, alpha (vertices by regions).
+  /// \param mesh  vertices, triangles, twin, alpha (vertices by regions), perhaps draft: the triangles of a coarser mesh
+  ///              with the same vertices.
   constructor(mesh, regions) {
     Object.assign(this, { mesh, regions, name: 'processor', heads: [] });
     this.layout = layoutOf(mesh.vertices);
+    const formOf = (triangles, vertices) => ({ triangles, vertices, turned: new Float32Array(3 * mesh.vertices) });
+    this.whole = formOf(mesh.triangles, Uint32Array.from({ length: mesh.vertices }, (_, v) => v));
+    this.draft = mesh.draft ? formOf(mesh.draft, verticesOf(mesh.draft, mesh.twin)) : null;
     this.points = new Float32Array(4 * this.layout.width * this.layout.height);
     this.normals = new Float32Array(this.points.length);
     this.moved = new Float32Array(3 * mesh.vertices);
-    this.turned = new Float32Array(3 * mesh.vertices);
     this.pointTexture = floatTexture(this.layout, this.points);
     this.normalTexture = floatTexture(this.layout, this.normals);
     this.setMasks(mesh.alpha);
@@ -22,18 +32,18 @@ export class ProcessorBlend {
 
   setMasks(alpha) {
     this.mesh.alpha = alpha;
-    this.parts = Array.from({ length: this.regions }, (_, k) => {
-      const vertices = [];
-      for (let v = 0; v < this.mesh.vertices; v += 1) {
-        if (alpha[v * this.regions + k] !== 0) vertices.push(v);
-      }
-      return {
-        vertices: Uint32Array.from(vertices),
-        alpha: Float32Array.from(vertices, (v) => alpha[v * this.regions + k]),
-        sums: new Float32Array(3 * vertices.length),
-        key: '',
-      };
-    });
+    for (const form of [this.whole, this.draft]) {
+      if (!form) continue;
+      form.parts = Array.from({ length: this.regions }, (_, k) => {
+        const vertices = form.vertices.filter((v) => alpha[v * this.regions + k] !== 0);
+        return {
+          vertices,
+          alpha: Float32Array.from(vertices, (v) => alpha[v * this.regions + k]),
+          sums: new Float32Array(3 * vertices.length),
+          key: '',
+        };
+      });
+    }
   }
 
   setHead(h, head) {
@@ -42,15 +52,35 @@ export class ProcessorBlend {
 
   /// \param lists   per region {head, field, value}; \param shares  τ_h, one a head.
   blend(lists, shares) {
-    const { mesh, points } = this;
+    this.blendForm(this.whole, lists, shares);
+  }
+
+  /// The same, only at the corners of the draft.
+  blendDraft(lists, shares) {
+    if (this.isWhole) this.keepNormals();
+    this.blendForm(this.draft, lists, shares);
+  }
+
+  /// The draft's own normals are those of larger triangles. What the whole mesh's have beyond them is kept.
+  keepNormals() {
+    const { points, normals, draft: { triangles, vertices, turned } } = this;
+    const fine = normals.slice();
+    normalsOf(points, triangles, this.mesh.twin, normals, 4, vertices);
+    for (const v of vertices) {
+      for (let c = 0; c < 3; c += 1) turned[3 * v + c] = fine[4 * v + c] - normals[4 * v + c];
+    }
+  }
+
+  blendForm(form, lists, shares) {
+    const { points } = this;
     const base = targetPositions(this.heads, shares);
     if (!base) return;
     this.base = base;
-    lists.forEach((list, k) => this.sum(this.parts[k], list));
-    for (let v = 0; v < mesh.vertices; v += 1) {
+    lists.forEach((list, k) => this.sum(form.parts[k], list));
+    for (const v of form.vertices) {
       for (let c = 0; c < 3; c += 1) points[4 * v + c] = base[3 * v + c];
     }
-    for (const { vertices, alpha, sums } of this.parts) {
+    for (const { vertices, alpha, sums } of form.parts) {
       for (let i = 0; i < vertices.length; i += 1) {
         const to = 4 * vertices[i];
         points[to] += alpha[i] * sums[3 * i];
@@ -58,7 +88,7 @@ export class ProcessorBlend {
         points[to + 2] += alpha[i] * sums[3 * i + 2];
       }
     }
-    this.finish();
+    this.finish(form);
   }
 
   /// Σ c_f · field_f over a region's vertices, unless it stands there already.
@@ -86,9 +116,11 @@ export class ProcessorBlend {
   }
 
   /// Adds what the program's last face had beyond ours, measures, and shades.
-  finish() {
-    const { mesh, points, normals, base, moved, turned } = this;
-    for (let v = 0; v < mesh.vertices; v += 1) {
+  finish(form) {
+    const { points, normals, base, moved } = this;
+    const { triangles, vertices, turned } = form;
+    this.isWhole = form === this.whole;
+    for (const v of vertices) {
       let square = 0;
       for (let c = 0; c < 3; c += 1) {
         points[4 * v + c] += moved[3 * v + c];
@@ -96,8 +128,8 @@ export class ProcessorBlend {
       }
       points[4 * v + 3] = Math.sqrt(square);
     }
-    normalsOf(points, mesh.triangles, mesh.twin, normals);
-    for (let v = 0; v < mesh.vertices; v += 1) {
+    normalsOf(points, triangles, this.mesh.twin, normals, 4, vertices);
+    for (const v of vertices) {
       for (let c = 0; c < 3; c += 1) normals[4 * v + c] += turned[3 * v + c];
     }
     this.pointTexture.needsUpdate = true;
@@ -107,7 +139,7 @@ export class ProcessorBlend {
   /// Takes the program's own face for the one blended last: that is what is shown from now on, and
   /// what it has beyond ours is kept until the next.
   settle(positions, given) {
-    const { mesh, points, normals, moved, turned } = this;
+    const { mesh, points, normals, moved, whole } = this;
     const exact = padded(positions, this.layout);
     for (let v = 0; v < mesh.vertices; v += 1) {
       for (let c = 0; c < 3; c += 1) {
@@ -115,17 +147,18 @@ export class ProcessorBlend {
         points[4 * v + c] = positions[3 * v + c] - moved[3 * v + c];
       }
     }
-    normalsOf(exact, mesh.triangles, mesh.twin, normals);
+    normalsOf(exact, mesh.triangles, mesh.twin, normals, 4, whole.vertices);
     for (let v = 0; v < mesh.vertices; v += 1) {
-      for (let c = 0; c < 3; c += 1) turned[3 * v + c] = given[3 * v + c] - normals[4 * v + c];
+      for (let c = 0; c < 3; c += 1) whole.turned[3 * v + c] = given[3 * v + c] - normals[4 * v + c];
     }
-    this.finish();
+    this.finish(whole);
   }
 
   /// The program's own face, while heads are missing to blend one.
   place(positions, given) {
     this.points.set(padded(positions, this.layout));
     this.normals.set(padded(given, this.layout));
+    this.isWhole = true;
     this.pointTexture.needsUpdate = true;
     this.normalTexture.needsUpdate = true;
   }
@@ -133,7 +166,7 @@ export class ProcessorBlend {
   /// Forgets what the program's last face had: the target is another.
   unsettle() {
     this.moved.fill(0);
-    this.turned.fill(0);
+    this.whole.turned.fill(0);
   }
 
   /// The points on the screen, three numbers a vertex.
