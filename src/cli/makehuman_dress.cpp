@@ -47,7 +47,7 @@ Picture read_picture(const fs::path& path) {
 const std::vector<float>& light_of_srgb8_values() {
   static const std::vector<float> table = [] {
     std::vector<float> light;
-    for (const Density density : densities_of_srgb8()) {
+    for (const Density density : density_by_srgb8()) {
       light.push_back(light_of_density(static_cast<float>(density)));
     }
     return light;
@@ -56,7 +56,7 @@ const std::vector<float>& light_of_srgb8_values() {
 }
 
 std::uint8_t srgb8_of_light(double light) {
-  return srgb8_of_densities()[density_of_light(static_cast<float>(light))];
+  return srgb8_by_density()[density_of_light(static_cast<float>(light))];
 }
 
 /// Downsamples an image to at most `max_texels` in width and height. Averages square blocks of
@@ -154,7 +154,7 @@ Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
                                 pictures.back().width, " by ", pictures.back().height));
     }
   }
-  const std::vector<Density>& densities = densities_of_srgb8();
+  const std::vector<Density>& densities = density_by_srgb8();
   Picture mixed{pictures[0].width, pictures[0].height, false, pictures[0].texels};
   for (std::size_t i = 0; i < mixed.texels.size(); ++i) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -163,7 +163,7 @@ Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
         density += shares[p].share * densities[pictures[p].texels[i][c]];
       }
       density = std::min(std::floor(tone * density + 0.5), double{kMaxDensity});
-      mixed.texels[i][c] = srgb8_of_densities()[static_cast<std::size_t>(density)];
+      mixed.texels[i][c] = srgb8_by_density()[static_cast<std::size_t>(density)];
     }
   }
   return mixed;

@@ -52,11 +52,11 @@ void plain_mean_of_light(benchmark::State& state) {
   for (const auto& map : sheet.textures.maps[0]) bytes.push_back(srgb8_of(*map));
   std::vector<float> light(256);
   for (std::size_t v = 0; v < 256; ++v) {
-    light[v] = light_of_density(static_cast<float>(densities_of_srgb8()[v]));
+    light[v] = light_of_density(static_cast<float>(density_by_srgb8()[v]));
   }
   std::vector<std::uint8_t> screen(65536);
   for (std::size_t i = 0; i < screen.size(); ++i) {
-    screen[i] = srgb8_of_densities()[density_of_light(static_cast<float>(i) / 65535.0F)];
+    screen[i] = srgb8_by_density()[density_of_light(static_cast<float>(i) / 65535.0F)];
   }
   std::vector<std::uint8_t> result(3 * size * size);
   for (auto _ : state) {

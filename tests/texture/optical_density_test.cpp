@@ -8,7 +8,7 @@ namespace {
 
 TEST(OpticalDensity, EveryScreenColourComesBack) {
   for (std::size_t value = 0; value < 256; ++value) {
-    EXPECT_EQ(srgb8_of_densities()[densities_of_srgb8()[value]], value);
+    EXPECT_EQ(srgb8_by_density()[density_by_srgb8()[value]], value);
   }
 }
 

@@ -47,7 +47,7 @@ float noise(std::uint64_t head, int column, int row, int block = 1) {
 /// Green densities of a picture; bytes know them to a step.
 std::vector<double> densities(const std::vector<std::uint8_t>& srgb) {
   std::vector<double> values;
-  for (std::size_t i = 1; i < srgb.size(); i += 3) values.push_back(densities_of_srgb8()[srgb[i]]);
+  for (std::size_t i = 1; i < srgb.size(); i += 3) values.push_back(density_by_srgb8()[srgb[i]]);
   return values;
 }
 

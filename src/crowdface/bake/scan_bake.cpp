@@ -359,7 +359,7 @@ BakedPicture ScanBake::bake_picture(std::size_t picture) const {
     std::uint64_t filled = 0;
   };
   std::vector<Sums> sums(static_cast<std::size_t>(height));
-  const std::vector<std::uint8_t>& srgb8 = srgb8_of_densities();
+  const std::vector<std::uint8_t>& srgb8 = srgb8_by_density();
   parallel_blocks(height, kTexelRows, [&](int begin, int end) {
     std::uint32_t guess = kNoIndex;
     for (int y = begin; y < end; ++y) {

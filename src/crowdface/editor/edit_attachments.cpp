@@ -34,7 +34,7 @@ std::optional<std::string> EditAttachments::appearance_json(const std::string& n
   const std::size_t plus = std::min(name.find('+'), name.size());
   for (const Attachment& item : job_.inputs.attachments.items) {
     if (item.name != name.substr(0, plus)) continue;
-    AttachmentLook look{&item};
+    ColouredAttachment look{&item};
     if (plus < name.size()) look.colour = parse_hair_label(std::string_view(name).substr(plus + 1));
     return shown_.appearance_as_json(look, surfaces_.at(item));
   }

@@ -31,7 +31,7 @@ class EditAttachments {
   nlohmann::ordered_json kinds() const;
   /// The triangles and the appearance of each material of an attachment, as JSON; nothing if no
   /// attachment has this name.
-  /// \param name  see AttachmentLook::name.
+  /// \param name  see ColouredAttachment::name.
   std::optional<std::string> appearance_json(const std::string& name) const;
 
   /// The attachments of a face. Returns nothing while an attachment is being bound to the heads for

@@ -92,7 +92,7 @@ TextureMap map_of(const Image& image, const NeededMap& needed) {
       return make_texture_map(needed.width, needed.height, normal_slopes_of(image),
                               MapCoding::slope_coding());
     case MapContent::kValues:
-      return make_texture_map(needed.width, needed.height, values_of(image),
+      return make_texture_map(needed.width, needed.height, channel_values_of(image),
                               coding_of_values(image, needed.channels));
   }
   throw BrokenPrecondition("map_of: an unknown content");

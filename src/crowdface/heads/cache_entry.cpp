@@ -139,7 +139,7 @@ void CacheEntry::require(bool holds) const {
   }
 }
 
-void CacheEntry::require_not_truncated() const {
+void CacheEntry::throw_if_truncated() const {
   if (file_->was_truncated())
     throw InvalidInput(concat(path_.string(), ": cache entry is being truncated"));
 }

@@ -179,7 +179,7 @@ class CacheEntry {
   /// Checks that no other process has shortened the file since it was opened. In a shortened file,
   /// the missing numbers of the mapped arrays read as zeros.
   /// \throws InvalidInput if the file was shortened.
-  void require_not_truncated() const;
+  void throw_if_truncated() const;
 
  private:
   /// An array as the file describes it.

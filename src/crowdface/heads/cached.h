@@ -43,7 +43,7 @@ std::optional<Value> find_cached(const CacheFolder& cache, const CacheKey& key, 
     const ArrayReader arrays(*entry);
     visit(arrays, value);
     entry->require(is_sound(value, *entry));
-    entry->require_not_truncated();
+    entry->throw_if_truncated();
     return value;
   } catch (const RecoverableError& error) {
     warn_of_unusable_entry(error);

@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-std::vector<AttachmentFile> files_of(const AttachmentLook& look) {
+std::vector<AttachmentFile> files_of(const ColouredAttachment& look) {
   std::set<std::filesystem::path> colours;
   if (look.colour) {
     for (const SurfaceMaterial& material : read_surface_materials(look.item->materials)) {
@@ -34,8 +34,8 @@ std::string coloured_texture(const std::filesystem::path& neutral, const HairCol
   std::array<std::array<std::uint8_t, 256>, 3> dyed{};
   for (std::size_t c = 0; c < 3; ++c) {
     for (std::size_t v = 0; v < 256; ++v) {
-      const float light = light_of_density(static_cast<float>(densities_of_srgb8()[v]));
-      dyed[c][v] = srgb8_of_densities()[density_of_light(factors[c] * light)];
+      const float light = light_of_density(static_cast<float>(density_by_srgb8()[v]));
+      dyed[c][v] = srgb8_by_density()[density_of_light(factors[c] * light)];
     }
   }
   const bool is_grey = image.channels < 3, has_alpha = image.alpha_channel >= 0;

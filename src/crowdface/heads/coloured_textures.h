@@ -16,7 +16,7 @@ struct AttachmentFile {
 };
 /// Lists the material files and textures of an attachment. A coloured texture has the same file
 /// name as the neutral texture.
-std::vector<AttachmentFile> files_of(const AttachmentLook& look);
+std::vector<AttachmentFile> files_of(const ColouredAttachment& look);
 
 /// Colours a neutral texture, and returns it as a PNG file with 8 bits per channel.
 /// \throws InvalidInput if the file is not a readable image.

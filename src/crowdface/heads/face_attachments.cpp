@@ -70,10 +70,11 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   std::vector<PlacedAttachment> placed;
   if (face.attachments.empty() || skin_ == nullptr) return placed;
   const Positions normals = skin_->normals(positions);
-  for (const AttachmentLook& look : inputs_.attachments.looks_of(face)) {
+  for (const ColouredAttachment& coloured : inputs_.attachments.worn_by(face)) {
     const BoundMesh& bound =
-        bound_meshes_[mesh_of_item_[inputs_.attachments.index(look.item->name)]];
-    placed.push_back({look.item, look.colour, bound.carrier->move_to_face(positions, normals)});
+        bound_meshes_[mesh_of_item_[inputs_.attachments.index(coloured.item->name)]];
+    placed.push_back(
+        {coloured.item, coloured.colour, bound.carrier->move_to_face(positions, normals)});
     PlacedAttachment& one = placed.back();
     for (const Displacements& shape : moves) {
       one.moves.push_back(bound.bend

@@ -19,7 +19,7 @@ namespace crowdface {
 /// An attachment placed on a face.
 struct PlacedAttachment {
   const Attachment* item;
-  std::optional<HairColour> colour;  ///< see AttachmentLook
+  std::optional<HairColour> colour;  ///< see ColouredAttachment
   Positions positions;               ///< the attachment's vertices on the face
   /// displacements of the attachment's vertices, one item for each shape (expression) of the face
   std::vector<Displacements> moves = {};
@@ -28,7 +28,7 @@ struct PlacedAttachment {
   std::string face_id = {};
   std::string_view texture_png = {};
 
-  AttachmentLook look() const { return {item, colour}; }
+  ColouredAttachment look() const { return {item, colour}; }
 };
 
 /// Places attachments on faces. Each mesh is bound to the fitted head once, even if several

@@ -41,7 +41,7 @@ struct Attachment {
 };
 
 /// An attachment, and the colour that a face gives to this attachment.
-struct AttachmentLook {
+struct ColouredAttachment {
   const Attachment* item;
   std::optional<HairColour> colour = {};  ///< if the attachment has a tint
 
@@ -68,10 +68,10 @@ struct AttachmentSet {
   const Attachment& at(const std::string& name) const { return items[index(name)]; }
   std::size_t index(const std::string& name) const;
   /// The attachments that a face wears, in their colours.
-  std::vector<AttachmentLook> looks_of(const FacePlan& face) const;
-  AttachmentLook look_of(const std::string& name, const std::optional<HairColour>& hair) const;
+  std::vector<ColouredAttachment> worn_by(const FacePlan& face) const;
+  ColouredAttachment coloured(const std::string& name, const std::optional<HairColour>& hair) const;
   /// All attachments in all colours that these faces wear, without duplicates, sorted by name.
-  std::vector<AttachmentLook> looks_of(std::span<const FacePlan> faces) const;
+  std::vector<ColouredAttachment> worn_by(std::span<const FacePlan> faces) const;
 };
 
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.

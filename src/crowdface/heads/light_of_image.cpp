@@ -87,7 +87,7 @@ ImageRows normal_slopes_of(const Image& image) {
   return {image.width, image.height, row};
 }
 
-ImageRows values_of(const Image& image) {
+ImageRows channel_values_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
     const bool grey = image.channels < 3;
     for (int x = 0; x < image.width; ++x) {

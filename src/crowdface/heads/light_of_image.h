@@ -16,6 +16,6 @@ ImageRows linear_light_of(const Image& image);
 /// the slope to the right and the slope upwards in the image.
 ImageRows normal_slopes_of(const Image& image);
 /// The unconverted values of the first one or three channels.
-ImageRows values_of(const Image& image);
+ImageRows channel_values_of(const Image& image);
 
 }  // namespace crowdface

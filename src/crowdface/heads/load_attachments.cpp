@@ -85,30 +85,31 @@ std::size_t AttachmentSet::index(const std::string& name) const {
   return static_cast<std::size_t>(found - items.begin());
 }
 
-std::string AttachmentLook::name() const {
+std::string ColouredAttachment::name() const {
   return colour ? concat(item->name, '+', label()) : item->name;
 }
 
-AttachmentLook AttachmentSet::look_of(const std::string& name,
-                                      const std::optional<HairColour>& hair) const {
+ColouredAttachment AttachmentSet::coloured(const std::string& name,
+                                           const std::optional<HairColour>& hair) const {
   const Attachment& item = at(name);
   if (item.tint == Tint::kNone || !hair) return {&item};
   return {&item, hair_colour_for(*hair, item.tint)};
 }
 
-std::vector<AttachmentLook> AttachmentSet::looks_of(const FacePlan& face) const {
-  std::vector<AttachmentLook> looks;
-  for (const std::string& name : face.attachments) looks.push_back(look_of(name, face.hair));
-  return looks;
+std::vector<ColouredAttachment> AttachmentSet::worn_by(const FacePlan& face) const {
+  std::vector<ColouredAttachment> worn;
+  for (const std::string& name : face.attachments) worn.push_back(coloured(name, face.hair));
+  return worn;
 }
 
-std::vector<AttachmentLook> AttachmentSet::looks_of(std::span<const FacePlan> faces) const {
-  std::map<std::string, AttachmentLook> known;
+std::vector<ColouredAttachment> AttachmentSet::worn_by(std::span<const FacePlan> faces) const {
+  std::map<std::string, ColouredAttachment> known;
   for (const FacePlan& face : faces) {
-    for (const AttachmentLook& look : looks_of(face)) known.emplace(look.name(), look);
+    for (const ColouredAttachment& coloured : worn_by(face))
+      known.emplace(coloured.name(), coloured);
   }
-  std::vector<AttachmentLook> all;
-  for (const auto& [name, look] : known) all.push_back(look);
+  std::vector<ColouredAttachment> all;
+  for (const auto& [name, one] : known) all.push_back(one);
   return all;
 }
 

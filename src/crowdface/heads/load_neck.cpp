@@ -120,7 +120,7 @@ struct Poses {
 
 /// The body on which the heads are placed, and the heads' rotation.
 struct Goal {
-  NeckBody body;
+  BodyBelowNeck body;
   Matrix3d rotation = Matrix3d::Identity();  ///< rotation of all heads from their common pose
 };
 
@@ -129,7 +129,7 @@ Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const
   Goal goal;
   if (!config.neck.body.empty()) {
     const Positions ring = poses.mean(head_set, rim, rim);
-    goal.body = read_neck_body(config, inputs, rim, ring);
+    goal.body = read_body_below_neck(config, inputs, rim, ring);
     goal.rotation = goal.body.file_contains_head
                         ? poses.rotation_to(head_set, rim, goal.body.head_positions)
                         : rotation_of_rim(ring, goal.body.rim_positions);

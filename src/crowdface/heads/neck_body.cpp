@@ -75,7 +75,7 @@ ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
 }
 
 /// Stores the body's mesh. \throws InvalidInput if the file holds a head instead of a body.
-void keep_body(ObjFile mesh, const Rim& rim, NeckBody& body) {
+void keep_body(ObjFile mesh, const Rim& rim, BodyBelowNeck& body) {
   if (body.file_contains_head) {
     throw InvalidInput("body_texture, show_body and write_body need a body, found a head");
   }
@@ -113,7 +113,7 @@ Positions area_vectors_around(const Topology& topology, const Positions& positio
   return areas;
 }
 
-void NeckBody::reverse_inward_polygons(const Positions& head_areas) {
+void BodyBelowNeck::reverse_inward_polygons(const Positions& head_areas) {
   if (head_areas.cwiseProduct(area_vectors).sum() >= 0) return;
   area_vectors = -area_vectors;
   if (!mesh) return;
@@ -126,13 +126,13 @@ void NeckBody::reverse_inward_polygons(const Positions& head_areas) {
   }
 }
 
-NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& rim,
-                        const Positions& ring) {
+BodyBelowNeck read_body_below_neck(const Config& config, const Inputs& inputs, const Rim& rim,
+                                   const Positions& ring) {
   const Config::Neck& neck = config.neck;
   ObjFile mesh = read_mesh_as_obj(neck.body);
   const double mm = mm_per(config.faces.units);
   const Positions head = mm * ring;
-  NeckBody body;
+  BodyBelowNeck body;
   body.file_contains_head = first_difference(inputs.head_set.topology, mesh.topology).empty();
   const bool is_order_known = body.file_contains_head && neck.body_rim.empty();
   std::vector<Rim> rims = {rim};

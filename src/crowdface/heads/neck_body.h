@@ -17,7 +17,7 @@ Rim find_neck_rim(const Config& config, const Inputs& inputs);
 Positions area_vectors_around(const Topology& topology, const Positions& positions, const Rim& rim);
 
 /// The body whose file the config names as `neck.body`.
-struct NeckBody {
+struct BodyBelowNeck {
   Positions rim_positions;  ///< #rim by 3, in the order of the heads' rim
   Positions area_vectors;   ///< result of area_vectors_around for the body
   /// Whether the file contains a head with the heads' topology, instead of a body.
@@ -38,7 +38,7 @@ struct NeckBody {
 /// \param rim   the heads' rim
 /// \param ring  the mean of the heads' positions at the rim, #rim by 3
 /// \throws InvalidInput if no rim fits, or if the config needs a body and the file has a head.
-NeckBody read_neck_body(const Config& config, const Inputs& inputs, const Rim& rim,
-                        const Positions& ring);
+BodyBelowNeck read_body_below_neck(const Config& config, const Inputs& inputs, const Rim& rim,
+                                   const Positions& ring);
 
 }  // namespace crowdface

@@ -217,7 +217,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   return prepared;
 }
 
-void require_not_truncated(const Prepared& prepared) {
+void throw_if_truncated(const Prepared& prepared) {
   const auto was_truncated = [](const std::shared_ptr<const MappedFile>& mapped) {
     return mapped && mapped->was_truncated();
   };

@@ -43,7 +43,7 @@ struct TruncatedWhileInUse : IoError {
 /// Checks that no cache entry was truncated while its fields were in use. Call this after using the
 /// fields and before using the results.
 /// \throws TruncatedWhileInUse.
-void require_not_truncated(const Prepared& prepared);
+void throw_if_truncated(const Prepared& prepared);
 
 /// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a
 /// warning; a cache that cannot be written only causes a warning.

@@ -61,7 +61,7 @@ Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_
   Positions densities(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     for (Index c = 0; c < 3; ++c) {
-      densities(static_cast<Index>(i), c) = densities_of_srgb8()[colours(vertices[i], c)];
+      densities(static_cast<Index>(i), c) = density_by_srgb8()[colours(vertices[i], c)];
     }
   }
   return densities;

@@ -364,7 +364,7 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   return concat("crowdface.setFace(", Json(name).dump(), ",{", join(parts, ","), "});\n");
 }
 
-std::string GalleryMeshes::attachment_script(const AttachmentLook& look,
+std::string GalleryMeshes::attachment_script(const ColouredAttachment& look,
                                              const AttachmentSurfaces& surfaces) const {
   return concat("crowdface.setAttachment(", Json(look.name()).dump(), ',',
                 attachments_.appearance_as_json(look, surfaces.at(*look.item)), ");\n");

@@ -43,7 +43,7 @@ class GalleryMeshes {
                           const std::vector<PlacedAttachment>& placed = {},
                           const BlendedPicture* body = nullptr) const;
   /// The file data/attachments/NAME.js.
-  std::string attachment_script(const AttachmentLook& look,
+  std::string attachment_script(const ColouredAttachment& look,
                                 const AttachmentSurfaces& surfaces) const;
 
  private:

@@ -79,17 +79,17 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
   make_directories(directory_.gallery_head("").parent_path());
   std::set<std::string> ids, placed;
   for (const FacePlan& face : crowd) ids.insert(face.id);
-  const std::vector<AttachmentLook> looks = inputs_.attachments.looks_of(crowd);
-  for (const AttachmentLook& look : looks) placed.insert(look.name());
+  const std::vector<ColouredAttachment> worn = inputs_.attachments.worn_by(crowd);
+  for (const ColouredAttachment& coloured : worn) placed.insert(coloured.name());
   for (const fs::path& folder : folder_and_numbered_subfolders(directory_.gallery_faces())) {
     remove_others(folder, ids);
   }
   const fs::path attachments = directory_.gallery_attachment("").parent_path();
   remove_others(attachments, placed);
   if (!placed.empty()) make_directories(attachments);
-  parallel_for_each(looks.size(), [&](std::size_t i) {
-    write_file(directory_.gallery_attachment(looks[i].name()),
-               gallery_->attachment_script(looks[i], renders_.attachment_surfaces()));
+  parallel_for_each(worn.size(), [&](std::size_t i) {
+    write_file(directory_.gallery_attachment(worn[i].name()),
+               gallery_->attachment_script(worn[i], renders_.attachment_surfaces()));
   });
   parallel_for_each(inputs_.head_set.heads.size(), [&](std::size_t h) {
     const auto head = static_cast<Index>(h);

@@ -81,7 +81,7 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
   });
 }
 
-std::string ShownAttachments::appearance_as_json(const AttachmentLook& look,
+std::string ShownAttachments::appearance_as_json(const ColouredAttachment& look,
                                                  const AttachmentSurface& surface) const {
   const Parts& meshes = parts(*look.item);
   Json json = Json::array();

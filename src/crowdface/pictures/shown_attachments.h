@@ -18,7 +18,7 @@ class ShownAttachments {
  public:
   /// Returns the triangles and materials of an attachment as JSON. These are the same for all
   /// faces.
-  std::string appearance_as_json(const AttachmentLook& look,
+  std::string appearance_as_json(const ColouredAttachment& look,
                                  const AttachmentSurface& surface) const;
   /// Returns JSON with an attachment's vertex positions on a face (16 bits per coordinate),
   /// material by material. For each shape of the face, the JSON also has the vertices that the

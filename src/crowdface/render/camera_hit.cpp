@@ -12,38 +12,39 @@ namespace {
 using Vector = Eigen::Vector3f;
 
 /// The index of the layer's texture on a quad, or kNone.
-std::uint32_t texture_of(const Stage& stage, const TextureLayer& layer, std::uint32_t primitive) {
-  if (stage.textured_quads.empty() || layer.texture_of_face.empty()) return TextureLayer::kNone;
-  const TexturedQuad& quad = stage.textured_quads[primitive];
+std::uint32_t texture_of(const HeadScene& scene, const TextureLayer& layer,
+                         std::uint32_t primitive) {
+  if (scene.textured_quads.empty() || layer.texture_of_face.empty()) return TextureLayer::kNone;
+  const TexturedQuad& quad = scene.textured_quads[primitive];
   return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.texture_of_face[quad.face];
 }
 
 /// The index of the colour texture on a quad, or kNone.
-std::uint32_t texture_of(const Stage& stage, std::uint32_t primitive) {
-  return stage.texture_set == nullptr ? TextureLayer::kNone
-                                      : texture_of(stage, *stage.texture_set, primitive);
+std::uint32_t texture_of(const HeadScene& scene, std::uint32_t primitive) {
+  return scene.texture_set == nullptr ? TextureLayer::kNone
+                                      : texture_of(scene, *scene.texture_set, primitive);
 }
 
 /// Samples a layer's texture at a point of a quad.
-LinearRgb texel_at(const Stage& stage, const TextureLayer& layer, std::uint32_t texture,
+LinearRgb texel_at(const HeadScene& scene, const TextureLayer& layer, std::uint32_t texture,
                    std::uint32_t primitive, const Eigen::Vector4f& weights) {
-  const TexturedQuad& quad = stage.textured_quads[primitive];
+  const TexturedQuad& quad = scene.textured_quads[primitive];
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
   return colour_at(*layer.textures[texture], uv);
 }
 
-LinearRgb own_albedo(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
-                     const Vector& point) {
-  const std::uint32_t texture = texture_of(stage, primitive);
+LinearRgb own_albedo(const HeadScene& scene, std::uint32_t primitive,
+                     const Eigen::Vector4f& weights, const Vector& point) {
+  const std::uint32_t texture = texture_of(scene, primitive);
   if (texture != TextureSet::kNone)
-    return texel_at(stage, *stage.texture_set, texture, primitive, weights);
-  if (!stage.quad_colours.empty() && stage.quad_colours[primitive])
-    return *stage.quad_colours[primitive];
-  const SurfaceKind kind = stage.kinds[primitive];
+    return texel_at(scene, *scene.texture_set, texture, primitive, weights);
+  if (!scene.quad_colours.empty() && scene.quad_colours[primitive])
+    return *scene.quad_colours[primitive];
+  const SurfaceKind kind = scene.kinds[primitive];
   if (kind != SurfaceKind::kEye) return albedo_of(kind);
-  const std::uint32_t eye = stage.eyeballs.eyeball_of_vertex[stage.quads[primitive][0]];
-  return eye_albedo(stage.eyes[eye], stage.gaze, point);
+  const std::uint32_t eye = scene.eyeballs.eyeball_of_vertex[scene.quads[primitive][0]];
+  return eye_albedo(scene.eyes[eye], scene.gaze, point);
 }
 
 /// Tilts or flips a unit normal so that it faces the viewer. Interpolated normals may face away
@@ -54,15 +55,15 @@ Vector towards(const Vector& viewer, const Vector& normal) {
 }
 
 /// Tilts a unit normal by slopes along the texture axes (normal mapping).
-Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal,
+Vector leaning(const HeadScene& scene, std::uint32_t primitive, const Vector& normal,
                const LinearRgb& slopes) {
-  const Quad& quad = stage.quads[primitive];
-  const TexturedQuad& textured = stage.textured_quads[primitive];
+  const Quad& quad = scene.quads[primitive];
+  const TexturedQuad& textured = scene.textured_quads[primitive];
   // Derive the texture axes from the triangle at the first corner, and use them for the whole quad.
   const std::size_t last = quad[2] == quad[3] ? 2 : 3;
-  const Vector origin = stage.point(quad[0]);
-  const Vector one = stage.point(quad[1]) - origin;
-  const Vector other = stage.point(quad[last]) - origin;
+  const Vector origin = scene.point(quad[0]);
+  const Vector one = scene.point(quad[1]) - origin;
+  const Vector other = scene.point(quad[last]) - origin;
   const Eigen::Vector2f uv_one = textured.uvs[1] - textured.uvs[0];
   const Eigen::Vector2f uv_other = textured.uvs[last] - textured.uvs[0];
   const float area = uv_one.x() * uv_other.y() - uv_other.x() * uv_one.y();
@@ -79,46 +80,46 @@ Vector leaning(const Stage& stage, std::uint32_t primitive, const Vector& normal
 }
 
 /// Applies the normal and roughness maps of the texture set.
-void finish(const Stage& stage, std::uint32_t primitive, const Eigen::Vector4f& weights,
+void finish(const HeadScene& scene, std::uint32_t primitive, const Eigen::Vector4f& weights,
             Vector& normal, ShadePoint& surface) {
-  if (stage.texture_set == nullptr || surface.is_back) return;
-  const TextureLayer& slopes = stage.texture_set->slopes;
-  const TextureLayer& roughness = stage.texture_set->roughness;
-  if (const auto at = texture_of(stage, slopes, primitive); at != TextureLayer::kNone) {
-    normal = leaning(stage, primitive, normal, texel_at(stage, slopes, at, primitive, weights));
+  if (scene.texture_set == nullptr || surface.is_back) return;
+  const TextureLayer& slopes = scene.texture_set->slopes;
+  const TextureLayer& roughness = scene.texture_set->roughness;
+  if (const auto at = texture_of(scene, slopes, primitive); at != TextureLayer::kNone) {
+    normal = leaning(scene, primitive, normal, texel_at(scene, slopes, at, primitive, weights));
   }
-  if (const auto at = texture_of(stage, roughness, primitive); at != TextureLayer::kNone) {
-    surface.roughness = texel_at(stage, roughness, at, primitive, weights)[0];
+  if (const auto at = texture_of(scene, roughness, primitive); at != TextureLayer::kNone) {
+    surface.roughness = texel_at(scene, roughness, at, primitive, weights)[0];
   }
 }
 
 }  // namespace
 
-CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
-  const Quad& quad = stage.quads[hit.primitive];
+CameraHit camera_hit(const HeadScene& scene, const RayHit& hit, const Vector& direction) {
+  const Quad& quad = scene.quads[hit.primitive];
   const Eigen::Vector4f weights = bilinear_weights(quad, hit.u, hit.v);
   CameraHit result;
-  result.point = stage.viewer_position + hit.distance * direction;
-  result.surface.kind = stage.kinds[hit.primitive];
+  result.point = scene.viewer_position + hit.distance * direction;
+  result.surface.kind = scene.kinds[hit.primitive];
   Vector normal = Vector::Zero();
   Vector colour = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
-    normal += weights[c] * stage.normals[vertex];
-    if (stage.colours != nullptr) colour += weights[c] * stage.colours->row(vertex).transpose();
+    normal += weights[c] * scene.normals[vertex];
+    if (scene.colours != nullptr) colour += weights[c] * scene.colours->row(vertex).transpose();
   }
-  result.surface.albedo = stage.colours != nullptr
+  result.surface.albedo = scene.colours != nullptr
                               ? from_srgb(colour.array())
-                              : own_albedo(stage, hit.primitive, weights, result.point);
-  const std::uint32_t texture = texture_of(stage, hit.primitive);
+                              : own_albedo(scene, hit.primitive, weights, result.point);
+  const std::uint32_t texture = texture_of(scene, hit.primitive);
   if (texture != TextureSet::kNone && result.surface.kind == SurfaceKind::kSkin)
-    result.skin_lightness = stage.skin_lightness[texture];
-  const Vector geometric = stage.winding_sign * hit.normal;
+    result.skin_lightness = scene.skin_lightness[texture];
+  const Vector geometric = scene.winding_sign * hit.normal;
   result.surface.is_back = geometric.dot(direction) > 0;
   const float side = result.surface.is_back ? -1.0F : 1.0F;
   result.surface.to_viewer = -direction.normalized();
   normal.normalize();
-  finish(stage, hit.primitive, weights, normal, result.surface);
+  finish(scene, hit.primitive, weights, normal, result.surface);
   result.surface.normal = towards(result.surface.to_viewer, side * normal);
   result.can_receive_key_light = can_receive_key_light(result.surface.normal, result.surface.kind);
   // Start shadow rays on the smooth surface that the vertex normals imply. This surface lies above
@@ -128,18 +129,18 @@ CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Vector& direct
   Vector lift = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];
-    const Vector n = side * stage.normals[vertex];
+    const Vector n = side * scene.normals[vertex];
     if (n.dot(side * geometric) <= 0) continue;
-    lift -= weights[c] * std::min(0.0F, (result.point - stage.point(vertex)).dot(n)) * n;
+    lift -= weights[c] * std::min(0.0F, (result.point - scene.point(vertex)).dot(n)) * n;
   }
-  result.ray_origin = result.point + lift + stage.ray_origin_offset * side * geometric.normalized();
+  result.ray_origin = result.point + lift + scene.ray_origin_offset * side * geometric.normalized();
   return result;
 }
 
-CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& direction) {
-  const AttachmentStage::HitSurface place = stage.attachments->surface_at(hit);
+CameraHit attachment_hit(const HeadScene& scene, const RayHit& hit, const Vector& direction) {
+  const AttachmentScene::HitSurface place = scene.attachments->surface_at(hit);
   CameraHit result;
-  result.point = stage.viewer_position + hit.distance * direction;
+  result.point = scene.viewer_position + hit.distance * direction;
   result.surface.kind = SurfaceKind::kAttachment;
   result.surface.albedo = place.colour;
   const Vector geometric = (hit.normal.dot(direction) > 0 ? -1.0F : 1.0F) * hit.normal.normalized();
@@ -153,18 +154,18 @@ CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Vector& di
   return result;
 }
 
-void prefetch_hits(const Stage& stage, std::span<const std::optional<RayHit>> hits,
+void prefetch_hits(const HeadScene& scene, std::span<const std::optional<RayHit>> hits,
                    std::size_t here) {
   constexpr std::size_t kQuads = 24, kCorners = 12;
   if (here + kQuads < hits.size() && hits[here + kQuads]) {
     const std::uint32_t primitive = hits[here + kQuads]->primitive;
-    __builtin_prefetch(&stage.quads[primitive]);
-    __builtin_prefetch(&stage.kinds[primitive]);
+    __builtin_prefetch(&scene.quads[primitive]);
+    __builtin_prefetch(&scene.kinds[primitive]);
   }
   if (here + kCorners < hits.size() && hits[here + kCorners]) {
-    for (const std::uint32_t vertex : stage.quads[hits[here + kCorners]->primitive]) {
-      __builtin_prefetch(&stage.normals[vertex]);
-      __builtin_prefetch(stage.points.data() + std::size_t{3} * vertex);
+    for (const std::uint32_t vertex : scene.quads[hits[here + kCorners]->primitive]) {
+      __builtin_prefetch(&scene.normals[vertex]);
+      __builtin_prefetch(scene.points.data() + std::size_t{3} * vertex);
     }
   }
 }

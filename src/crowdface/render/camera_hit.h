@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "crowdface/render/stage.h"
+#include "crowdface/render/head_scene.h"
 
 namespace crowdface {
 
@@ -33,13 +33,14 @@ struct CameraHit {
 };
 
 /// Computes the surface data at a hit on the face. \param direction  direction of the camera ray.
-CameraHit camera_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
+CameraHit camera_hit(const HeadScene& scene, const RayHit& hit, const Eigen::Vector3f& direction);
 /// Computes the surface data at a hit on an attachment, which looks the same from both sides.
-CameraHit attachment_hit(const Stage& stage, const RayHit& hit, const Eigen::Vector3f& direction);
+CameraHit attachment_hit(const HeadScene& scene, const RayHit& hit,
+                         const Eigen::Vector3f& direction);
 
 /// Prefetches the data that shading needs for the next hits after `here`; large meshes do not fit
 /// into the CPU caches.
-void prefetch_hits(const Stage& stage, std::span<const std::optional<RayHit>> hits,
+void prefetch_hits(const HeadScene& scene, std::span<const std::optional<RayHit>> hits,
                    std::size_t here);
 
 }  // namespace crowdface

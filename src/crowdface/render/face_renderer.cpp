@@ -240,39 +240,39 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   workspace->rasterizer.project(workspace->points, prepared_->quads, distance,
                                 prepared_->options.size_px);
   prepared_->put_into_scene(*workspace);
-  std::optional<AttachmentStage> attachment_stage;
+  std::optional<AttachmentScene> attachment_scene;
   if (!attachments.empty()) {
-    attachment_stage.emplace(prepared_->device, attachments, camera, prepared_->options.size_px);
+    attachment_scene.emplace(prepared_->device, attachments, camera, prepared_->options.size_px);
   }
   std::vector<float> skin_lightnesses;
   if (texture_set != nullptr) {
     for (const auto& texture : texture_set->textures)
       skin_lightnesses.push_back(skin_lightness(*texture));
   }
-  const Stage stage{workspace->points,
-                    workspace->rasterizer,
-                    *workspace->occluders,
-                    prepared_->occluders.vertices.empty() ? kRayClearance : kReducedClearance,
-                    workspace->normals.normals,
-                    sign,
-                    colours,
-                    prepared_->quads,
-                    prepared_->quad_kinds,
-                    prepared_->quad_colours,
-                    prepared_->quad_uvs,
-                    texture_set,
-                    std::move(skin_lightnesses),
-                    prepared_->eyeballs,
-                    std::move(eyes),
-                    gaze,
-                    attachment_stage ? &*attachment_stage : nullptr,
-                    prepared_->options.ambient_occlusion,
-                    Eigen::Vector3f(0, 0, distance)};
+  const HeadScene scene{workspace->points,
+                        workspace->rasterizer,
+                        *workspace->occluders,
+                        prepared_->occluders.vertices.empty() ? kRayClearance : kReducedClearance,
+                        workspace->normals.normals,
+                        sign,
+                        colours,
+                        prepared_->quads,
+                        prepared_->quad_kinds,
+                        prepared_->quad_colours,
+                        prepared_->quad_uvs,
+                        texture_set,
+                        std::move(skin_lightnesses),
+                        prepared_->eyeballs,
+                        std::move(eyes),
+                        gaze,
+                        attachment_scene ? &*attachment_scene : nullptr,
+                        prepared_->options.ambient_occlusion,
+                        Eigen::Vector3f(0, 0, distance)};
   const int size = prepared_->options.size_px;
   const int tiles = (size + kSquareSide - 1) / kSquareSide;
   Rgb8Image image(size, size);
   parallel_for_each(std::ptrdiff_t{tiles} * tiles, [&](std::ptrdiff_t tile) {
-    render_tile(stage, prepared_->sampling, static_cast<int>(tile % tiles) * kSquareSide,
+    render_tile(scene, prepared_->sampling, static_cast<int>(tile % tiles) * kSquareSide,
                 static_cast<int>(tile / tiles) * kSquareSide, image);
   });
   prepared_->workspaces.give_back(std::move(workspace));

@@ -120,8 +120,8 @@ TileMemory& tile_memory() {
 /// ring.
 class Tile {
  public:
-  Tile(const Stage& stage, const Sampling& sampling, int left, int top, int size)
-      : stage_(stage),
+  Tile(const HeadScene& scene, const Sampling& sampling, int left, int top, int size)
+      : scene_(scene),
         sampling_(sampling),
         size_(size),
         left_(left),
@@ -142,7 +142,7 @@ class Tile {
   void render(Rgb8Image& image) {
     // Trace few samples in every pixel.
     const PixelSamples& first =
-        stage_.attachments != nullptr ? sampling_.coarse_samples : sampling_.centre_sample;
+        scene_.attachments != nullptr ? sampling_.coarse_samples : sampling_.centre_sample;
     trace_camera_rays([&](const Pixel&) { return &first; });
     // Trace more samples in pixels that differ from their neighbours.
     if (sampling_.fine_samples.count() > 1) {
@@ -158,7 +158,7 @@ class Tile {
     }
     // Trace shadow rays.
     trace_key_rays();
-    if (stage_.ambient_occlusion) trace_sky_rays();
+    if (scene_.ambient_occlusion) trace_sky_rays();
     // Average the results of the rays over neighbouring pixels, and shade.
     summarize();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
@@ -200,20 +200,20 @@ class Tile {
       std::uint32_t number = 0;
       for (const Eigen::Vector2f& place : places.back()->positions()) {
         const Eigen::Vector2f at = on_image(x, y, place);
-        rays.push_back({stage_.viewer_position,
-                        Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - stage_.viewer_position});
+        rays.push_back({scene_.viewer_position,
+                        Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - scene_.viewer_position});
         rays.back().opacity_seed = (2 * number++ + 1) * 32768U / places.back()->count();
       }
     });
     std::vector<std::optional<RayHit>>& hits = memory_.hits;
-    stage_.rasterizer.nearest_hits({left_ / kSquareSide, top_ / kSquareSide}, outer_, places, hits);
+    scene_.rasterizer.nearest_hits({left_ / kSquareSide, top_ / kSquareSide}, outer_, places, hits);
     // Find attachments in front of the face.
     std::vector<std::optional<RayHit>> attachments;
-    if (stage_.attachments != nullptr) {
+    if (scene_.attachments != nullptr) {
       for (std::size_t r = 0; r < rays.size(); ++r) {
         if (hits[r]) rays[r].max_distance = hits[r]->distance;
       }
-      attachments = stage_.attachments->scene().nearest_hits(rays);
+      attachments = scene_.attachments->scene().nearest_hits(rays);
     }
     std::size_t ray = 0;
     auto at = places.begin();
@@ -224,11 +224,11 @@ class Tile {
       pixel.missed = 0;
       pixel.backdrop = LinearRgb::Zero();
       for (const Eigen::Vector2f& place : looked->positions()) {
-        prefetch_hits(stage_, hits, ray);
+        prefetch_hits(scene_, hits, ray);
         if (!attachments.empty() && attachments[ray]) {
-          camera_hits_.push_back(attachment_hit(stage_, *attachments[ray], rays[ray].direction));
+          camera_hits_.push_back(attachment_hit(scene_, *attachments[ray], rays[ray].direction));
         } else if (hits[ray]) {
-          camera_hits_.push_back(camera_hit(stage_, *hits[ray], rays[ray].direction));
+          camera_hits_.push_back(camera_hit(scene_, *hits[ray], rays[ray].direction));
         } else {
           pixel.backdrop += background_colour(on_image(x, y, place).y());
           ++pixel.missed;
@@ -251,7 +251,7 @@ class Tile {
     PixelVariation most = PixelVariation::kNone;
     for (const CameraHit& other : camera_hits)
       most = std::max(most, change(camera_hits.front(), other));
-    if (stage_.attachments != nullptr) return most;  // the pixel's own samples suffice
+    if (scene_.attachments != nullptr) return most;  // the pixel's own samples suffice
     for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
       if (i < outer_.left || i >= outer_.right || j < outer_.top || j >= outer_.bottom) continue;
       const std::span<const CameraHit> beside = hits_of(pixel(i, j));
@@ -378,13 +378,13 @@ class Tile {
   }
 
   std::vector<bool> are_blocked(const std::vector<Ray>& rays) const {
-    std::vector<bool> blocked = stage_.occluders.occluded(rays);
-    if (stage_.attachments == nullptr) return blocked;
+    std::vector<bool> blocked = scene_.occluders.occluded(rays);
+    if (scene_.attachments == nullptr) return blocked;
     std::vector<Ray> free;
     for (std::size_t r = 0; r < rays.size(); ++r) {
       if (!blocked[r]) free.push_back(rays[r]);
     }
-    const std::vector<bool> by_attachments = stage_.attachments->scene().occluded(free);
+    const std::vector<bool> by_attachments = scene_.attachments->scene().occluded(free);
     auto next = by_attachments.begin();
     for (std::size_t r = 0; r < rays.size(); ++r) {
       if (!blocked[r]) blocked[r] = *next++;
@@ -476,7 +476,7 @@ class Tile {
     }
   }
 
-  const Stage& stage_;
+  const HeadScene& scene_;
   const Sampling& sampling_;
   int size_;
   int left_, top_, right_, bottom_;
@@ -489,9 +489,9 @@ class Tile {
 
 }  // namespace
 
-void render_tile(const Stage& stage, const Sampling& sampling, int left, int top,
+void render_tile(const HeadScene& scene, const Sampling& sampling, int left, int top,
                  Rgb8Image& image) {
-  Tile(stage, sampling, left, top, image.width).render(image);
+  Tile(scene, sampling, left, top, image.width).render(image);
 }
 
 }  // namespace crowdface

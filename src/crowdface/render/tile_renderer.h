@@ -3,10 +3,10 @@
 
 #include <algorithm>
 
+#include "crowdface/render/head_scene.h"
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/sampling_pattern.h"
 #include "crowdface/render/screen_quads.h"
-#include "crowdface/render/stage.h"
 
 namespace crowdface {
 
@@ -33,6 +33,7 @@ struct Sampling {
 /// shadow rays; neighbouring pixels use different directions. The results of the rays are averaged
 /// over neighbouring pixels that show the same surface, which reduces noise.
 /// \param left, top  upper left corner of the square; parts outside the image are skipped.
-void render_tile(const Stage& stage, const Sampling& sampling, int left, int top, Rgb8Image& image);
+void render_tile(const HeadScene& scene, const Sampling& sampling, int left, int top,
+                 Rgb8Image& image);
 
 }  // namespace crowdface

@@ -38,7 +38,7 @@ class AttachmentsInFormat {
   std::vector<Placed> placed(std::span<const PlacedAttachment> attachments) const {
     std::vector<Placed> placed;
     for (const PlacedAttachment& one : attachments) {
-      const AttachmentLook look = one.look();
+      const ColouredAttachment look = one.look();
       const std::string name = one.face_id.empty() ? look.label() : one.face_id;
       placed.push_back({&data_of_attachment_.at(one.item), &one.positions, one.moves,
                         PartLook{look.tint(), name, one.texture_png}});

@@ -52,21 +52,21 @@ class MaterialCopies {
     }
   }
 
-  /// Copies the material files and textures of each attachment in each colour ("look") into a
+  /// Copies the material files and textures of each attachment in each colour into a
   /// separate folder. Tints the colour textures with this colour.
-  void add(const std::vector<AttachmentLook>& looks) {
+  void add(const std::vector<ColouredAttachment>& worn) {
     std::map<std::pair<fs::path, std::string>, TintedTexture> all;
-    for (const AttachmentLook& look : looks) {
-      for (const AttachmentFile& file : files_of(look)) {
+    for (const ColouredAttachment& coloured : worn) {
+      for (const AttachmentFile& file : files_of(coloured)) {
         const fs::path to =
-            attachment_folder(look.item->name, look.label()) / file.file.destination;
+            attachment_folder(coloured.item->name, coloured.label()) / file.file.destination;
         if (file.is_coloured) {
-          TintedTexture& dyed = all[{file.file.source, look.label()}];
+          TintedTexture& dyed = all[{file.file.source, coloured.label()}];
           dyed.neutral = file.file.source;
-          dyed.colour = *look.colour;
+          dyed.colour = *coloured.colour;
           dyed.copies.push_back(to);
         } else {
-          copy({file.file.source, to}, look.item->name);
+          copy({file.file.source, to}, coloured.item->name);
         }
       }
     }
@@ -154,11 +154,11 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     copies.add(inputs.head_files[head], inputs.head_set.heads[head].name);
   }
   if (any_format(formats, refers_to_attachment_textures)) {
-    std::vector<AttachmentLook> looks = inputs.attachments.looks_of(crowd);
+    std::vector<ColouredAttachment> worn = inputs.attachments.worn_by(crowd);
     if (config.neck.write_body && config.neck.body_texture.empty()) {
-      looks.push_back({inputs.heads_on_body->body.get()});
+      worn.push_back({inputs.heads_on_body->body.get()});
     }
-    copies.add(looks);
+    copies.add(worn);
   }
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);

@@ -77,7 +77,7 @@ void FaceBuilder::build(std::span<const Recipe* const> recipes,
   } else {
     blend_exact(inputs_.head_set, *prepared_.filter, regions_, recipes, results);
   }
-  require_not_truncated(prepared_);
+  throw_if_truncated(prepared_);
   parallel_for_each(recipes.size(), [&](std::size_t f) { finish(*recipes[f], results[f]); });
 }
 
@@ -97,7 +97,7 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) con
   } else {
     previous.blended = blender_->blend(recipe);
   }
-  require_not_truncated(prepared_);
+  throw_if_truncated(prepared_);
   previous.recipe = recipe;
   Positions face = previous.blended;
   finish(recipe, face);

@@ -20,13 +20,13 @@ namespace fs = std::filesystem;
 
 /// Copies the material files that the face's attachments refer to.
 void write_attachment_materials(const Job& job, const FacePlan& face, const fs::path& folder) {
-  for (const AttachmentLook& look : job.inputs.attachments.looks_of(face)) {
-    for (const AttachmentFile& file : files_of(look)) {
+  for (const ColouredAttachment& coloured : job.inputs.attachments.worn_by(face)) {
+    for (const AttachmentFile& file : files_of(coloured)) {
       const fs::path to =
-          folder / attachment_folder(look.item->name, look.label()) / file.file.destination;
+          folder / attachment_folder(coloured.item->name, coloured.label()) / file.file.destination;
       make_directories(to.parent_path());
       if (file.is_coloured) {
-        write_file(to, coloured_texture(file.file.source, *look.colour));
+        write_file(to, coloured_texture(file.file.source, *coloured.colour));
       } else {
         write_file(to, MappedFile(file.file.source).bytes());
       }

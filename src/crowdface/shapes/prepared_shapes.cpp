@@ -320,8 +320,8 @@ void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positi
     const RigidPart& bound = rigid_parts[part.part];
     const Eigen::Matrix3d map = mean_map_of_part(part, prepared, face_frames.maps);
     const PlacedPart placed(bound, shape_set.neutral, face_frames.mesh, face_motion, map);
-    part.turns.push_back(
-        find_turn(bound, placed, part.moved_vertices, part.displacement_rows, moves));
+    part.motions.push_back(
+        find_part_motion(bound, placed, part.moved_vertices, part.displacement_rows, moves));
   }
   for (std::size_t e = 0; e < eyes.size(); ++e) {
     LidMove& move = prepared.lids[e];

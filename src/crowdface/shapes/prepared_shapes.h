@@ -16,7 +16,7 @@
 #include "crowdface/shapes/frame_field.h"
 #include "crowdface/shapes/gap_preserver.h"
 #include "crowdface/shapes/lid_closure.h"
-#include "crowdface/shapes/rigid_turn.h"
+#include "crowdface/shapes/part_motion.h"
 #include "crowdface/shapes/shape_set.h"
 #include "crowdface/shapes/skin_crossings.h"
 
@@ -35,7 +35,7 @@ struct PartMove {
   std::vector<std::uint32_t> moved_vertices;  ///< vertices of the part that the shape moves
   /// the row of each of `moved_vertices` in the shape's displacements
   std::vector<std::uint32_t> displacement_rows;
-  std::vector<RigidTurn> turns;  ///< the part's motion in each set of shapes
+  std::vector<PartMotion> motions;  ///< the part's motion in each set of shapes
 };
 
 /// How a shape moves the lids of one eye.

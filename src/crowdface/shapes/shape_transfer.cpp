@@ -135,8 +135,8 @@ void CarriedShape::move_parts() {
     const Eigen::Matrix3d map = prepared_.mean_map_of_part(part, shape_, face_frames_.maps);
     const PlacedPart placed(prepared_.rigid_parts[part.part], prepared_.shape_set.neutral,
                             face_frames_.mesh, face_frames_.frames.face_motion, map);
-    transfer_turn(mean_turn(part.turns, shares_of_part(part.part)), placed, part.moved_vertices,
-                  part.displacement_rows, result_.moves);
+    transfer_part_motion(mean_part_motion(part.motions, shares_of_part(part.part)), placed,
+                         part.moved_vertices, part.displacement_rows, result_.moves);
   }
 }
 

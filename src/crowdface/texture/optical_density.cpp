@@ -34,7 +34,7 @@ float light_of_density(float density) {
   return static_cast<float>(std::clamp(light_of(static_cast<double>(density)), 0.0, 1.0));
 }
 
-const std::vector<Density>& densities_of_srgb8() {
+const std::vector<Density>& density_by_srgb8() {
   static const std::vector<Density> table = [] {
     std::vector<Density> densities;
     for (int value = 0; value < 256; ++value) {
@@ -45,7 +45,7 @@ const std::vector<Density>& densities_of_srgb8() {
   return table;
 }
 
-const std::vector<std::uint8_t>& srgb8_of_densities() {
+const std::vector<std::uint8_t>& srgb8_by_density() {
   static const std::vector<std::uint8_t> table = [] {
     std::vector<std::uint8_t> values(65536);
     int value = 255;

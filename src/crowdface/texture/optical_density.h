@@ -20,9 +20,9 @@ Density density_of_light(float light);
 float light_of_density(float density);
 
 /// Lookup table: the density of each 8-bit sRGB value.
-const std::vector<Density>& densities_of_srgb8();
+const std::vector<Density>& density_by_srgb8();
 /// Lookup table: the nearest 8-bit sRGB value of each density. Converting an sRGB value to density
 /// and back returns the same value.
-const std::vector<std::uint8_t>& srgb8_of_densities();
+const std::vector<std::uint8_t>& srgb8_by_density();
 
 }  // namespace crowdface

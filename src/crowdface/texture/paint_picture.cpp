@@ -73,7 +73,7 @@ std::uint16_t word_of(float share) {
 /// \param out   the row of bytes.
 RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
                       std::uint8_t* out) {
-  static const std::uint8_t* const srgb8 = srgb8_of_densities().data();
+  static const std::uint8_t* const srgb8 = srgb8_by_density().data();
   RowSums total = {};
   const auto byte_at = [&](std::size_t c, std::size_t x) {
     const float density = std::clamp(sums[c][x] + 0.5F, 0.0F, kMaxDensity);

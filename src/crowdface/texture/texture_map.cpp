@@ -102,7 +102,7 @@ TextureMap make_texture_map(int width, int height, const ImageRows& picture,
 }
 
 std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
-  const std::vector<std::uint8_t>& table = srgb8_of_densities();
+  const std::vector<std::uint8_t>& table = srgb8_by_density();
   const std::span<const StoredValue> stored = map.stored();
   const std::size_t texels = map.texel_count();
   std::vector<std::uint8_t> bytes(stored.size());

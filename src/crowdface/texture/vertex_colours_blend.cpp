@@ -37,8 +37,8 @@ ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
                                 normalized_over_coloured(weights.weights_for_eyes_and_teeth, heads);
   const auto first = std::ranges::find_if(heads, [](const auto& rows) { return rows.rows() > 0; });
   ColourRows blended(first->rows(), 3);
-  const std::vector<Density>& densities = densities_of_srgb8();
-  const std::vector<std::uint8_t>& bytes = srgb8_of_densities();
+  const std::vector<Density>& densities = density_by_srgb8();
+  const std::vector<std::uint8_t>& bytes = srgb8_by_density();
   parallel_blocks(blended.rows(), kColouredPerBlock, [&](Index begin, Index end) {
     for (Index v = begin; v < end; ++v) {
       const bool is_part = !uses_target_colours_only.empty() &&

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "crowdface/render/attachment_stage.h"
+#include "crowdface/render/attachment_scene.h"
 #include "crowdface/render/eyeballs.h"
 #include "crowdface/render/ray_scene.h"
 #include "crowdface/render/screen_quads.h"
@@ -26,7 +26,7 @@ struct TexturedQuad {
 };
 
 /// A head in camera space (see camera_space.h), with all data for rendering it.
-struct Stage {
+struct HeadScene {
   const std::vector<float>& points;  ///< x, y, z of each vertex
   const ScreenQuads& rasterizer;     ///< finds the hits of camera rays on all quads
   const RayScene& occluders;         ///< mesh that occludes light: the full or a reduced mesh
@@ -46,7 +46,7 @@ struct Stage {
   const Eyeballs& eyeballs;
   std::vector<EyeballSphere> eyes;
   Eigen::Vector3f gaze;
-  const AttachmentStage* attachments;  ///< attachments, or nullptr
+  const AttachmentScene* attachments;  ///< attachments, or nullptr
   bool ambient_occlusion;              ///< whether the sky's light is occluded
   Eigen::Vector3f viewer_position;     ///< position of the camera
 

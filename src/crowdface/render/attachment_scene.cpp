@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/render/attachment_stage.h"
+#include "crowdface/render/attachment_scene.h"
 
 #include <algorithm>
 #include <utility>
@@ -23,7 +23,7 @@ float area_of(const Quad& quad, const std::vector<float>& points) {
 
 }  // namespace
 
-AttachmentStage::AttachmentStage(const RayDevice& device,
+AttachmentScene::AttachmentScene(const RayDevice& device,
                                  std::span<const AttachmentMesh> attachments, const Camera& camera,
                                  int size_px) {
   std::vector<float> points;
@@ -56,14 +56,14 @@ AttachmentStage::AttachmentStage(const RayDevice& device,
       });
 }
 
-const AttachmentStage::Part& AttachmentStage::part_of(std::uint32_t quad) const {
+const AttachmentScene::Part& AttachmentScene::part_of(std::uint32_t quad) const {
   const auto after =
       std::upper_bound(parts_.begin(), parts_.end(), quad,
                        [](std::uint32_t q, const Part& part) { return q < part.first_quad; });
   return *(after - 1);
 }
 
-AttachmentStage::HitSurface AttachmentStage::surface_at(const RayHit& hit) const {
+AttachmentScene::HitSurface AttachmentScene::surface_at(const RayHit& hit) const {
   const Quad& quad = quads_[hit.primitive];
   const Eigen::Vector4f shares = bilinear_weights(quad, hit.u, hit.v);
   const Part& part = part_of(hit.primitive);

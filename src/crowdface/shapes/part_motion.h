@@ -23,9 +23,9 @@ struct RigidPart {
 };
 
 /// The motion of a rigid part in a shape, independent of the mesh on which the motion was measured.
-/// find_turn removes this mesh's local rotation and stretch relative to the template; transfer_turn
+/// find_part_motion removes this mesh's local rotation and stretch relative to the template; transfer_part_motion
 /// applies the rotation and stretch of another face.
-struct RigidTurn {
+struct PartMotion {
   /// unit quaternion (w, x, y, z) of the rotation about the centre
   std::array<double, 4> quaternion = {1, 0, 0, 0};
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< translation of the centre
@@ -52,20 +52,21 @@ struct PlacedPart {
 /// \param vertices  Vertices of the part that the shape moves.
 /// \param rows      Row of each of these vertices in `moves`.
 /// \param moves     Displacements of the shape.
-RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
-                    std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
-                    const Positions& moves);
+PartMotion find_part_motion(const RigidPart& part, const PlacedPart& placed,
+                            std::span<const std::uint32_t> vertices,
+                            std::span<const std::uint32_t> rows, const Positions& moves);
 
 /// Returns the weighted mean of the part's motions in several sets of shapes.
-RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetShare> shares);
+PartMotion mean_part_motion(std::span<const PartMotion> motions,
+                            std::span<const ShapeSetShare> shares);
 
 /// Transfers the motion of a rigid part to a face: for each i, writes the displacement of vertex
 /// `vertices[i]` to row `rows[i]` of `moves`.
 ///
-/// \param turn    The motion on the template.
+/// \param part_motion  The motion on the template.
 /// \param placed  The part on the face at rest.
-void transfer_turn(const RigidTurn& turn, const PlacedPart& placed,
-                   std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
-                   Positions& moves);
+void transfer_part_motion(const PartMotion& part_motion, const PlacedPart& placed,
+                          std::span<const std::uint32_t> vertices,
+                          std::span<const std::uint32_t> rows, Positions& moves);
 
 }  // namespace crowdface

@@ -13,14 +13,14 @@
 namespace crowdface {
 
 /// All attachments of a face, in camera space, for ray tracing.
-class AttachmentStage {
+class AttachmentScene {
  public:
   /// \param attachments  at least one; their surfaces must outlive this object.
   /// \param size_px      side of the image, in pixels.
-  AttachmentStage(const RayDevice& device, std::span<const AttachmentMesh> attachments,
+  AttachmentScene(const RayDevice& device, std::span<const AttachmentMesh> attachments,
                   const Camera& camera, int size_px);
-  AttachmentStage(const AttachmentStage&) = delete;
-  AttachmentStage& operator=(const AttachmentStage&) = delete;
+  AttachmentScene(const AttachmentScene&) = delete;
+  AttachmentScene& operator=(const AttachmentScene&) = delete;
 
   const RayScene& scene() const { return *scene_; }
 

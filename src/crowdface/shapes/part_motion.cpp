@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/shapes/rigid_turn.h"
+#include "crowdface/shapes/part_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,48 +76,49 @@ PlacedPart::PlacedPart(const RigidPart& part, const Positions& neutral, const Po
       face_motion(motion),
       map(skin) {}
 
-RigidTurn find_turn(const RigidPart& part, const PlacedPart& placed,
-                    std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
-                    const Positions& moves) {
+PartMotion find_part_motion(const RigidPart& part, const PlacedPart& placed,
+                            std::span<const std::uint32_t> vertices,
+                            std::span<const std::uint32_t> rows, const Positions& moves) {
   const RigidMotion motion = motion_in_shape(part, placed.mesh, vertices, rows, moves);
   const Eigen::Matrix3d inverse = inverse3(placed.map);
   const std::array<double, 4> here = quaternion_of(motion);
   const Vector3d axis =
       to_template(placed.face_motion, {here[1], here[2], here[3]}) * placed.face_motion.scale;
-  RigidTurn turn{{here[0], axis.x(), axis.y(), axis.z()},
-                 multiply3(inverse, motion.apply(placed.centre) - placed.centre),
-                 {}};
-  normalize(turn.quaternion);
+  PartMotion part_motion{{here[0], axis.x(), axis.y(), axis.z()},
+                         multiply3(inverse, motion.apply(placed.centre) - placed.centre),
+                         {}};
+  normalize(part_motion.quaternion);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Vector3d left =
-        row3(moves, rows[i]) - rotation_displacement(turn.quaternion, placed, vertices[i]);
-    turn.residuals.push_back(multiply3(inverse, left) - turn.translation);
+        row3(moves, rows[i]) - rotation_displacement(part_motion.quaternion, placed, vertices[i]);
+    part_motion.residuals.push_back(multiply3(inverse, left) - part_motion.translation);
   }
-  return turn;
+  return part_motion;
 }
 
-RigidTurn mean_turn(std::span<const RigidTurn> turns, std::span<const ShapeSetShare> shares) {
-  RigidTurn mean{{0, 0, 0, 0}, {0, 0, 0}, {}};
-  mean.residuals.assign(turns.front().residuals.size(), Vector3d::Zero());
+PartMotion mean_part_motion(std::span<const PartMotion> motions,
+                            std::span<const ShapeSetShare> shares) {
+  PartMotion mean{{0, 0, 0, 0}, {0, 0, 0}, {}};
+  mean.residuals.assign(motions.front().residuals.size(), Vector3d::Zero());
   for (const ShapeSetShare& of_set : shares) {
-    const RigidTurn& turn = turns[of_set.set];
+    const PartMotion& part_motion = motions[of_set.set];
     for (std::size_t c = 0; c < 4; ++c)
-      mean.quaternion[c] += of_set.blend_weight * turn.quaternion[c];
-    mean.translation += of_set.blend_weight * turn.translation;
+      mean.quaternion[c] += of_set.blend_weight * part_motion.quaternion[c];
+    mean.translation += of_set.blend_weight * part_motion.translation;
     for (std::size_t i = 0; i < mean.residuals.size(); ++i) {
-      mean.residuals[i] += of_set.blend_weight * turn.residuals[i];
+      mean.residuals[i] += of_set.blend_weight * part_motion.residuals[i];
     }
   }
   normalize(mean.quaternion);
   return mean;
 }
 
-void transfer_turn(const RigidTurn& turn, const PlacedPart& placed,
-                   std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> rows,
-                   Positions& moves) {
+void transfer_part_motion(const PartMotion& part_motion, const PlacedPart& placed,
+                          std::span<const std::uint32_t> vertices,
+                          std::span<const std::uint32_t> rows, Positions& moves) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    moves.row(rows[i]) = (rotation_displacement(turn.quaternion, placed, vertices[i]) +
-                          multiply3(placed.map, turn.translation + turn.residuals[i]))
+    moves.row(rows[i]) = (rotation_displacement(part_motion.quaternion, placed, vertices[i]) +
+                          multiply3(placed.map, part_motion.translation + part_motion.residuals[i]))
                              .transpose();
   }
 }
