@@ -81,7 +81,7 @@ class PythonJob {
     for (const std::string_view line : split(text, '\n')) {
       if (!line.empty()) lines.emplace_back(line);
     }
-    require_not_truncated(prepared());
+    throw_if_truncated(prepared());
     return lines;
   }
 
@@ -92,7 +92,7 @@ class PythonJob {
     for (const FacePlan& face : faces) pointers.push_back(&face.recipe);
     std::vector<Positions> results(faces.size());
     builder().build(pointers, results);
-    require_not_truncated(prepared());
+    throw_if_truncated(prepared());
     return results;
   }
 
