@@ -9,11 +9,12 @@ namespace crowdface::multiscale {
 
 /// Distances between two faces `a` and `b`.
 struct Differences {
-  /// between the same vertices of both faces
+  /// between corresponding vertices of both faces
   double rms_distance = 0, largest_distance = 0;
   /// from the vertices of `b` to the surface of `a`
   double rms_distance_to_surface = 0;
 };
+/// Measures the distances between two faces.
 /// \param a, b  #P by 3: one row per vertex of the patch.
 Differences differences(const FrontPatch& patch, const Positions& a, const Positions& b);
 

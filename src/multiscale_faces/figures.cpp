@@ -60,7 +60,7 @@ class Heads {
     if (face.base_level != base) face = with_base_level(std::move(face), base);
     return face;
   }
-  /// Returns a head whose front is replaced by `front`.
+  /// Returns the head with this number, with its front replaced by `front`.
   Positions with_front(int number, const Positions& front) {
     Positions whole = head(number);
     for (Index i = 0; i < front.rows(); ++i) {
@@ -113,16 +113,17 @@ std::vector<double> everywhere(int base, double weight) {
   return std::vector<double>(static_cast<std::size_t>(kLevelCount - 1 - base), weight);
 }
 
-/// The face by Yoon, Lewis and Rhee's method that is nearest to a given face of crowdface. The
-/// search tries the base levels 0 to 3, and optimizes a weight w for each level above the base
-/// level: each lender gets the weight w, and the target gets 1 − w.
-/// \param regions  for each lender, the lender's weight at each vertex of the patch; or empty.
+/// The result of nearest_face.
 struct Nearest {
   Positions face;
   int base = 0;
   /// the weight w of each level above `base`, in the order base + 1, base + 2, …
   std::vector<double> lender_weight_of_level;
 };
+/// Finds the face by Yoon, Lewis and Rhee's method that is nearest to `ours`, a face of crowdface.
+/// The search tries the base levels 0 to 3, and optimizes a weight w for each level above the base
+/// level: each lender gets the weight w, and the target gets 1 − w.
+/// \param regions  for each lender, the lender's weight at each vertex of the patch; or empty.
 Nearest nearest_face(Heads& heads, int target, const std::vector<int>& lenders,
                      const std::vector<std::vector<double>>& regions, const Positions& ours) {
   Nearest best;
@@ -165,7 +166,7 @@ Nearest nearest_face(Heads& heads, int target, const std::vector<int>& lenders,
   return best;
 }
 
-/// The rows of the table and of one figure.
+/// Collects the rows of the table, and the images of the current figure.
 class Report {
  public:
   Report(Heads& heads, fs::path out) : heads_(heads), out_(std::move(out)) {
@@ -207,8 +208,8 @@ class Report {
   }
 
  private:
-  /// Returns, for each wavelength band, the energy of the face in percent of the energy of the
-  /// lender.
+  /// The energy that a face keeps of its lender's detail: for each wavelength band, the energy of
+  /// the face in percent of the energy of the lender. A band that the lender lacks gets "-".
   std::string kept(const Positions& face, int lender) {
     const Topology& topology = heads_.first().topology;
     const std::vector<double> of_face = band_energies(topology, heads_.patch(), face, kBounds);

@@ -37,8 +37,9 @@ class AttachmentCarrier {
 
  private:
   std::unique_ptr<const SkinGaps> gaps_;
-  std::unique_ptr<const SmoothBend>
-      bend_;  ///< Exactly one of `bend_` and `rigid_placement_` is set.
+  /// null for a rigid attachment
+  std::unique_ptr<const SmoothBend> bend_;
+  /// null for a bending attachment
   std::unique_ptr<const RigidPlacement> rigid_placement_;
 };
 

@@ -9,22 +9,24 @@
 
 namespace crowdface {
 
-/// The nodes of a moving-least-squares deformation. A patch of skin determines the motion of each
-/// node; each point blends the motions of nearby nodes.
+/// The nodes of a moving-least-squares deformation of an attachment. A patch of skin determines the
+/// motion of each node. Each point of the attachment moves by a weighted mean of the motions of
+/// nearby nodes.
 struct BendNodes {
-  /// Minimum distance between two nodes, as a fraction of the reach of a node's patch. Every point
-  /// of the attachment has a node within this distance.
+  /// A point of the attachment becomes a node if its distance from each earlier node is at least
+  /// this fraction of the radius of the earlier node's patch. (ShapeBend ignores earlier nodes that
+  /// are far along the surface.)
   static constexpr double kNodeSpacing = 0.3;
-  /// Radius within which a node influences points, in multiples of kNodeSpacing.
+  /// Distance up to which a node influences points, in multiples of kNodeSpacing.
   static constexpr double kInfluenceRadius = 2;
 
   /// The weight of one node's motion in the motion of one point.
   struct NodeWeight {
-    std::uint32_t node;
-    float weight;  ///< weights of a point do not sum to one
+    std::uint32_t node;  ///< index of the node
+    float weight;        ///< not normalised: the weights of a point do not sum to one
   };
-  std::vector<FittedSkin::Patch> patches;
-  CompressedRows<NodeWeight> node_weights;  ///< #points
+  std::vector<FittedSkin::Patch> patches;   ///< the patch of each node
+  CompressedRows<NodeWeight> node_weights;  ///< one row per point of the attachment
 
   std::size_t memory_bytes() const {
     std::size_t bytes = node_weights.items.size() * sizeof(NodeWeight);

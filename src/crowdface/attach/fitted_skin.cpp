@@ -17,20 +17,23 @@
 namespace crowdface {
 namespace {
 
-/// The reach of the patch around a point on the skin is the larger of kReachMm millimetres and
-/// kReachSpacings vertex spacings. The reach grows by kReachGrowth per unit of distance from the
-/// skin.
+/// The radius of the patch around a point on the skin is kReachMm millimetres or
+/// kReachSpacings vertex spacings, whichever is larger. For a point at distance d from the skin,
+/// the radius is larger by kReachGrowth · d.
 constexpr double kReachMm = 6, kReachSpacings = 3, kReachGrowth = 1.5;
-/// The reach of a patch is at least kReachFactor times the distance to the kMinVertices-th nearest
-/// vertex of the skin.
+/// The radius of a patch is at least kReachFactor times the distance from the patch's centre to
+/// the kMinVertices-th nearest vertex of the skin.
 constexpr std::size_t kMinVertices = 12;
 constexpr double kReachFactor = 1.4;
-/// The reach of a patch, divided by the vertex spacing of a level of detail, decides which levels
-/// the patch uses. Ratio up to kSpacings: only this level. Ratio between kSpacings and
-/// 2 · kSpacings: a mixture of this level and the next coarser level.
+/// A patch uses one or two levels of detail of the skin. The choice depends on the ratio of the
+/// patch's radius to the vertex spacing of a level. Ratio up to kSpacings: the patch uses
+/// only this level. Ratio between kSpacings and 2 · kSpacings: the patch mixes
+/// this level and the next coarser level.
 constexpr double kSpacings = 3;
+/// A level with at most this number of vertices gets no coarser level.
 constexpr std::size_t kCoarsest = 150;
 
+/// A skin vertex and the grid cell that contains the vertex.
 struct InCell {
   std::array<std::int64_t, 3> cell;
   std::uint32_t vertex;
@@ -85,8 +88,8 @@ void FittedSkin::add_level(double spacing, std::vector<std::uint32_t> vertices,
   levels_.push_back({spacing, std::move(vertices), std::move(areas), std::move(grid)});
 }
 
-/// Adds a coarser level: picks in each cell the vertex nearest to the cell's centre of area, and
-/// gives this vertex the area of the whole cell.
+/// In each cell, picks the vertex that is nearest to the centroid of the cell's skin, and gives
+/// this vertex the area of all skin in the cell.
 void FittedSkin::add_coarser_level(double spacing) {
   std::vector<InCell> cells;
   const Eigen::Vector3d low = row3(mesh_, skin_.front());

@@ -51,14 +51,13 @@ class FittedSkin {
   struct Patch {
     std::vector<std::uint32_t> vertices;
     std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance
-    double radius = 0;            ///< distance from the point at which weights become zero
+    double radius = 0;            ///< vertices at this distance or farther have no weight
   };
-  /// Returns the skin vertices around a point, with weights that decrease with distance and are
-  /// zero from the distance `reach` on. For a point on the skin, the reach is a few millimetres.
-  /// The reach grows with the point's distance from the skin. Weights and reach are continuous in
-  /// the point, so neighbouring points get almost the same patch.
+  /// Returns the patch of skin around a point. For a point on the skin, the radius is a few
+  /// millimetres. The radius grows with the point's distance from the skin. Weights and radius are
+  /// continuous in the point, so neighbouring points get almost the same patch.
   Patch patch_around(const Eigen::Vector3d& point) const;
-  /// Like patch_around(point), but the reach is at least `min_radius`.
+  /// Like patch_around(point), but with another minimum of the radius.
   Patch patch_around(const Eigen::Vector3d& point, double min_radius) const;
 
   /// Returns the outward unit normals of a face's vertices, #V by 3.
@@ -81,9 +80,12 @@ class FittedSkin {
     PointGrid grid;
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
+  /// Adds a level of one skin vertex in each cubic cell with edges of length `spacing`.
   void add_coarser_level(double spacing);
-  /// Returns the reach of the patch around a point; see Patch::radius.
+  /// Returns Patch::radius for the patch around a point.
   double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
+  /// Adds the vertices of a level that are inside the patch. Their weights are multiplied by
+  /// `share`.
   void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
                    Patch& patch) const;
 

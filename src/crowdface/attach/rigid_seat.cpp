@@ -13,12 +13,14 @@
 namespace crowdface {
 namespace {
 
-/// The skin within this distance of the attachment determines the attachment's motion.
+/// The skin within this distance of the attachment (the socket) determines the attachment's motion.
+/// The distance is doubled until the socket has at least kMinOfSocket vertices.
 constexpr double kSeatReachMm = 15;
 constexpr std::size_t kMinOfSocket = 12;
+/// Maximum number of steps that move the attachment out of the skin.
 constexpr int kSeatRounds = 8;
-/// Cost of moving the attachment by one millimetre, relative to the cost of being one
-/// millimetre too near to the skin.
+/// Weight in the least-squares step of a motion of one millimetre, relative to the weight of a
+/// vertex that is one millimetre too near to the skin.
 constexpr double kStillness = 0.02;
 
 }  // namespace
@@ -51,7 +53,8 @@ Positions RigidPlacement::moved_points(const RigidMotion& motion) const {
 /// Returns `motion` followed by one least-squares step that moves the attachment out of the skin.
 RigidMotion RigidPlacement::push_out_of_skin(
     const RigidMotion& motion, const std::vector<SkinGaps::Violation>& violations) const {
-  // translation, rotation and growth; rotation and growth are scaled by the radius
+  // Three translations, three rotations and a relative change of scale. All unknowns are lengths:
+  // rotations and the change of scale are multiplied by the radius.
   constexpr std::size_t kUnknowns = 7;
   QuadraticProgram program(kUnknowns);
   const Eigen::Vector3d pivot = motion.apply(centre_);

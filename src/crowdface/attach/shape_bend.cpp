@@ -18,21 +18,24 @@
 namespace crowdface {
 namespace {
 
-/// Usual reach of a patch of skin around an attachment's root. Where the skin has few vertices, the
-/// patch is larger.
+/// Minimum radius of the patch of skin around a root. Where the skin has few vertices, the radius
+/// is larger.
 constexpr double kPatchReachMm = 3;
-/// A point that is farther than this from the skin, in millimetres, uses a larger patch.
+/// A point of the attachment that is farther than kOffMm millimetres from its root uses
+/// a larger patch.
 constexpr double kOffMm = 10;
-/// Limit for distances along the surface, in multiples of a patch's reach.
+/// A patch contains only vertices whose distance from the root along the surface is at most
+/// kAlong times the patch's radius.
 constexpr double kAlong = 1.5;
-/// Smallest number of near vertices that determines a rotation; with fewer, the whole patch is
-/// used.
+/// If fewer than kMinNear vertices of a patch are near the root along the surface, the patch
+/// keeps all its vertices, because a few vertices do not determine a rotation reliably.
 constexpr std::size_t kMinNear = 6;
 
-/// A point's nearest skin is ambiguous if different parts of the skin are about equally near. The
-/// test uses a sphere around the point. Its radius is the distance to the nearest skin plus
-/// kAmbiguousMm. The nearest skin is ambiguous if the sphere also contains skin that is farther
-/// than kFarther radii away from the nearest skin along the surface.
+/// The root of a point is ambiguous if two parts of the skin are about equally near to the point,
+/// for example both lips. The test uses a sphere around the point, whose radius is the distance to
+/// the nearest skin vertex plus kAmbiguousMm. The root is ambiguous if the sphere contains a skin
+/// vertex whose distance from the nearest vertex along the surface is more than kFarther times the
+/// sphere's radius.
 constexpr double kAmbiguousMm = 2, kFarther = 4;
 
 /// Finds the root of each point of an attachment on the skin, starting the search at the root of a
@@ -64,11 +67,11 @@ class Roots {
 
  private:
   struct QueueEntry {
-    /// Whether two areas of skin are about equally near to the point (see kAmbiguousMm). Such
-    /// points come last, so that their search starts at the skin vertex of an adjacent point.
+    /// Whether the root is ambiguous (see kAmbiguousMm). Points with ambiguous roots come last, so
+    /// that their search starts at the root of an adjacent point.
     bool is_ambiguous;
-    double distance;
-    std::uint32_t point, vertex;
+    double distance;              ///< distance of the point from the nearest skin vertex
+    std::uint32_t point, vertex;  ///< point of the attachment; skin vertex where its search starts
 
     auto operator<=>(const QueueEntry&) const = default;  // NOLINT(modernize-use-nullptr)
   };
@@ -83,6 +86,8 @@ class Roots {
     });
   }
 
+  /// Finds the roots of all points that are connected with the start point in the attachment's
+  /// mesh, in order of their distance from the skin.
   void grow(const QueueEntry& start, const std::vector<QueueEntry>& nearest,
             const Adjacency& neighbours) {
     std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;
@@ -110,8 +115,8 @@ class Roots {
   std::vector<bool> is_found_;
 };
 
-/// Returns, for each point, the position around which the patch is selected: the point moved
-/// towards its root by the distance `off`, or the root itself if the root is nearer than `off`.
+/// Returns the anchor of each point. An anchor is the centre of a patch: the point moved towards
+/// its root by the distance `off`, or the root itself if the root is nearer than `off`.
 Positions anchors_of(const std::vector<NearestSkinPoint>& roots, const Positions& points,
                      double off) {
   Positions anchors(points.rows(), 3);

@@ -14,9 +14,9 @@ namespace crowdface {
 /// only skin that is near along the surface. So a moustache does not follow the lower lip, and a
 /// lash follows its own lid.
 ///
-/// Each point of the attachment has a root: the point of the skin that it follows. The search for
-/// roots begins where the attachment's mesh is nearest to the skin. The search for each further
-/// root starts at the root of a neighbouring point of the mesh.
+/// Each point of the attachment follows a point of the skin, its root. The search for roots begins
+/// where the attachment's mesh is nearest to the skin. Each further search starts at the root of a
+/// neighbouring point of the attachment's mesh.
 class ShapeBend {
  public:
   /// \param skin       Must outlive this object.
@@ -38,6 +38,7 @@ class ShapeBend {
   std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
+  /// \param along  distances along the surface from the root of the patch's node
   static void remove_distant_vertices(const EdgeDistances& along, double limit,
                                       FittedSkin::Patch& patch);
 

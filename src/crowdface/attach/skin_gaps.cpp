@@ -11,13 +11,13 @@
 namespace crowdface {
 namespace {
 
-/// The gaps of vertices farther from the skin than this are not corrected.
+/// Gaps wider than kFarMm plus two vertex spacings of the skin are not corrected.
 constexpr double kFarMm = 25;
 /// Vertices up to kCloseMm from the skin get exactly their original gap. For vertices farther away,
 /// the correction decreases linearly and is zero at kLooseMm.
 constexpr double kCloseMm = 2, kLooseMm = 6;
-/// An outside vertex with a larger original gap keeps at least this distance from the skin. A
-/// vertex with a smaller original gap keeps that gap.
+/// A vertex outside the skin keeps at least this distance from the skin. If the vertex's original
+/// gap is smaller, the original gap is the minimum.
 constexpr double kMinGapMm = 2;
 /// Number of rounds in which pushed vertices move their neighbours.
 constexpr int kRounds = 8;
@@ -72,8 +72,8 @@ void SkinGaps::restore_gaps(const Positions& face, const Positions& normals,
     if (heights_[p] == kNowhere) return;
     const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
-    // Move a point that was near the skin back to its original distance from the skin. A point
-    // that was outside the skin must keep at least its minimum distance from the skin.
+    // Move a point that was near the fitted skin to its original distance from the skin. Move a
+    // point that was outside the fitted skin at least to its minimum distance (min_height).
     const double off = std::abs(heights_[p]) / skin_.units_per_mm();
     const double held = std::clamp((kLooseMm - off) / (kLooseMm - kCloseMm), 0.0, 1.0);
     double move = held * (heights_[p] - place.height);
@@ -81,8 +81,8 @@ void SkinGaps::restore_gaps(const Positions& face, const Positions& normals,
     moves.row(p) = move * place.outward_normal.transpose();
     outward_normal.row(p) = place.outward_normal.transpose();
   });
-  // A vertex moves by the mean push of its neighbours, if this mean is larger than the vertex's own
-  // push.
+  // If the mean move of a vertex's neighbours is longer than the vertex's own move and does not
+  // point into the skin, the vertex moves by this mean.
   for (int round = 0; round < kRounds; ++round) {
     const Positions before = moves;
     parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {

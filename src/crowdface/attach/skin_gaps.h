@@ -24,8 +24,9 @@ class SkinGaps {
     double height;                   ///< distance by which the vertex must move outwards
     Eigen::Vector3d outward_normal;  ///< unit normal of the skin
   };
-  /// Returns the vertices that were outside the skin of the fitted mesh and are now too near to the
-  /// skin. The minimum distance of a vertex is its original distance, but at most two millimetres.
+  /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the
+  /// face's skin than their minimum distance. The minimum distance of a vertex is its original
+  /// distance or two millimetres, whichever is smaller.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
@@ -33,9 +34,9 @@ class SkinGaps {
   std::vector<Violation> violations(const Positions& face, const Positions& normals,
                                     const Positions& points) const;
 
-  /// Corrects the distances of points from the skin. Points close to the skin get their original
-  /// gap. Points that were outside the skin of the fitted mesh are moved at least to their minimum
-  /// distance outside the face's skin. Neighbours of pushed points move too.
+  /// Corrects the distances of points from the skin. Points that were close to the fitted skin get
+  /// their original distance. Points that were outside the fitted skin get at least their minimum
+  /// distance (see `violations`). Neighbours of moved points move too.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
@@ -45,6 +46,7 @@ class SkinGaps {
   std::size_t memory_bytes() const;
 
  private:
+  /// Returns the minimum distance of a point from the skin, see `violations`.
   double min_height(std::uint32_t point) const;
 
   const FittedSkin& skin_;

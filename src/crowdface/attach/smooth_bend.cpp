@@ -15,8 +15,9 @@ namespace {
 constexpr std::size_t kNodesPerBlock = 64;
 constexpr Index kPointsPerBlock = 1024;
 
-/// Chooses the nodes among the points, greedily in the order of the points, and collects the
-/// patches of the nodes.
+/// Chooses nodes among the points, in the order of the points: a point becomes a node if no earlier
+/// node is near (see BendNodes::kNodeSpacing). Adds the patch of each node to `patches`.
+/// \return the points that are nodes.
 std::vector<std::uint32_t> find_nodes(const FittedSkin& skin, const Positions& points,
                                       const PointGrid& grid,
                                       std::vector<FittedSkin::Patch>& patches) {

@@ -8,9 +8,10 @@ namespace crowdface {
 
 /// Moves points smoothly with the nearby skin (moving least squares, Schaefer et al. 2006, with
 /// similarities). Some points are nodes. The surrounding skin determines the rotation, translation
-/// and scale of each node; each point moves by a weighted mean of the motions of nearby nodes.
+/// and scale of each node. Each point moves by a weighted mean of the motions of nearby nodes.
 /// Nodes are denser near the skin. If the face is a rotated, translated and scaled copy of the
-/// fitted mesh, the points move in the same way, except for rounding errors.
+/// fitted mesh, the points are rotated, translated and scaled like the face, except for rounding
+/// errors.
 class SmoothBend {
  public:
   /// \param skin    Must outlive this object.

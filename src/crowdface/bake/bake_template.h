@@ -28,10 +28,11 @@ class BakeTemplate {
   const WrapTemplate& wrap_template() const { return wrap_template_; }
   /// The name of each picture.
   const std::vector<PictureName>& picture_names() const { return picture_names_; }
-  /// For each baked material, the index of a picture that contains it.
+  /// For each baked material, the index of a picture that shows this material.
   const std::map<std::string, std::size_t>& pictures_by_material() const {
     return pictures_by_material_;
   }
+  /// The texels of a picture that polygons cover.
   const SurfaceTexels& texels(std::size_t picture) const { return texels_[picture]; }
   /// The template's own texture that corresponds to a picture; nullptr if there is none.
   const FilteredTexture* texture(std::size_t picture) const { return textures_[picture]; }
@@ -43,7 +44,7 @@ class BakeTemplate {
   /// For each vertex of the template, its row in the skin, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
 
-  /// The picture into which a vertex is baked, and the vertex's position in it.
+  /// The picture into which a vertex is baked, and the vertex's position in this picture.
   struct PictureVertex {
     std::uint32_t picture = kNoIndex;  ///< kNoIndex: the vertex is in no picture
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();

@@ -249,7 +249,8 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
 void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
                                         const Positions& differences) {
   const WrapTemplate& wrap_template = template_.wrap_template();
-  // For templates with many vertices, solve on the reduced skin.
+  // If the template has a reduced skin (few vertices), compute the tone differences on the reduced
+  // skin.
   std::vector<std::uint32_t> rows(wrap_template.skin.vertices.size());
   for (std::uint32_t v = 0; v < rows.size(); ++v) rows[v] = v;
   const std::vector<std::uint32_t>& used =

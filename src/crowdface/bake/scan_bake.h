@@ -100,10 +100,11 @@ class ScanBake {
   const BakeTemplate& template_;
   const ScanSurface& surface_;
   const ScanColours& colours_;
-  Positions positions_, normals_;     ///< #skin by 3
-  double scan_spacing_mm_;            ///< mean distance between neighbouring vertices of the scan
-  std::vector<double> edge_weights_;  ///< of each skin vertex: 0 at the scan's edge, 1 far from it
-  Positions tone_differences_;  ///< #skin by 3: density of the scan minus that of the template
+  Positions positions_, normals_;  ///< #skin by 3
+  double scan_spacing_mm_;         ///< mean distance between neighbouring vertices of the scan
+  /// #skin: 0 at the edge of the scan's data, 1 far from this edge
+  std::vector<double> edge_weights_;
+  Positions tone_differences_;  ///< #skin by 3: density of the scan minus density of the template
   /// #skin by 3 (red, green, blue): optical density that the scan's baked-in shading adds; no rows
   /// if the shading is kept
   Positions shading_densities_;

@@ -194,7 +194,8 @@ ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
   std::vector<bool> is_done(static_cast<std::size_t>(rows.rows()), false);
   for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
     const Triangle& corners = scan.triangles[t];
-    // Average over half a triangle, because vertices are farther apart than texels.
+    // Average over a parallelogram whose sides are half of two edges of the triangle: vertices are
+    // farther apart than texels.
     const Eigen::Vector3d first = row3(scan.positions, corners[0]);
     ScanArea area{static_cast<std::uint32_t>(t),
                   {},

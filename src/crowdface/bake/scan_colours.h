@@ -61,8 +61,9 @@ class ScanColours {
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:
+  /// A polygon of the file, and the three corners of the polygon that form a triangle.
   struct TriangleCorners {
-    std::uint32_t face = 0, first = 0, second = 0, third = 0;  ///< polygon, and its corners
+    std::uint32_t face = 0, first = 0, second = 0, third = 0;
   };
 
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file

@@ -191,7 +191,8 @@ class CrowdBlender::PatchBlender {
   }
 
  private:
-  /// Lists the field that each row of the patch contains, head by head.
+  /// Fills `fields_`: for each row of the patch's matrix, the index of the row's field among the
+  /// fields of all heads.
   void find_fields() {
     fields_.clear();
     for (std::size_t h = 0; h < patch_.field_counts.size(); ++h) {
@@ -201,8 +202,8 @@ class CrowdBlender::PatchBlender {
   }
 
   /// Adds the products of fields and coefficients to a single face. Multiplies the quantized values
-  /// directly, for several regions at once, because unpacking these values would take longer than
-  /// it saves. The coefficients are multiplied by the quantization steps.
+  /// directly, for several regions at once: for a single face, unpacking the values first would
+  /// take longer. The coefficients are multiplied by the quantization steps.
   void add_to_single_face() {
     for (std::size_t first = 0; first < regions_.size(); first += kMaxColumns) {
       const auto regions = regions_.subspan(first, std::min(kMaxColumns, regions_.size() - first));

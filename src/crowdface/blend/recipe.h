@@ -80,15 +80,16 @@ double mirrored_weight(const Recipe& recipe);
 /// these heads; see weights_by_level.
 struct LevelWeights {
   std::uint64_t level = 0;
-  /// s_h in the order in which they are summed; a head may occur twice
+  /// the weights s_h of the heads in the sum G_b (see weights_by_level), in the order of summation;
+  /// a head may occur twice
   std::vector<SourceWeight> weights;
 };
 
 /// Whether extrapolation factors have the values in the recipe (kAsGiven) or are all 1 (kNone).
 enum class Extrapolation { kAsGiven, kNone };
 
-/// Returns, for each band b = 1 … n of a region, the level L_b at which the band begins, and the
-/// weights of the heads in the sum G_b, which is smoothed to this level.
+/// Returns, for each band b = 1 … n of a region, the level L_b at which the band begins and the
+/// weights of the heads in the weighted sum G_b. The blend smooths G_b to level L_b.
 ///
 /// - B is the target.
 /// - C̄_b = Σ_i ω̂_bi C_i is the weighted mean of the heads C_i that lend band b.

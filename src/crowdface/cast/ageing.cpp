@@ -108,8 +108,8 @@ void undo_age(FacePlan& face, const HeadAnchorsAndTags& heads, const SamplingOpt
       const double share = share_of(*face.age, sampling, b);
       known = known && share <= 1 - kRounding;
       if (share == 0 || share > 1 - kRounding) continue;
-      // apply_age multiplied the weights of the heads outside the age class by 1 − share. Undo
-      // this.
+      // Undo apply_age, which multiplied the weights of the heads outside the age class by 1 −
+      // share.
       std::vector<SourceWeight>& weights = band_of(region, b).weights;
       weights = aged.with_moved(weights, -share / (1 - share));
       std::erase_if(weights, [](const SourceWeight& s) { return s.weight < kRounding; });

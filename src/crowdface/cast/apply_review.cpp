@@ -65,8 +65,8 @@ class Redrawing {
     const auto at = static_cast<std::size_t>(redraw.face);
     const FacePlan old = cast_.crowd[at];
     const FamilyPlan* family = family_of(cast_, redraw.face);
-    // Compare with all faces outside the family. Other limits apply to the distances within a
-    // family.
+    // The crowd's minimum distance applies to all faces outside the redrawn face's family. The
+    // family has its own limits on the distances between its members.
     CrowdSoFar others(judge_.space().dimensions());
     std::vector<FaceSpace::Point> own;
     for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
@@ -143,9 +143,9 @@ class Redrawing {
     return points;
   }
 
-  /// Returns minimum distances between the new face and all rejected versions of the face, largest
-  /// first. The redraw tries the distances one after the other, because a family or locked bands
-  /// may make the largest distance impossible.
+  /// Returns the minimum distances between the new face and all rejected versions of the face, in
+  /// the order in which the redraw tries these distances: largest first. Smaller distances are
+  /// needed because a family or locked bands may make the largest distance impossible.
   ///
   /// \param own  Points of the other members of the face's family.
   std::vector<double> distances_to_rejected(const FamilyPlan* family,

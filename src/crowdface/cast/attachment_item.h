@@ -17,8 +17,8 @@ struct AttachmentItem {
   double relative_frequency = 1;
   /// names and kinds of items that cannot be worn together with this item
   std::vector<std::string> excludes;
-  /// Colour of the item. The face's other items get the same colour, and families inherit the
-  /// colour.
+  /// Colour of the item. Other items of the same face get this colour if possible, and families
+  /// inherit this colour.
   std::string colour = {};
   std::vector<std::string> excluded_tags = {};  ///< the typical head must have none of these tags
   Tint tint = Tint::kNone;

@@ -94,7 +94,7 @@ class AttachmentChooser {
  public:
   /// \param crowd     all faces, in the order of the plan.
   /// \param sequence  faces in an order in which no face may look like the previous or the next
-  ///                  face.
+  ///                  face (see must_differ); may be empty.
   AttachmentChooser(const AttachmentOptions& options, const std::vector<int>& groups,
                     const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& sequence)
       : options_(options) {
@@ -162,8 +162,8 @@ class AttachmentChooser {
 
   /// Returns the items of a kind that a head's tags allow.
   ///
-  /// \param colour  A colour that the face already has; an item of this colour is allowed even if
-  ///                the head lacks the item's tags.
+  /// \param colour  A colour that the face inherits. An item of this colour is allowed even if the
+  ///                head lacks the tag that names this colour.
   Items wearable(const std::string& kind, Index head, const std::string& colour = {}) const {
     const std::vector<std::string>& tags = tags_of(head);
     Items items;
@@ -199,9 +199,9 @@ class AttachmentChooser {
     return weighted_choice(items, drawn[1], &AttachmentItem::relative_frequency);
   }
 
-  /// Returns whether the second of two successive faces must not look like the first. A sampled
-  /// face is compared only with sampled faces, because a larger crowd can insert sampled faces
-  /// between a sampled face and a face that is not sampled.
+  /// Returns whether two successive faces must not look alike: both are sampled, both are members
+  /// of the same family, or both are hand-written. A sampled face is compared only with sampled
+  /// faces, because a larger crowd adds sampled faces.
   static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
@@ -220,8 +220,8 @@ class AttachmentChooser {
     });
   }
 
-  /// Returns the key of the set of similar faces to which a face belongs: all sampled faces with
-  /// the same typical head, or all members of one family.
+  /// Returns the key of the set of similar faces that contains a face: all sampled faces with the
+  /// same typical head, all members of one family, or one hand-written face alone.
   std::string similar_faces_key(const FacePlan& face) const {
     if (face.index) return concat("head/", heads_.at(face.id));
     return face.family ? concat("family/", *face.family) : concat("face/", face.id);
@@ -239,8 +239,10 @@ class AttachmentChooser {
     return weighted_choice(next, drawn, &AttachmentItem::relative_frequency);
   }
 
-  /// Removes from `items` the items that the quotas do not allow for a face. If the face may not
-  /// wear the items of the quota that applies to the face, treats the face as if no quota applied.
+  /// Removes from `items` the items that the quotas do not allow for a face. If a sampled face may
+  /// wear no item of the face's quota, treats the face like a face without a quota. For a face that
+  /// is not sampled, the quota of a kind is the probability that the face wears an item of this
+  /// kind; other quotas are ignored.
   ///
   /// \return  Whether the face wears an item of the kind.
   bool apply_quotas(const std::string& kind, const FacePlan& face, double drawn,
@@ -275,7 +277,7 @@ class AttachmentChooser {
 
   /// Keeps only items in the colour of another item of the face. If no item has this colour, keeps
   /// only items in the colour of a parent's items or, without parents, of the family's items. If no
-  /// item has this colour either, keeps all items.
+  /// item has either colour, keeps all items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto take = [&](const std::string& colour) {
@@ -388,7 +390,7 @@ class AttachmentChooser {
   WearerCounts all_wearer_counts_;           ///< how many of all sampled faces wear each item
   std::optional<HairChooser> hair_;          ///< empty if no item has a tint
   std::map<std::string, HairColour> hairs_;  ///< hair colours, by the face's id
-  /// by the face's id: the ids of the previous and the next face
+  /// by the face's id: the ids of the previous and the next face, if must_differ holds for the pair
   std::map<std::string, std::vector<std::string>> neighbours_;
 };
 
@@ -412,11 +414,12 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     if (found != versions_by_id.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // by face id: index in `versions_by_id` of the version that got attachments last
+  // by face id: index, in the list of the face's versions, of the version that got attachments last
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
-  // Called when the first `size` faces of the crowd have their attachments. Chooses attachments for
-  // the replacements of all faces that reviews rejected when the crowd had at most `size` faces.
+  // Chooses attachments for the replacements of rejected faces, in the order of rejection. Stops at
+  // the first face that was rejected when the crowd had more than `size` faces. Called when the
+  // first `size` faces of the crowd have their attachments.
   const auto replace_up_to = [&](std::size_t size) {
     for (; next < rejected.size(); ++next) {
       if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;

@@ -7,11 +7,13 @@
 namespace crowdface {
 
 /// Forecasts how many faces can keep the minimum distance, while first-fit casting is still placing
-/// faces. p(n) is the probability that a candidate is too near to at least one of n faces. While
-/// the crowd is sparse, each new face increases p by C, where C is the probability that two
-/// candidates are too near to each other. First-fit casting ends at about 4/C faces
-/// (docs/method.md). Dense parts of the face space fill first, and then p grows more slowly; so C
-/// is estimated from the recent growth of p.
+/// faces.
+///
+/// p(n) is the probability that a candidate is too near to at least one of n faces. While the crowd
+/// is sparse, each new face increases p by C, where C is the probability that two candidates are
+/// too near to each other. First-fit casting ends at about 4/C faces (docs/method.md). Dense parts
+/// of the face space fill first, and then p grows more slowly; so C is estimated from the recent
+/// growth of p.
 class CapacityForecast {
  public:
   /// Counts the candidates for one placed face.

@@ -65,7 +65,7 @@ void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diver
   }
 }
 
-/// Casts the sampled faces `from` … `to`. Their minimum distances may differ, see
+/// Casts the sampled faces `from` … `to`. Different faces may have different minimum distances, see
 /// DiversityOptions::min_distance_mm_up_to_face.
 void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
                     const std::vector<FaceDistribution>& distributions,
@@ -82,8 +82,8 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
   }
 }
 
-/// Fills in random values for everything that a hand-written recipe does not specify, and repeats
-/// this until the face meets the recipe's limits on measurements.
+/// Completes a hand-written recipe with random values. Draws these values again until the face
+/// meets the recipe's limits on measurements.
 ///
 /// \return  Nothing if no attempt meets the limits.
 std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const ManualRecipe& hand,

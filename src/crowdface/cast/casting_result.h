@@ -17,7 +17,8 @@
 
 namespace crowdface {
 
-/// The face at which casting stopped before it had found all faces, and the reason.
+/// Why casting stopped before all faces were found: the face that could not be cast, and how often
+/// each constraint rejected a candidate.
 struct Shortfall {
   std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
   Rejections rejections;    ///< how often each constraint rejected a candidate for the next face
@@ -34,8 +35,8 @@ struct ChangedFace;
 struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< who requests the change, such as "review 2"
-  /// If the change turns the face into a variant of another face: the other face, as it was before
-  /// the change. Otherwise null.
+  /// the original of which the changed face becomes a variant, as it was before all changes of the
+  /// same origin; null if the changed face becomes no variant
   std::shared_ptr<const ChangedFace> variant_of;
   /// smallest allowed distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;
@@ -50,7 +51,7 @@ struct ChangedFace {
   TraitLimits traits = {};  ///< the limits on the measurements that all changes together request
   /// whether the face was redrawn, so that it now shows another person
   bool is_other_person = false;
-  /// the other face, if this face is a variant of another face
+  /// the original, if this face is a variant of another face
   std::shared_ptr<const ChangedFace> variant_of = {};
 };
 

@@ -23,10 +23,12 @@ struct ColourOptions {
 
 /// Sets each face's own colours, Recipe::colours. The colours are a mixture of two random heads;
 /// the second head has a weight of at most one half. Both heads are drawn uniformly from the heads
-/// whose tags match the tags of the face's typical head. Random numbers depend only on the face's
-/// index (or on its id, if the face is not sampled), so the colours do not depend on other faces. A
-/// family has one complexion: a face with parents gets half of each parent's colours, but without
-/// the heads whose tags do not match the tags of the face's typical head. The members of a family
+/// whose tags match the tags of the face's typical head. The random numbers of a sampled face
+/// depend only on the face's index and attempt, and the random numbers of other faces only on the
+/// id, so the colours do not depend on other faces.
+///
+/// A family has one complexion. A face with parents gets half of each parent's colours, without the
+/// heads whose tags do not match the tags of the face's typical head. The members of a family
 /// without parents share colours that are chosen once for the family. Faces that already have
 /// colours keep their colours.
 ///

@@ -15,7 +15,7 @@
 
 namespace crowdface {
 
-/// The constraint because of which a candidate is rejected.
+/// The constraint that a rejected candidate violates.
 enum class Reason {
   kMinDistance,         ///< too near to another face of the crowd
   kMinDistanceToHeads,  ///< too near to an input head
@@ -23,7 +23,7 @@ enum class Reason {
   kImplausible,         ///< differs too much from the mean of the heads to be believable
   kFlipped,             ///< part of the skin is turned inside out or collapsed
   kStretched,           ///< part of the skin is stretched too far
-  kIntersecting,        ///< the new face's skin intersects itself where the target's skin does not
+  kIntersecting,        ///< the face's skin intersects itself where the target's skin does not
   /// the gap between the lips, or between other parts of the skin that nearly touch, is wider than
   /// in any head
   kGap,

@@ -28,15 +28,15 @@ struct DiversityOptions {
   /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
   /// median distance between the faces of the crowd.
   std::optional<double> min_distance_to_rejected_mm;
-  double max_weight = 1;  ///< largest weight that one head may have in one region
+  double max_weight = 1;  ///< largest weight that one head may have in one band of one region
   /// number of candidates that are tried for one face before casting gives up
   int max_attempts = 1000;
   /// A face whose distance from a head is smaller than this value counts as the same person as the
   /// head.
   static constexpr double kSamePersonMm = 0.5;
-  /// Number of candidates for each face that casting rejects if they are the same person as a head
-  /// (see kSamePersonMm). Casting does not check later candidates for this, because some configs
-  /// yield only faces near heads.
+  /// Number of candidates for each face that casting compares with the heads, to reject candidates
+  /// that are the same person as a head (see kSamePersonMm). Later candidates are not compared,
+  /// because some configs yield only faces near heads.
   static constexpr std::uint32_t kCandidatesCheckedForSamePerson = 100;
   /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;
@@ -67,9 +67,10 @@ struct DiversityOptions {
 /// sliver triangles and touching lips) and reject excessive extrapolation. docs/casting.md has
 /// figures.
 struct BelievabilityOptions {
-  /// Whether whole meshes are checked in addition to the coarse samples. With kJudge, casting
-  /// checks the whole mesh of each candidate. With kAuto and kAll, whole meshes are checked when
-  /// they are built, after casting, and the results only appear in the report.
+  /// Whether whole meshes are checked in addition to the coarse meshes of the samples (ProxySkin).
+  /// With kJudge, casting checks the whole mesh of each candidate. With kAuto and kAll, whole
+  /// meshes are checked when they are built, after casting, and the results only appear in the
+  /// report.
   enum class MeshChecks {
     kAuto,  ///< check whole meshes if they have at most 200,000 polygons
     kAll,

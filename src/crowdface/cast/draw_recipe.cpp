@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-/// Number of random numbers (lanes) that are reserved for one try to choose a position.
+/// Number of random numbers (lanes) that are reserved for each try of random_position.
 constexpr std::uint32_t kRandomLanesPerPosition = 64;
 /// If a position gives one head too much weight, casting tries another position, at most
 /// kPositionRetries times. PositionDistribution::pull limits how far a position is from the anchor.
@@ -72,8 +72,8 @@ PlanePoint random_in_hull(const CastingOptions& casting, const std::vector<Index
   return sample_polygon(convex_hull(std::move(anchors)), pick, a, b);
 }
 
-/// \param retry  Number of earlier tries, which gave one head too much weight. Each retry may go
-///               farther from the anchor.
+/// \param retry  Number of earlier tries, which gave one head too much weight. Each retry allows a
+///               larger distance from the anchor.
 PlanePoint random_position(const CastingOptions& casting, const PositionDistribution& distribution,
                            const std::vector<Index>& sources, Index target, const FaceRandom& draws,
                            const std::string& region, std::uint32_t retry) {

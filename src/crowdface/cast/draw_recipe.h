@@ -72,10 +72,12 @@ std::string face_id(const std::string& crowd, std::uint64_t index);
 
 /// Key of a face's random numbers. Each combination of the three members gives independent numbers.
 struct FaceRandomKey {
-  std::uint64_t index = 0;    ///< index of the face, from 1
-  std::uint32_t attempt = 0;  ///< number of earlier attempts at this face, which were rejected
-  /// Text that precedes the purpose of each random number: "recipe/ID" for a hand-written recipe,
-  /// "family/NAME" for a member of a family. Empty for a sampled face.
+  /// number of the sampled face or of the family's member, from 1; 0 for other faces
+  std::uint64_t index = 0;
+  /// number of candidates for this face that were generated before this candidate
+  std::uint32_t attempt = 0;
+  /// Text that precedes the purpose of each random number, such as "recipe/ID" for a hand-written
+  /// recipe or "family/NAME" for a member of a family. Empty for a sampled face.
   std::string purpose_prefix = {};
 };
 

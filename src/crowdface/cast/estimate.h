@@ -22,8 +22,8 @@ struct EstimateRow {
 /// pool of candidates, which are sampled as in casting. For spread mode, one greedy pass gives the
 /// distances of all crowd sizes. For first-fit casting, tries a few distances for each crowd size.
 ///
-/// \param counts     Crowd sizes, ascending. Sizes that are too large for the pool are left out of
-///                   the result.
+/// \param counts     Crowd sizes, ascending. The result leaves out sizes below 2 and sizes that are
+///                   too large for the pool.
 /// \param pool_size  Number of candidates. More candidates give better estimates but take longer.
 std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const FaceJudge& judge,
                                            const std::vector<std::uint64_t>& counts,

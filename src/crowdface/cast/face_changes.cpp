@@ -27,7 +27,7 @@ std::size_t face_called(const std::string& id, const CastingResult& cast) {
   return static_cast<std::size_t>(found - cast.crowd.begin());
 }
 
-/// Returns a copy of the face with the changes that were applied to it so far.
+/// Returns a copy of a face with all changes applied so far.
 std::shared_ptr<const ChangedFace> current(std::size_t face, const CastingResult& cast) {
   const auto changed = cast.changed.find(face);
   return std::make_shared<const ChangedFace>(changed == cast.changed.end()
@@ -74,8 +74,8 @@ double least_share(const Holds& holds) {
   return share;
 }
 
-/// Whether a change requires a redraw of the face only because the change sets limits on
-/// measurements.
+/// Returns whether a redraw is needed only to meet limits on measurements: the change sets neither
+/// a group nor locked bands.
 bool limits_only(const FaceChange& change) {
   return !change.group && change.locked_bands.empty();
 }
@@ -132,7 +132,7 @@ class Changing {
     return *distribution_of_named_group(face.group, casting_).sampling;
   }
 
-  /// Returns the faces before this face in the plan, as they were before any review.
+  /// Returns the faces that precede the changed face in the plan, as they were before any review.
   CrowdSoFar faces_before() const {
     std::map<std::string, FaceSpace::Point> first;
     for (const FacePlan& face : cast_.rejected) {
@@ -196,8 +196,8 @@ class Changing {
         face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.level_scale);
         return face;
       };
-      // Mix in more of the drawn face than the smallest fraction that meets the limits. This margin
-      // is needed because `meets_limits` does not build the whole mesh.
+      // Mix in more of the drawn face than `meets_limits` requires. This margin is needed because
+      // `meets_limits` does not build the whole mesh.
       constexpr double kMargin = 0.05;
       const double share = least_share([&](double part) { return meets_limits(at(part)); });
       return at(share + kMargin * (1 - share));
@@ -251,8 +251,8 @@ class Changing {
     apply_age(changed_.face, age, {casting_.anchors, casting_.tags}, sampling);
   }
 
-  /// Stores the changed face's distances from the nearest head and the nearest face, for
-  /// information only.
+  /// Notes the head and the earlier face that are nearest to the changed face, with their
+  /// distances. These notes are for information only.
   void note_nearest() {
     const auto [head, head_distance_mm] = judge_.nearest_head(changed_.point);
     NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
@@ -271,18 +271,19 @@ class Changing {
   CastingResult& cast_;
   ChangedFace& changed_;
   int number_ = 0;  ///< number of the current change, from 1
-  /// minimum distance between the face with the current change and other faces
+  /// smallest allowed distance between the changed face and other faces, for the current change
   double min_distance_mm_ = 0;
 };
 
 /// Applies changes to faces.
 ///
-/// \param first  whether to apply the changes before the changes that the faces already have.
+/// \param first  true: apply the new changes before a face's earlier changes; false: after a face's
+///               earlier changes.
 void apply(const CastingOptions& casting, const FaceJudge& judge,
            const std::vector<FaceChange>& changes, const std::string& origin, bool first,
            CastingResult& cast) {
-  // A change can make a face a variant of another face. Before any change is applied, copy these
-  // other faces, because a change may also apply to them.
+  // A change can turn a face into a variant of another face, the original. Copy all originals
+  // before any change is applied, because a change may alter an original.
   std::vector<AppliedChange> applied;
   for (const FaceChange& change : changes) {
     const std::optional<std::uint64_t> index = cast.crowd[face_called(change.id, cast)].index;

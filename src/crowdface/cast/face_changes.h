@@ -41,7 +41,7 @@ class AvoidedFaces {
   ///                       is being redrawn. Empty: no face is ignored.
   AvoidedFaces(const CastingResult& cast, double min_distance_mm,
                const std::vector<bool>& is_considered = {});
-  /// Returns why a point of the face space is rejected; nothing if it is accepted.
+  /// Returns why a face is rejected, given the face's point; nothing if the face is accepted.
   std::optional<Reason> rejection_reason(const FaceSpace::Point& point) const;
 
  private:

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Returns the distances (`face_distance`) between all pairs of faces, N by N, symmetric. The faces
-/// are not copied; other objects may own their memory.
+/// Returns the distances (`face_distance`) between all pairs of faces, N by N, symmetric. Does not
+/// copy the faces, which are views of memory that other objects own.
 ///
 /// \param areas  #V, weights of the vertices; not all zero.
 Eigen::MatrixXd face_distances(std::span<const Eigen::Map<const Positions>> faces,

@@ -37,8 +37,8 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
   for (Index h = 0; h < space.head_point_count(); ++h) head_search_.add(space.head_point(h));
   std::vector<FaceSpace::Point> heads;
   for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h));
-  // If the heads are similar to each other or small, this fraction of the heads' median distance
-  // from each other is the limit instead of kSamePersonMm.
+  // The limit is this fraction of the median distance between two heads if the fraction is below
+  // kSamePersonMm (the heads are similar to each other, or small).
   constexpr double kFractionOfMedian = 0.1;
   same_person_mm_ = std::min(DiversityOptions::kSamePersonMm,
                              kFractionOfMedian * quartiles(pair_distances(heads)).median);
@@ -78,7 +78,7 @@ std::optional<Reason> FaceJudge::check_candidate(const Recipe& recipe,
 
 std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
   if (proxy_skin_ == nullptr || !believability_.check) return std::nullopt;
-  // check the unmirrored face, because mirroring does not change its defects
+  // check the unmirrored face, because a face and its mirror image have the same defects
   Recipe recipe = whole;
   recipe.mirrored = false;
   const Positions samples = sample_face(space_.sampled_heads(), recipe);

@@ -33,13 +33,15 @@ class FaceJudge {
             const BelievabilityOptions& believability, const ProxySkin* proxy_skin = nullptr,
             MeshDefectFinder find_mesh_defects = {});
 
-  /// Sets limits on measurements. \param rules  must outlive this object; null: no limits
+  /// Sets the limits on measurements.
+  ///
+  /// \param rules  must outlive this object; null: no limits
   void set_trait_rules(const TraitRules* rules) { trait_rules_ = rules; }
   const TraitRules* trait_rules() const { return trait_rules_; }
   /// Checks the limits on measurements, with landmarks of the whole mesh.
   std::optional<Reason> check_traits(const FacePlan& face) const;
 
-  /// Checks everything that needs only the recipe and its point in the face space: weights,
+  /// Checks everything that needs only the recipe and the face's point in the face space: weights,
   /// distance from the input heads, plausibility. Takes microseconds.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.

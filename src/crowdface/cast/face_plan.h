@@ -22,7 +22,8 @@ struct NearestNeighbours {
 
 /// How casting found a face. The face's mesh does not depend on these notes.
 struct CastingNotes {
-  std::uint32_t attempt = 0;  ///< number of earlier candidates for this face, which were rejected
+  /// number of candidates for this face that were generated before this candidate
+  std::uint32_t attempt = 0;
   std::optional<NearestNeighbours> nearest;
   std::optional<std::string> review;  ///< the note that a reviewer wrote about this face
   /// The changes of the face, in order. Each text names the origin and the config keys of a change,

@@ -18,7 +18,7 @@ using FaceSamples = std::vector<std::uint32_t>;
 /// Chooses samples on the skin (the largest component). Half of the samples are distributed by area
 /// over the front half of the skin. A quarter are distributed by area over the whole skin, and a
 /// quarter by the density of vertices. So lips and lids, which are small but finely meshed, get
-/// enough samples.
+/// enough samples. The result is ascending.
 ///
 /// \param mean   #V by 3, the mean head.
 /// \param count  Number of samples. If the skin has too few vertices, the result has fewer samples.
@@ -35,13 +35,12 @@ FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mir
 /// duplicates.
 std::vector<std::uint64_t> stored_smoothing_levels(std::uint64_t max_level);
 
-/// How far smoothing displaces the samples of a head, #levels by 3·#samples. Row l holds S_{L_l} x
-/// − x: the positions smoothed to level L_l (entry l of `stored_smoothing_levels`) minus the
-/// positions x.
+/// How far smoothing displaces the samples of a head, #levels by 3·#samples. Row l holds S_L x − x:
+/// the positions smoothed to level L (entry l of `stored_smoothing_levels`) minus the positions x.
 using Trajectory = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Computes the trajectory of a head: interpolates the samples' displacements at all stored
-/// smoothing levels from their displacements at a few levels, the nodes.
+/// Computes the trajectory of a head. Interpolates the displacements of the samples at all stored
+/// smoothing levels from the displacements at a few levels, the nodes.
 /// \param fields  result of filter_nodes for the head
 Trajectory sample_smoothing_trajectory(const ChebyshevFilter& filter, const LevelNodes& nodes,
                                        const NodeFields& fields, const FaceSamples& samples);

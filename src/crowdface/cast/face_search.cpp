@@ -18,9 +18,10 @@ FaceSearch::FaceSearch(GenerateCandidate generate_candidate, const FaceJudge& ju
       attempts_end_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
       initial_attempts_end_(attempts_end_) {}
 
-/// Returns whether a candidate is far enough from all faces of the crowd. Also stores the
-/// candidate's distance from the crowd. If another candidate is farther, stores only an upper bound
-/// of this distance, because the bound is faster to compute and usually sufficient.
+/// Returns whether a candidate is far enough from all faces of the crowd. If several candidates are
+/// wanted, also stores the candidate's distance from the crowd's sampled faces. If another
+/// candidate is farther, stores only an upper bound of this distance, because the bound is faster
+/// to compute and usually sufficient.
 bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.nearest_search().nearest(candidate.point, least).face >= 0) return false;
@@ -37,9 +38,9 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
   return true;
 }
 
-/// Returns whether to generate another candidate. With limits on measurements, a face may need many
-/// more attempts than otherwise. So after the usual number of attempts, one acceptable candidate is
-/// enough.
+/// Returns whether to generate another candidate. A face with limits on measurements may need many
+/// more attempts than other faces. So after the usual number of attempts, one acceptable candidate
+/// is enough.
 ///
 /// \param unchecked_count  number of generated candidates that are not checked yet
 bool FaceSearch::needs_candidates(std::size_t unchecked_count) const {
@@ -65,7 +66,7 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
 }
 
 /// Generates candidates until there are enough candidates or no attempts are left. Computes the
-/// points of as many candidates at once as are still needed.
+/// points of several candidates in one call, which is faster than separate calls.
 void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   while (needs_candidates(0)) {
     std::vector<Candidate> unchecked;
@@ -108,7 +109,8 @@ void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   compared_face_count_ = crowd.size();
 }
 
-/// Returns the candidate farthest from the crowd; of equally far candidates, the earliest.
+/// Returns the candidate farthest from the crowd's sampled faces; of equally far candidates, the
+/// earliest.
 FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
   for (;;) {
     Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),

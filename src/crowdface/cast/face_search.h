@@ -21,12 +21,12 @@ class FaceSearch {
   /// Generates candidate number `attempt`. The result must depend only on `attempt` (a pure
   /// function).
   using GenerateCandidate = std::function<FacePlan(std::uint32_t attempt)>;
-  /// An additional check of a candidate's point in the face space. Returns why the point is
-  /// rejected; nothing if it is accepted.
+  /// An additional check of a candidate, given the candidate's point in the face space. Returns why
+  /// the candidate is rejected; nothing if the candidate is accepted.
   using RejectionCheck = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
 
-  /// Returns how undesirable a candidate is, given its landmarks (see FaceMeasurer); only for
-  /// comparing candidates.
+  /// Returns how undesirable a candidate is, given the candidate's landmarks (see FaceMeasurer).
+  /// Costs serve only to compare candidates.
   using Cost = std::function<double(const Positions& landmarks)>;
 
   FaceSearch(GenerateCandidate generate_candidate, const FaceJudge& judge,
@@ -43,10 +43,10 @@ class FaceSearch {
     /// has no rows if the crowd has neither limits nor distributions of measurements
     Positions landmarks = {};
   };
-  /// Returns the candidate that is chosen by its distance from the current crowd; nothing if all
-  /// attempts are used up.
+  /// Returns the candidate that is farthest from the sampled faces of the current crowd and passes
+  /// all checks; nothing if no attempts are left.
   ///
-  /// \param cost  If given, the candidate with the smallest cost is chosen instead of the farthest
+  /// \param cost  If given, returns the candidate with the smallest cost instead of the farthest
   ///              candidate.
   std::optional<FoundFace> choose_face(const CrowdSoFar& crowd,
                                        const RejectionCheck& rejection_reason = {},
@@ -59,7 +59,7 @@ class FaceSearch {
     FacePlan face;
     FaceSpace::Point point = {};
     Positions landmarks = {};
-    /// distance to the nearest face of the crowd, or an upper bound of this distance
+    /// distance to the nearest sampled face of the crowd, or an upper bound of this distance
     double distance_to_crowd_mm = HUGE_VAL;
     bool is_distance_exact =
         true;  ///< whether `distance_to_crowd_mm` is the exact distance, not an upper bound
@@ -81,8 +81,8 @@ class FaceSearch {
   const DiversityOptions& diversity_;
   std::size_t wanted_candidate_count_;
   std::uint32_t first_attempt_, next_attempt_;
-  /// The attempt after the last allowed attempt. Each candidate that violates limits on
-  /// measurements raises `attempts_end_` by one.
+  /// Number of the attempt after the last allowed attempt. Each candidate that violates limits on
+  /// measurements raises `attempts_end_` by one, up to a bound.
   std::uint32_t attempts_end_;
   std::uint32_t initial_attempts_end_;  ///< initial value of `attempts_end_`
   /// number of faces of the crowd with which the candidates have been compared

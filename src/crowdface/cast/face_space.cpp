@@ -13,10 +13,10 @@
 namespace crowdface {
 namespace {
 
-/// How far a displacement field may lie outside the span of the basis: rms over the face in mm.
+/// Tolerance of span_basis for the smoothing displacements and for the coordinate functions: root
+/// mean square over the face in millimetres.
 constexpr double kFieldTolerance = 0.004;
-/// Largest number of basis functions (FaceSpaceTables::basis_functions) for each orientation
-/// (unmirrored and mirrored).
+/// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
 /// How far a training face may lie outside the span of the principal directions, in millimetres.
 /// The distance from the span is stored as an additional coordinate.
@@ -34,7 +34,7 @@ double squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b) {
   return sum;
 }
 
-/// Returns whether a band has an extrapolation factor other than 1.
+/// Returns whether any band of a recipe has an extrapolation factor other than 1.
 bool is_extrapolated(const Recipe& recipe) {
   const auto is_extrapolated_band = [](const BandRecipe& band) { return band.extrapolation != 1; };
   return std::ranges::any_of(recipe.regions, [&](const RegionRecipe& region) {
@@ -45,8 +45,9 @@ bool is_extrapolated(const Recipe& recipe) {
 
 }  // namespace
 
-/// The order of the basis functions in the rows of a matrix: first the mean head, then each head's
-/// deviation from the mean head, then the fields, sorted by region, head and mode.
+/// The order of the coordinate functions in the rows of a matrix: first the mean head, then each
+/// head's deviation from the mean head, then the displacement fields, sorted by region, head and
+/// mode.
 struct FaceSpace::BasisRowOrder {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
@@ -103,9 +104,9 @@ void FaceSpace::choose_nonzero_weight_samples(const std::vector<double>& weights
 }
 
 /// Finds a few modes whose linear combinations give the displacements of all heads at all smoothing
-/// levels. Fields are then computed for these modes only. The modes are a basis of the rows of a
-/// matrix with one row per level. A row has one entry per head, coordinate (x, y or z) and
-/// sample: the displacement of the sample, times √w, where w is the weight of the sample.
+/// levels. Displacement fields are needed for these modes only. The modes are an orthonormal basis
+/// of the rows of a matrix with one row per level, and one column per head, coordinate (x, y or z)
+/// and sample. An entry is the sample's displacement times √w, where w is the weight of the sample.
 SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const Index heads = head_point_count(), size = weight_square_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
@@ -125,8 +126,8 @@ SpanBasis FaceSpace::smoothing_displacement_modes() const {
   return span_basis(std::move(levels), kFieldTolerance, level_count);
 }
 
-/// Writes the values of a scalar function at the samples, minus the function's mean over the face.
-/// (Rigid alignment would remove the mean anyway.)
+/// Subtracts the mean over the face from a scalar function, and writes the function's values at the
+/// samples, times √w. (Rigid alignment would remove the mean anyway.)
 template <class Value>
 void FaceSpace::write_centred_values(const Value& value, float* row) const {
   double mean = 0;
@@ -139,8 +140,9 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
     row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
-/// Returns scalar functions whose linear combinations give the coordinates of faces. Each row is
-/// one function; the mean head, each head and each field of a mode have three rows (x, y, z).
+/// Computes the coordinate functions, in the order of BasisRowOrder. Three rows (x, y, z) belong to
+/// the mean head, to each head's deviation from the mean head, and to each displacement field: the
+/// part of a mode that belongs to one head, multiplied by the weights of one region.
 ///
 /// \param max_coefficients  #modes: the largest absolute coefficient of each mode over all levels.
 ///                          Modes have unit length, so each mode's rows are multiplied by this
@@ -186,8 +188,9 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
 /// represents a face. The distance between two such matrices is the distance between the samples of
 /// the two faces, and rotating a matrix rotates the face.
 ///
-/// Every face is a linear combination of the heads, and of the detail that smoothing removes from
-/// each head, multiplied by a region's mask. The functions span the coordinates of all of these.
+/// Every face is a linear combination of the heads and of displacement fields. A displacement field
+/// is the displacement of one head by smoothing, multiplied by the weights of one region. The basis
+/// functions span the coordinates of all heads and all displacement fields.
 ///
 /// \return  The functions, #P by #S.
 FloatRows FaceSpace::compute_basis_functions() {
@@ -236,8 +239,8 @@ const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
   return fields_.data() + at * mean_shape_.size();
 }
 
-/// Returns the shape of a recipe's face with the recipe's extrapolation factors. If not all factors
-/// are 1, returns a second shape, with all factors 1.
+/// Returns the shape of a recipe's face with the recipe's extrapolation factors. If any factor is
+/// not 1, also returns the face's shape with all factors 1.
 std::vector<FaceSpace::Shape> FaceSpace::shapes_of(const Recipe& recipe) const {
   const double w = mirrored_weight(recipe);
   require(w == 0 || mirror_variant_count() == 2, "a mirrored face, and no mirror images of heads");
@@ -279,7 +282,7 @@ std::vector<FaceSpace::Shape> FaceSpace::shapes_of_mirror_variant(const Recipe& 
   return shapes;
 }
 
-/// Returns the given shape, rotated onto the mean head, minus the mean head.
+/// Rotates a shape to the best fit with the mean head, and subtracts the mean head.
 std::vector<float> FaceSpace::aligned_deviation(const Shape& shape) const {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (Index p = 0; p < shape.rows(); ++p) {
@@ -426,7 +429,8 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     });
     FloatRows metric(rank, rank);
     parallel_for_each(rank, [&](Index d) {
-      // G_k is symmetric. Multiply direction d by G_k, separately for each coordinate x, y, z.
+      // Multiply direction d by G_k, separately for each coordinate x, y, z. `add_product` reads
+      // the rows of `gram` as columns, because G_k is symmetric.
       std::vector<float> along(static_cast<std::size_t>(3 * functions));
       for (Index c = 0; c < 3; ++c) {
         Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);

@@ -12,9 +12,9 @@ namespace crowdface {
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
   FloatRows level_coefficients;  ///< #levels by #modes: coefficient of each mode at each level
-  /// #functions by #P: each row is one scalar function on the skin, given by its coefficients in an
-  /// orthonormal basis of P functions. Each coordinate of a face (x, y or z) is a linear
-  /// combination of the rows.
+  /// #functions by #P: each row holds the coefficients of one coordinate function in an orthonormal
+  /// basis of P functions. A coordinate function is a scalar function on the skin. Each coordinate
+  /// of a face (x, y or z) is a linear combination of the coordinate functions.
   FloatRows basis_functions;
   FloatRows principal_directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
@@ -53,9 +53,9 @@ class FaceSpace {
   Point point(const Recipe& recipe) const;
   /// Returns the points of several recipes. Faster than separate calls of `point`.
   std::vector<Point> points(std::span<const Recipe* const> recipes) const;
-  /// Returns the point of an input head. Heads are not extrapolated, so both members of the point
-  /// are equal. If faces may be mirrored, the heads' mirror images have the numbers from
-  /// head_count() on.
+  /// Returns the point of an input head or, if faces may be mirrored, of a head's mirror image: the
+  /// mirror images have the numbers from head_count() on. Heads are not extrapolated, so both
+  /// variants of the point are equal.
   Point head_point(Index head) const;
 
   Index dimensions() const { return tables_.principal_directions.rows() + 1; }
@@ -67,7 +67,7 @@ class FaceSpace {
   /// Returns the root mean square distance between two faces in mm: the smaller of the distances
   /// with and without extrapolation.
   static double distance(const Point& a, const Point& b);
-  /// A point, and the products of the region's metric with the point's two coordinate vectors.
+  /// A point, and the products of one region's metric with both coordinate vectors of the point.
   struct RegionPoint {
     const Point* point = nullptr;
     /// the region's metric multiplied by the coordinates of `point`, #dimensions; empty if there is
@@ -106,14 +106,14 @@ class FaceSpace {
   std::size_t unmirrored_index(Index head) const {
     return static_cast<std::size_t>(head % head_count());
   }
-  /// Returns the sample that row i of the matrices belongs to. Samples of weight zero have no row.
+  /// Returns the index of the i-th sample with nonzero weight.
   Index sample_at(Index i) const { return nonzero_weight_samples_[static_cast<std::size_t>(i)]; }
   void choose_nonzero_weight_samples(const std::vector<double>& weights);
   SpanBasis smoothing_displacement_modes() const;
   template <class Value>
   void write_centred_values(const Value& value, float* row) const;
-  /// Returns scalar functions on the samples, one per row. Each coordinate (x, y or z) of a face is
-  /// a linear combination of these functions.
+  /// Returns the coordinate functions at the samples, one function per row; see FaceSpaceTables.
+  ///
   /// \param modes  orthonormal basis of the detail that smoothing removes from the heads
   FloatRows coordinate_functions(const SpanBasis& modes, const std::vector<float>& max_coefficients,
                                  const BasisRowOrder& rows) const;
@@ -135,9 +135,9 @@ class FaceSpace {
   FaceSpaceTables tables_;
   Shape mean_shape_;                ///< shape of the mean head, #P by 3
   std::vector<Shape> head_shapes_;  ///< shapes of all heads, including mirror images
-  /// The displacements α_k (S_L x_h − x_h) of the heads x_h by smoothing to level L, multiplied by
-  /// the weights α_k of region k. One #P by 3 matrix for each region, head (including mirror
-  /// images) and row of `level_coefficients`.
+  /// The displacement fields α_k (S_L x_h − x_h): the displacement of head x_h by smoothing to
+  /// level L, multiplied by the weights α_k of region k. One #P by 3 matrix for each region, head
+  /// (including mirror images) and row of `level_coefficients`.
   std::vector<float> fields_;
   FloatRows directions_transposed_;  ///< 3·#P by #D, padded with zeros to a multiple of 16 columns
   /// the region's fraction of the face's surface area; empty if there is one region

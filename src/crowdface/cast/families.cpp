@@ -15,12 +15,13 @@ constexpr std::uint32_t kFounders = 12;  ///< number of founders to try before g
 /// number of pairs of new parents that are tried until a pair matches well; if none does, kFounders
 /// further pairs are tried without this condition
 constexpr std::uint32_t kCouples = 200;
-/// number of candidates that are tried for each founder
+/// largest number of candidates that are tried for each founder
 constexpr std::uint32_t kFounderAttempts = 64;
+/// number of acceptable candidates among which the founder of a family without parents is chosen
 constexpr int kFounderCandidates = 24;
 
-/// Returns options for a face that is not part of the crowd: the face must be believable, but has
-/// no minimum distances.
+/// Returns the options of the search for a founder, who is not part of the crowd: the options have
+/// no minimum distances and no limit on weights.
 DiversityOptions without_distance_limits(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
   diversity.min_distance_to_heads_mm = 0;
@@ -80,12 +81,12 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     if (!found) continue;
     const double to_half = sampler.fraction_of_strangers_nearer_than_parent(found->point);
     // The limit grows with the number of tries. If both parents are new, a pair that matches well
-    // is soon found; if one parent is given, there may be no good match.
+    // is soon found. If one parent is given, no new parent may match well.
     const double enough =
         kMaxFractionOfNearerStrangersForFounder * (0.5 + static_cast<double>(f) / kCouples);
     if (drawn && f < kCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
-    // For twins, a hidden child (not part of the crowd) replaces the founder.
+    // For twins, a hidden child who is not part of the crowd replaces the founder.
     if (family.are_twins) {
       FaceSearch model(
           [&](std::uint32_t attempt) { return sampler.twins_prototype(cast, attempt); }, judge,

@@ -112,8 +112,8 @@ void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan fa
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
-/// Determines the third contributor, and the substitutes for the parents' heads that are outside
-/// the family's group. Called when the parents are known.
+/// Sets the distribution of the third contributor, and the substitutes for the parents' heads that
+/// are outside the family's group. Called when the parents are known.
 void FamilySampler::prepare_inheritance() {
   third_contributor_distribution_ = third_contributor_distribution();
   if (!family_.group || parents_.empty()) return;
@@ -142,9 +142,10 @@ std::vector<SourceWeight> FamilySampler::coarse_shape_of(std::size_t parent) con
   return target_substitutes_.substituted(target_head_weights(parents_[parent].face.recipe));
 }
 
-/// Returns the parameters from which the third contributor is drawn. This contributor provides what
-/// members inherit from neither parent. It is a random mixture of at least three heads that have
-/// most of the tags which both parents share, so that the child's skin tone stays plausible.
+/// Returns the distribution of the third contributor, who provides what members inherit from
+/// neither parent. The third contributor is a random mixture of heads that share the most tags with
+/// both parents (at least three heads, if there are as many), so that a child's skin tone stays
+/// plausible.
 FaceDistribution FamilySampler::third_contributor_distribution() const {
   constexpr std::size_t kMin = 3;
   FaceDistribution kind = distribution_of_group(casting_, family_.group);
@@ -223,8 +224,9 @@ const SamplingOptions& FamilySampler::sampling_of(const FacePlan& face) const {
   return casting_.sampling;
 }
 
-/// Returns the band of detail that a parent passes on. If the parent is a face, this is the band of
-/// its recipe; if the parent is a head, the head's own detail.
+/// Returns the band of detail that a parent passes on: the band of the parent's recipe or, if the
+/// parent is an input head, the head's own detail. Heads outside the family's group are replaced by
+/// similar heads of the group.
 BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, std::size_t band,
                                       const BandRecipe& random_band) const {
   BandRecipe own = random_band;
@@ -358,15 +360,15 @@ FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& family_plan,
     return FaceSpace::distance(judge_.space().point(face.recipe), family_plan.founder_point) >
            draft.distance_mm;
   };
-  // Find by bisection how far to go from the founder towards the random face.
+  // Find by bisection the mixture of the founder and the random face that has the chosen distance.
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
     const bool too_far = beyond(mixed_face(family_plan.founder, draft, t));
     if (t == 1 && !too_far) break;
     t += too_far ? -step : step;
   }
-  // The last step of the bisection may have gone beyond the chosen distance. If so, use the
-  // previous step.
+  // The face that the bisection found may lie beyond the chosen distance. If so, go back by the
+  // bisection's last step.
   FacePlan face = mixed_face(family_plan.founder, draft, t);
   if (t > step && beyond(face))
     face = mixed_face(family_plan.founder, draft, std::max(t - 2 * step, 0.0));
@@ -402,7 +404,7 @@ std::optional<Reason> FamilySampler::rejection_reason(
     const double mm = FaceSpace::distance(point, relative);
     if (mm < family_.min_distance_mm) return Reason::kFamily;
     farthest = std::max(farthest, mm);
-    // Each member found before must be nearer to this point than to any stranger, too.
+    // The earlier member `relative` must also be nearer to `point` than to any stranger.
     if (stranger_points_.nearest(relative).distance_mm <= mm) return Reason::kFamily;
   }
   if (stranger_points_.nearest(point).distance_mm <= farthest) return Reason::kFamily;

@@ -64,7 +64,8 @@ class FamilySampler {
   /// Returns candidate number `attempt` for member number `member`; members count from 1.
   FacePlan member(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
 
-  /// Returns why a point is rejected for a member of this family, nothing if it is accepted.
+  /// Returns why a face is rejected as a member of this family, given the face's point; nothing if
+  /// the face is accepted.
   ///
   /// \param members  Points of the members found so far.
   std::optional<Reason> rejection_reason(const FamilyPlan& family_plan,
@@ -88,7 +89,7 @@ class FamilySampler {
   /// The random face of one member, the member's age, and the member's distance from the founder.
   struct MemberDraft {
     FacePlan random_face;
-    double age = 0, distance_mm = 0;
+    double age = 0, distance_mm = 0;  ///< distance_mm: distance from the founder
   };
 
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
@@ -123,7 +124,7 @@ class FamilySampler {
   /// For each band, the heads of the family's group that substitute for the parents' sources
   /// outside the group. Empty: the family has no group, or no parents.
   std::vector<SubstituteHeads> source_substitutes_;
-  /// names of the parents' families, and of the families that share a parent
+  /// names of the parents' families, and of the other families that have one of these parents
   std::vector<std::string> relatives_;
   /// points of relatives (kin) and of all other faces (strangers)
   NearestFaceSearch kin_points_, stranger_points_;

@@ -22,7 +22,7 @@ class FamilySeparation {
   /// family's farthest other member. The point is too near if it lies within the radius of any
   /// member.
   ///
-  /// \param relatives  Families that are not checked.
+  /// \param relatives  Names of the families that are not checked.
   bool is_too_near_to_family(const FaceSpace::Point& point,
                              const std::vector<std::string>& relatives = {}) const;
   /// Returns why a face without relatives is rejected, given the face's point in the face space;
@@ -30,7 +30,7 @@ class FamilySeparation {
   std::optional<Reason> rejection_reason(const FaceSpace::Point& stranger) const {
     return is_too_near_to_family(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
   }
-  /// Adds a family by the points of its members.
+  /// Adds a family, given by the face-space points of the family's members.
   void add(const std::string& family, const std::vector<FaceSpace::Point>& members);
 
  private:
@@ -43,10 +43,10 @@ class FamilySeparation {
   std::vector<Member> members_;
 };
 
-/// Random faces that belong to no family. They show how near two unrelated faces are by chance.
-/// These faces have the parameters of the crowd, or of a group, and depend only on the seed and on
-/// these parameters, so that a family does not depend on the crowd's size. If no family has
-/// parents, no such faces are made.
+/// Random faces that belong to no family. Their distances from a face show how near an unrelated
+/// face can be by chance. The faces are drawn with the parameters of the crowd or of a group. They
+/// depend only on the seed and on these parameters, so that a family does not depend on the crowd's
+/// size. The set is empty if no family has parents.
 class UnrelatedFaces {
  public:
   UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space);

@@ -7,8 +7,8 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of candidates in all trials together. A trial that has begun may exceed this
-/// number, because it is always finished.
+/// Largest number of candidates in all trials together. Trials that have begun are finished, and
+/// trials continue until one succeeds, even if they exceed this number.
 constexpr std::uint64_t kMaxDraws = 200'000;
 /// Largest number of faces in a trial.
 constexpr std::uint64_t kMaxTried = 400;
@@ -20,13 +20,13 @@ double whole_hundredths(double mm) {
   return std::floor(mm * 100) / 100;
 }
 
-/// Number of trials in which meshes are judged. Such a trial takes a hundred times as long as a
-/// trial without meshes.
+/// Largest number of trials that judge whole meshes. A trial with whole meshes takes a hundred
+/// times as long as a trial without.
 constexpr int kMaxMeshTrials = 4;
 
-/// Returns a smaller distance to try, given that at distance `fails` only `reached` of `count`
-/// faces fit. The number of faces that fit is proportional to a power of the distance; the exponent
-/// is between −2.5 and −5.
+/// Returns a smaller distance to try. At the distance `fails`, only `reached` of `count` faces fit.
+/// The number of faces that fit is proportional to a power of the distance, with an exponent
+/// between −2.5 and −5.
 double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
   const double share = (static_cast<double>(reached) + 0.5) / (static_cast<double>(count) + 1);
   return fails * std::clamp(std::pow(share, 0.4), 0.6, 0.93);

@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-/// A change of the limits that would make it possible to cast a crowd which now has a shortfall.
+/// A smaller distance limit with which casting can complete a crowd that now has a shortfall.
 struct Remedy {
   /// the constraint that rejected most candidates
   Reason binding_constraint = Reason::kMinDistance;
@@ -17,13 +17,13 @@ struct Remedy {
 };
 
 /// Searches for a remedy. Casts again with smaller distances, and bisects until the smallest
-/// distance that fails is at most 8 % above the largest distance that works, or until the trials
-/// have used 200,000 candidates. The time of a trial grows with the square of the number of faces,
-/// so the trials of a large crowd cast only its first faces.
+/// distance that fails is at most 8 % above the largest distance that works. Also stops if a
+/// distance works and the trials have used 200,000 candidates. The time of a trial grows with the
+/// square of the number of faces, so trials cast at most 400 faces.
 ///
 /// \param trial_done  Called after each trial.
-/// \param find_mesh_defects  If given, the last trials also judge the candidates' meshes. If four
-///                           of these trials fail, the remedy has no distance.
+/// \param find_mesh_defects  If given, the last trials also judge the candidates' whole meshes. If
+///                           four trials with whole meshes fail, the remedy has no distance.
 Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
                    const BelievabilityOptions& believability, const ProxySkin* skin,
                    const Shortfall& shortfall, const std::function<void()>& trial_done = {},

@@ -78,7 +78,8 @@ double fixed_order_dot(const float* a, const float* b, std::size_t count) {
   return sum_of(Products{a, b}, count);
 }
 
-/// Adds scaled numbers to other numbers, stores the sums, and returns the squares of the sums.
+/// The terms that add_scaled_and_sum_squares adds up. Computing a term also adds the scaled number
+/// to the number in `to`.
 struct SquaresAfter {
   float factor;
   const float* from;
@@ -113,9 +114,10 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   for (; i < count; ++i) to[i] += factor * from[i];
 }
 
-/// Adds the products of `count` rows to kVectors vectors of sums, at kWidth groups of columns.
+/// Does the work of add_product for kVectors vectors of factors, at as many columns as kWidth SIMD
+/// vectors hold.
 ///
-/// \param stride  distance between the factors of two vectors of sums
+/// \param stride  distance between the first factors of successive vectors
 template <std::size_t kVectors, std::size_t kWidth>
 void add_product_at_columns(const float* factors, std::size_t stride, std::size_t count,
                             const float* rows, std::size_t width, float* to) {

@@ -100,7 +100,9 @@ std::optional<HairColour> parse_hair_label(std::string_view label) {
 }
 
 std::array<float, 3> reflected_light(const HairColour& colour) {
-  // Constants that were fitted to the reflectance of blond, brown, black, copper and white hair.
+  // Coefficients for red, green and blue, fitted to the reflectance of blond, brown, black, copper
+  // and white hair. kWithoutPigment is the reflectance at pigment concentrations of zero, without
+  // the reflection at the hair's surface (kSurface).
   constexpr std::array<double, 3> kWithoutPigment = {1.1, 0.78, 0.33};
   constexpr std::array<double, 3> kEumelanin = {5.3, 5.7, 5.2}, kPheomelanin = {0.5, 1.6, 2.8};
   constexpr std::array<double, 3> kWhite = {0.375, 0.352, 0.322};

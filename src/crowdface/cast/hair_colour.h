@@ -43,10 +43,10 @@ HairColour hair_colour_for(const HairColour& hair, Tint tint);
 /// Rounds the values of a colour to steps that are hardly visible, so that many faces have exactly
 /// the same colour.
 HairColour rounded_colour(const HairColour& colour);
-/// Whether each pigment of the rounded colour is at most one step away from the same pigment of
-/// `named`. The fraction of grey is not compared.
+/// Returns whether each pigment of the rounded colour is at most one step away from the same
+/// pigment of `named`. The fraction of grey is not compared.
 bool is_shade_of(const HairColour& rounded, const HairColour& named);
-/// Whether a viewer would take two colours for the same at first sight.
+/// Returns whether two colours look the same at first sight.
 bool are_alike(const HairColour& a, const HairColour& b);
 
 /// Returns a label such as "e55p10g20", which contains the three values in percent, for names of
@@ -57,11 +57,13 @@ std::optional<HairColour> parse_hair_label(std::string_view label);
 
 /// Mean value of neutral textures in linear RGB. As 8-bit sRGB, this is 170.
 inline constexpr float kNeutralTextureMean = 0.4F;
-/// Mean light that hair of this colour reflects, in linear RGB: the light that the pigments do not
-/// absorb (Beer-Lambert law), plus a constant fraction that the surface of the hair reflects.
+/// Returns the mean light that hair of this colour reflects, in linear RGB, at most
+/// kNeutralTextureMean. A pigmented hair reflects the light that the pigments do not absorb
+/// (Beer-Lambert law), plus a constant fraction at the hair's surface. A hair without pigment
+/// reflects a constant fraction.
 std::array<float, 3> reflected_light(const HairColour& colour);
-/// Factors, at most 1, on the linear RGB values of a neutral texture. Multiplying by these factors
-/// gives the texture this hair colour.
+/// Returns the factors, at most 1, by which the linear RGB values of a neutral texture are
+/// multiplied to give the texture this hair colour.
 std::array<float, 3> tint_factors(const HairColour& colour);
 
 }  // namespace crowdface

@@ -21,8 +21,8 @@ HairColour mix(const HairColour& a, const HairColour& b, double share) {
           a.grey_fraction + share * (b.grey_fraction - a.grey_fraction)};
 }
 
-/// Returns the index of the share that a random number from 0 to 1 selects. Returns −1 if the
-/// number exceeds the sum of the shares.
+/// Chooses an index at random; `shares` are the probabilities of the indices. Returns −1 if the
+/// random number `drawn` (0 … 1) exceeds the sum of the shares.
 int share_at(const std::vector<double>& shares, double drawn) {
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (drawn < shares[i]) return static_cast<int>(i);
@@ -74,7 +74,7 @@ std::string HairChooser::key_in_hair_colours(const FacePlan& face) const {
 }
 
 /// Returns the colour that `hair_colours` gives the face. Among all faces in `entries_of_faces_`
-/// with the same entry, each colour has the fraction that the config specifies.
+/// with the same key, each colour has the fraction that the config specifies.
 std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face) {
   const std::string entry = key_in_hair_colours(face);
   const auto shares = options_.hair_colours.find(entry);
@@ -146,9 +146,9 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
   return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
 }
 
-/// Returns the apparent age of a face, from 0 (young) to 1 (old): the mean over the heads, by their
-/// tags. As in a face's textures, half of the weight goes to the target, the other half to the heads
-/// that lend the finest detail.
+/// Returns the apparent age of a face, from 0 (young) to 1 (old): the weighted mean of the heads'
+/// ages, which are estimated from the heads' tags. As in a face's textures, half of the weight goes
+/// to the target, the other half to the heads that lend the finest detail.
 double HairChooser::apparent_age(const Recipe& recipe) const {
   const auto of_head = [&](Index head) {
     const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];

@@ -14,7 +14,8 @@
 
 namespace crowdface {
 
-/// The parameters of HairChooser. Its members have the same meaning as in AttachmentOptions.
+/// The parameters of HairChooser. The members have the same meaning as the members of
+/// AttachmentOptions.
 struct HairOptions {
   std::uint64_t seed = 1;
   HeadTags tags;                        ///< the tags of each head
@@ -51,13 +52,14 @@ class HairChooser {
     std::string key;               ///< key of the entry in `hair_colours`
     std::uint64_t face_index = 0;  ///< index of the face among the faces with this key
   };
-  std::map<std::string, EntryOfFace> entries_of_faces_;  ///< by the face's id
-  /// by key in `hair_colours`: number of faces with this key
+  /// by the face's id; contains only the faces that inherit no colour
+  std::map<std::string, EntryOfFace> entries_of_faces_;
+  /// by key in `hair_colours`: number of faces in `entries_of_faces_` with this key
   std::map<std::string, std::uint64_t> entry_sizes_;
-  /// By key in `hair_colours`: for each face with this key, the index of the face's colour among
-  /// the key's colours. −1: the face has none of these colours.
+  /// By key in `hair_colours`: for each face in `entries_of_faces_` with this key, the index of the
+  /// face's colour among the entry's colours. −1: the face has none of these colours.
   std::map<std::string, std::vector<int>> colour_indices_;
-  /// hair colours without the grey of age, by face
+  /// hair colours without the grey of age, by the face's id
   std::map<std::string, HairColour> base_colours_;
   std::map<std::string, HairColour> family_colours_;  ///< hair colours of families, by family
 };

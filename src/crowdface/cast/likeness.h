@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// Another face, and the distance to it.
+/// A face that is similar to another face, and the distance between both faces.
 struct Neighbour {
   std::size_t face = 0;
   double distance_mm = 0;

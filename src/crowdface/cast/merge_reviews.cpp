@@ -15,9 +15,9 @@ const char* verb_of(const ReviewMark& mark) {
   return mark.locked_bands.empty() ? "rejects it" : "rejects it and locks parts";
 }
 
-/// Prepares a later review for use after an earlier review, whose results the later reviewer did
-/// not see. Removes from the later review what the earlier review already requests, and notes
-/// conflicts.
+/// Adapts a later review to an earlier review, if the later reviewer did not see the results of the
+/// earlier review. Removes from the later review all requests that the earlier review contains, and
+/// notes conflicts.
 class Merging {
  public:
   Merging(const Review& earlier, std::size_t earlier_number, Review& later,
@@ -72,8 +72,8 @@ class Merging {
     }
   }
 
-  /// Clears `value` if the other change sets the same value. If the other change sets a different
-  /// value, adds a conflict.
+  /// Clears `value`, a value of the later change, if the earlier change sets the same value
+  /// (`other`). Adds a conflict if the earlier change sets a different value.
   template <class Value>
   void merge(const char* key, const std::string& id, const Value& other, Value& value) {
     if (other == Value() || value == Value()) return;

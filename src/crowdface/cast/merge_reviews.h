@@ -11,7 +11,8 @@ namespace crowdface {
 /// Reviews to apply one after the other.
 struct MergedReviews {
   std::vector<Review> reviews;
-  /// Disagreements between reviews that were made at the same time, one line of text for each face.
+  /// Disagreements between reviews whose reviewers did not see each other's results, one line of
+  /// text for each disagreement.
   std::vector<std::string> conflicts;
 };
 

@@ -8,11 +8,12 @@ namespace crowdface {
 
 /// Returns (1 − t)·a + t·b.
 double mixed(double a, double b, double t);
-/// Returns (1 − t)·a + t·b for all values of the two bands.
+/// Returns (1 − t)·a + t·b for the weights, the smoothness and the extrapolation of two bands. The
+/// result has no position on the weight plane.
 BandRecipe mixed(const BandRecipe& a, const BandRecipe& b, double t,
                  const SmoothingLevelScale& scale);
-/// Returns (1 − t)·from + t·to for targets, asymmetry and all bands. Mirroring is taken from
-/// `from`, everything else from `to`.
+/// Mixes two recipes: returns (1 − t)·from + t·to for the targets, the asymmetry and all bands. The
+/// result is mirrored like `from`; all other values come from `to`.
 Recipe mixed(const Recipe& from, const Recipe& to, double t, const SmoothingLevelScale& scale);
 
 }  // namespace crowdface

@@ -70,8 +70,8 @@ void PointTree::search(const std::vector<float>& query, Index begin, Index end,
 void PointTrees::add(const Eigen::VectorXf& point) {
   newest_points_.add(size_++, newest_points_.padded_query(point).data());
   if (newest_points_.size() < kMaxNewestPoints) return;
-  // Merge the newest points with the last tree, then with the tree before, and so on, as long as
-  // the next tree contains no more points than the merged set.
+  // Merge the newest points with the last tree, then with the second last tree, and so on, as long
+  // as the next tree contains no more points than the merged set.
   std::vector<const PointBlocks*> joined = {&newest_points_};
   Index count = newest_points_.size();
   std::size_t kept = trees_.size();

@@ -107,12 +107,13 @@ class NearestFaceSearch {
   /// `limit_mm`.
   ///
   /// \param end        If negative, the number of faces.
-  /// \param sufficient_distance_mm  The search ends at the first face that is nearer than this.
+  /// \param sufficient_distance_mm  The search ends at the first face that is nearer than this
+  ///                                distance.
   NearestFace nearest(const FaceSpace::Point& point, double limit_mm = HUGE_VAL, Index begin = 0,
                       Index end = -1, double sufficient_distance_mm = 0) const;
 
  private:
-  /// one set of trees for each variant of the points, see FaceSpace::Point
+  /// the points of the faces, with and without extrapolation; see FaceSpace::Point
   PointTrees trees_with_extrapolation_, trees_without_extrapolation_;
   /// whether at least one face has an extrapolation factor other than 1
   bool has_extrapolated_faces_ = false;

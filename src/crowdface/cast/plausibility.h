@@ -16,8 +16,8 @@ namespace crowdface {
 class Plausibility {
  public:
   explicit Plausibility(const FaceSpace& space);
-  /// Returns how unusual a face is: its Mahalanobis distance divided by the typical distance. A
-  /// larger score is less plausible. 1: as unusual as a typical real head.
+  /// Returns how unusual a face is: the face's Mahalanobis distance divided by the typical
+  /// distance. A larger score is less plausible. 1: as unusual as a typical real head.
   double score(const FaceSpace::Point& point) const;
 
  private:

@@ -36,8 +36,8 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
                                                   float bound) const {
   Lanes sums = {};
   for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
-    // The sums only grow. Once all sums exceed the bound, no point of the block can be nearer than
-    // the bound.
+    // The sums only grow, so once all sums exceed the bound, no point of the block is within the
+    // bound.
     if (!add_squares(query.data() + chunk, &chunk_of(chunk)[chunk_offset(block * kLanes, chunk)],
                      kChunk, bound, sums.data())) {
       sums.fill(HUGE_VALF);

@@ -6,8 +6,8 @@
 namespace crowdface {
 namespace {
 
-/// Margin by which the triangles' bounding boxes on the mean head grow on all sides. Two triangles
-/// are checked for intersection if the enlarged boxes overlap.
+/// Margin by which the bounding boxes of the mean head's triangles grow on all sides. Two triangles
+/// are checked for intersection only if the enlarged boxes overlap.
 constexpr double kReach = 3;  // in mm
 /// Triangles at most this many edges apart count as neighbours. The intersection check skips
 /// neighbours, because the check for flips already detects folds between neighbours.
@@ -33,7 +33,7 @@ void mark_neighbourhood(const Adjacency& adjacency, const Triangle& t, std::uint
 }
 
 /// Returns the pairs of triangles that lie near each other on the mean head, without the pairs that
-/// are also near along the surface.
+/// are neighbours (see kNeighbourEdges).
 std::vector<TrianglePair> nearby_non_adjacent_pairs(const std::vector<Triangle>& triangles,
                                                     const Positions& mean) {
   const Adjacency adjacency = build_adjacency(topology_of(triangles, mean.rows()));

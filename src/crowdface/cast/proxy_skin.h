@@ -30,11 +30,11 @@ class ProxySkin {
   /// \param samples  #S by 3, samples of the target in millimetres
   ReferenceSkin make_reference_skin(const Positions& samples) const;
 
-  /// Returns the number of triangles that take part in intersections that the reference skin does
-  /// not have.
+  /// Returns the number of triangles that take part in intersections which the reference skin does
+  /// not have. Considers only pairs of triangles that are near each other on the mean head but are
+  /// not neighbours, as at lips, lids, nostrils and folds.
+  ///
   /// \param samples  #S by 3, samples of the face in millimetres
-  /// Considers only pairs of triangles that are near each other on the mean head but are not
-  /// neighbours, as at lips, lids, nostrils and folds.
   Index count_newly_intersecting_triangles(const Positions& samples,
                                            const ReferenceSkin& reference) const;
 

@@ -33,7 +33,7 @@ struct FaceChange {
   std::string id;
   std::optional<AgeStep> age_step;
   std::optional<double> age;  ///< age from −1 to 1, see apply_age; not together with `age_step`
-  /// id of another face; this face becomes a variant of that face
+  /// id of the face of which this face becomes a variant
   std::optional<std::string> variant_of;
   double variant_distance_mm = 1.5;  ///< distance between this face and `variant_of`
   std::optional<std::string> group;  ///< group in which the face is redrawn
@@ -65,7 +65,7 @@ struct Review {
   /// Faces with larger numbers are cast after the review, so that a larger crowd changes no
   /// reviewed face. Empty: the whole crowd was reviewed.
   std::optional<std::uint64_t> reviewed_face_count;
-  /// Number of reviews, from the start of the list of reviews, whose results the reviewer saw; see
+  /// The reviewer saw the results of this number of reviews, from the start of the list; see
   /// merged_reviews. Empty: the reviewer saw the results of all earlier reviews.
   std::optional<std::uint64_t> review_count_seen_by_reviewer = {};
   /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes,

@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 void find_stretches(SampledHeads& sampled) {
-  // join ranges that are at most this far apart, because a short gap costs less than another range
+  // ranges at most this far apart are joined, because a short gap costs less than another range
   constexpr Index kGap = 8;
   for (Index k = 0; k < sampled.region_weights.cols(); ++k) {
     auto& sample_ranges = sampled.sample_ranges.emplace_back();
@@ -52,13 +52,13 @@ Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
 
 Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
   Positions face = target_samples(heads, recipe);
-  // Single precision saves time (casting calls this for every accepted face), and is precise
-  // enough.
+  // The displacements have single precision, which is precise enough and saves time: casting calls
+  // this function for every accepted face.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     std::fill(change.begin(), change.end(), 0.F);
-    // Add the displacements S_L G − G at the region's samples, for each level L of the region (see
-    // weights_by_level).
+    // For each level L of the region (see weights_by_level), add the displacements S_L G − G of the
+    // region's samples by smoothing. G is the sum of the heads, weighted with the level's weights.
     for (const LevelWeights& at : weights_by_level(recipe, k)) {
       for (const WeightedTrajectoryRow& level : interpolation_rows(heads.levels, at.level)) {
         for (const SourceWeight& part : at.weights) {

@@ -21,8 +21,8 @@ struct SampledHeads {
   Columns region_weights;  ///< #S by #regions: each region's weight at each sample
   /// for each head, the displacements of the samples at all stored smoothing levels
   std::span<const Trajectory> trajectories;
-  /// For each region, the ranges [begin, end) of samples with nonzero weight. Regions are patches,
-  /// and samples are ordered along a space-filling curve, so there are few ranges.
+  /// For each region, ranges [begin, end) that contain all samples with nonzero weight. Loops over
+  /// a region's samples skip the other samples.
   std::vector<std::vector<std::pair<Index, Index>>> sample_ranges;
   std::vector<std::uint64_t> levels;  ///< smoothing level of each row of the trajectories
   double mm_per_unit = 1;             ///< millimetres per unit of the trajectories

@@ -38,8 +38,8 @@ struct PositionDistribution {
   std::optional<Eigen::Index> head;
   double radius = 0;  ///< kAround: radius of the disc, in units of the weight plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed: the position
-  /// kAnchored: the largest step from the anchor towards a random point of the hull, as a fraction
-  /// of the distance to this point. With 0, the position stays at the anchor.
+  /// kAnchored: the largest distance from the anchor, as a fraction of the distance between the
+  /// anchor and the random point of the hull. 0: the position is always the anchor.
   double pull = 0.25;
 };
 
@@ -170,7 +170,7 @@ struct ManualRecipe {
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
-  /// The values of the region. They apply to all bands that have no values of their own. Exception:
+  /// The values of a region, which apply to all bands that have no values of their own. Exception:
   /// the region's smoothness applies only to the first band.
   struct Region : Band {
     std::vector<Band> bands;  ///< one entry for each band, or empty

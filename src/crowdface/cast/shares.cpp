@@ -17,14 +17,14 @@ std::uint64_t floor_share(double share, std::uint64_t n) {
   return static_cast<std::uint64_t>(std::floor(share * static_cast<double>(n) + kRounding));
 }
 
-/// Returns the deadline for the m-th face of a share: the smallest n such that the share must have
+/// Returns the deadline for the m-th face of a share: the smallest n for which the share must have
 /// at least m of the first n faces.
 std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether face `n` must be assigned to a share, because otherwise the shares q could not
-/// all get ⌊q·m⌋ of the first m faces, for some m from n to n + horizon.
+/// Returns whether face `n` must be assigned to some share. Otherwise, the shares could not get all
+/// their faces (⌊q·m⌋ of the first m faces for share q), for some m from n to n + horizon.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -35,8 +35,8 @@ bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::ui
   return false;
 }
 
-/// Returns whether each share q can still get at least ⌊q·m⌋ of the first m faces, for all m from n
-/// to n + horizon.
+/// Returns whether all shares can still get their faces: at least ⌊q·m⌋ of the first m faces for
+/// share q, for all m from n to n + horizon.
 bool can_serve(const std::vector<double>& shares, const std::vector<std::uint64_t>& served,
                std::uint64_t n, std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {

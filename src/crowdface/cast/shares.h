@@ -20,8 +20,8 @@ namespace crowdface {
 /// \param shares  fractions of the faces; they sum to at most 1.
 std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_t count);
 
-/// Like schedule_shares, but in random order: each face is assigned at random to one of the shares
-/// (or to no share), but only so that all shares can still get their faces. Of the first n faces,
+/// Like schedule_shares, but in random order: each face is assigned at random to a share (or to no
+/// share), among the choices with which all shares can still get their faces. Of the first n faces,
 /// share q gets ⌊q·n⌋ or ⌈q·n⌉.
 ///
 /// \param shares   fractions of the faces; they sum to at most 1.

@@ -25,11 +25,12 @@ struct SkinOptions {
   std::set<std::string> twin_families = {};
 };
 
-/// Gives each face with parents its own colours, Recipe::colours. The tone of the face's skin then
-/// lies between the tones of its parents, at a random fraction from 0.3 to 0.7. The colours are a
-/// mixture of two heads that gives this tone with the least possible skin of another sex or age
-/// class; among equal mixtures, the heads with the most similar tones are taken. Colours that the
-/// face already has stay if their tone lies in this range.
+/// Gives each face with parents its own colours, Recipe::colours. The tone of the face's skin is a
+/// random tone between the parents' tones, at a fraction from 0.3 to 0.7 of the way. The colours
+/// are a mixture of two heads with this tone. Of all such mixtures, the function chooses the
+/// mixture that differs least from the face's typical head in sex and age, then the mixture whose
+/// heads have the most similar tones. A face keeps the colours that it already has if their tone
+/// lies in this range.
 ///
 /// \param crowd  In the order of the plan: parents before children.
 void choose_skin_colours_of_children(const SkinOptions& options, std::vector<FacePlan>& crowd);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kCandidatesAtATime = 256;
 
-/// Returns the squared distance. If it exceeds `limit`, returns an arbitrary value above `limit`.
+/// Returns the squared distance between two points, or an arbitrary value above `limit` if the
+/// squared distance exceeds `limit`.
 double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
   constexpr Index kLanes = 8, kChunk = 32;
   double sum = 0;
@@ -135,7 +136,8 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
     FarthestPoints::Pick pick = points.farthest(group_index);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      // the index that the face has in the crowd if this candidate is picked
+      // the number of the sampled face that this candidate becomes if the search picks the
+      // candidate
       pool.faces[at].index = index;
       std::optional<Reason> why = judge.check_traits(pool.faces[at]);
       if (!why) why = judge.check_skin(pool.faces[at].recipe);

@@ -13,8 +13,9 @@
 
 namespace crowdface {
 
-/// A pool of candidates. Each candidate satisfies all constraints except the minimum distance from
-/// other faces of the crowd.
+/// A pool of candidates. Each candidate has passed FaceJudge::check_candidate and the limits on
+/// approximate measurements. The skin, the exact measurements and the distances from other faces
+/// are checked later.
 struct CandidatePool {
   std::vector<FacePlan> faces;
   std::vector<FaceSpace::Point> points;
@@ -22,8 +23,8 @@ struct CandidatePool {
   Rejections rejections;
 };
 
-/// Generates a pool of `count` · `pool_size_factor` candidates. Groups have the same proportions in
-/// the pool as in the crowd.
+/// Generates a pool of at most `count` · `pool_size_factor` candidates. Groups have the same
+/// proportions in the pool as in the crowd.
 ///
 /// \param distributions  Distribution of the faces without a group, then of each group's faces.
 CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
@@ -45,8 +46,9 @@ class FarthestPoints {
     /// distance to the nearest picked or initial face; infinite if there is no such face
     double distance_mm = 0;
   };
-  /// Returns the farthest candidate of a group (−1: of the candidates without a group). Does not
-  /// pick this candidate.
+  /// Returns the farthest candidate of a group, without picking this candidate.
+  ///
+  /// \param group_index  −1: the candidates without a group.
   Pick farthest(int group_index) const;
   /// Picks a candidate, and updates the distances of all other candidates.
   void pick(Index candidate);
@@ -60,7 +62,8 @@ class FarthestPoints {
   std::vector<bool> removed_;
 };
 
-/// Casts faces 1 … count: generates a pool of candidates, and picks the faces by FarthestPoints.
+/// Casts the sampled faces 1 … count in spread mode: generates a pool of candidates, and picks the
+/// faces by FarthestPoints.
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
                  const std::vector<FaceDistribution>& distributions,
                  const FamilySeparation& family_separation, CrowdSoFar& crowd,

@@ -10,8 +10,9 @@
 namespace crowdface {
 namespace {
 
-/// Returns the mean of the heads' points in face space: of the heads inside a group, or of the
-/// heads outside the group.
+/// Returns the mean point of several heads in face space.
+///
+/// \param inside  true: the heads of the group; false: all other heads.
 Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
   Eigen::VectorXf sum = Eigen::VectorXf::Zero(space.dimensions());
   float count = 0;

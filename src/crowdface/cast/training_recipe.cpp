@@ -33,8 +33,9 @@ Recipe random_training_recipe(const SampledHeads& heads, std::size_t bands, std:
       }
       band.weights = normalized_weights(std::move(weights));
       const auto [level, factor] = draw(purpose, 3);
-      // Each finer band begins at a random size, distributed uniformly below the size at which the
-      // coarser band begins. A band's size is proportional to √L.
+      // A band begins at a number of iterations L; the size of the band's detail is proportional to
+      // √L. The L of the first band is uniform. The size of each finer band is uniform below the
+      // size of the next coarser band.
       band.iterations = static_cast<std::uint64_t>(b == 0 ? level * most : level * level * most);
       band.extrapolation = 0.6 + 0.8 * factor;
       most = static_cast<double>(band.iterations);

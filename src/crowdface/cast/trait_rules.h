@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// Finds the limits on measurements that apply to each face of a crowd, and checks the face.
+/// Finds the limits on measurements that apply to a face of a crowd, and checks the face against
+/// these limits.
 class TraitRules {
  public:
   /// \param measurer, casting  must outlive this object.
@@ -17,11 +18,12 @@ class TraitRules {
       : measurer_(measurer), casting_(casting) {}
 
   /// Returns the limits that apply to a face. A hand-written face has the limits of its recipe. A
-  /// member of a family has the limits of the family and of the family's group. A face in a group
-  /// has the group's limits. Any other face has the crowd's limits. A face without an id (which is
-  /// not part of the crowd) has no limits.
+  /// member of a family has the limits of the family and of the family's group (or of the crowd). A
+  /// face in a group has the group's limits. All other faces have the crowd's limits, except faces
+  /// without an index and an id, which are not part of the crowd and have no limits.
   TraitLimits limits_of(const FacePlan& face) const;
-  /// Checks a face against its limits. Returns nothing if the landmarks meet the limits.
+  /// Checks a face against the limits of the face. Returns nothing if the landmarks meet the
+  /// limits.
   ///
   /// \param landmarks  from FaceMeasurer::landmarks or exact_landmarks
   std::optional<Reason> check(const FacePlan& face, const Positions& landmarks) const;

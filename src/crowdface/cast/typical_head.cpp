@@ -20,7 +20,7 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
   std::pair<double, double> best;
   Index typical = -1;
   // The score of a head is a sum over its tags: the total weight of the mixture's heads that have
-  // the tag, minus the total weight of the heads that do not.
+  // the tag, minus the total weight of the heads that lack the tag.
   for (const SourceWeight& part : recipe.mixture) {
     double agrees = 0;
     for (const std::string& tag : tags[static_cast<std::size_t>(part.head)]) {

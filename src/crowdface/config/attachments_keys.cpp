@@ -150,8 +150,8 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
   }
 }
 
-/// Returns the first item whose kind, name or colour is this word; null if there is no such item. A
-/// quota for the word is a quota for attachments of this item's kind.
+/// Returns the first item whose kind, name or colour is this word; null if there is no such item.
+/// The kind of this item is the kind to which a quota for the word applies.
 const Attachment* first_item_matching(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(attachments.items, [&](const Attachment& item) {
     return matches_kind_name_or_colour(item, word);

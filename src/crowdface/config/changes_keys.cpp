@@ -187,8 +187,8 @@ const Keys<FaceChange>& change_keys() {
   return keys;
 }
 
-/// Adds a complaint if keys of a change contradict each other, or if they cannot be used for this
-/// face.
+/// Adds a complaint if two keys of a change contradict each other, or if a key cannot be used for
+/// this face.
 void check_change(const YamlEntry& entry, const FaceChange& change, ConfigDraft& draft) {
   const YamlNode& node = entry.value;
   if (node.entries.empty()) {

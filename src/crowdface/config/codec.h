@@ -58,9 +58,10 @@ Codec<double> positive_length(double high_mm);
 Codec<double> nonzero(const Codec<double>& codec, const std::string& expected);
 /// Codec for a range, given as `[low, high]` or as one value, which is then both ends.
 Codec<Range> range(const Codec<double>& value_codec);
-Codec<Range> asymmetry();  ///< from 0 to kMaxAsymmetry
-/// from −1 to 1; an age below 0 needs heads with the tag `young`, an age above 0 heads with the tag
-/// `old`
+/// Codec for the factor on left-right differences, from 0 to kMaxAsymmetry.
+Codec<Range> asymmetry();
+/// Codec for an age from −1 (young) to 1 (old). Refuses ages below 0 if no head has the tag
+/// `young`, and ages above 0 if no head has the tag `old`.
 Codec<Range> age();
 /// Codec for the extrapolation factor e, from −kMaxExtrapolation to kMaxExtrapolation.
 Codec<Range> extrapolation();
@@ -70,11 +71,13 @@ Codec<SmoothnessDistribution> smoothness();
 /// Codec for a smoothness, given as a whole number of smoothing iterations or as a range of such
 /// numbers.
 Codec<SmoothnessDistribution> smoothness_in_iterations();
+/// Codec for a name; see read_name.
 Codec<std::string> name();
 /// Codec for a text that is not empty.
 ///
 /// \param expected  what messages name as the expected value, such as "an image file".
 Codec<std::string> text(const std::string& expected);
+/// Codec for a head, given by its name.
 Codec<Eigen::Index> head();
 /// Codec for a list of heads, each given by its name or by a tag, or `all`. The result is ascending
 /// and has no duplicates.
@@ -82,6 +85,7 @@ Codec<std::vector<Eigen::Index>> head_list();
 /// Codec for heads with weights, given as a mapping `{head or tag: weight}` or as a list (see
 /// head_list; every weight is then 1).
 Codec<std::vector<WeightedHead>> weighted_heads();
+/// Codec for a point of the weight plane, given as `[x, y]`.
 Codec<PlanePoint> plane_point();
 /// Writes weights as "{head: weight}".
 std::string write_weights(const std::vector<WeightedHead>& weights, const WriteContext& context);

@@ -20,8 +20,9 @@ class Complaints {
   };
 
   void add(const YamlPlace& place, std::string message, ExitCode exit_code = ExitCode::kUsage);
-  /// Adds the complaint "PATH: WHAT" at a node's place in the file, unless the node was already
-  /// refused (Kind::kRefused).
+  /// Adds the complaint "PATH: MESSAGE" at the node's place in the file, where PATH is the node's
+  /// path of keys. Adds nothing if the node has the kind kRefused, because such a node already has
+  /// a complaint.
   void add_at(const YamlNode& node, const std::string& message,
               ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: expected EXPECTED, found …" at a node's place in the file.
@@ -29,7 +30,9 @@ class Complaints {
   /// \return `nullopt`, so that a function that reads a value can return the result of this call.
   std::nullopt_t add_mismatch(const YamlNode& node, const std::string& expected);
   /// Returns whether the node is a list (expect_list) or a mapping (expect_map). If not, adds the
-  /// complaint "expected WHAT".
+  /// complaint of add_mismatch.
+  ///
+  /// \param message  what the complaint names as the expected value, such as "a list of tags".
   bool expect_list(const YamlNode& node, const std::string& message);
   bool expect_map(const YamlNode& node, const std::string& message);
 

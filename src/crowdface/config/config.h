@@ -40,8 +40,8 @@ enum class Align {
 
 /// Whether a crowd gets a gallery page, on which users select faces.
 enum class Gallery {
-  kAuto,  ///< a gallery is made if there are pictures and this build contains the page
-  kNone,
+  kAuto,  ///< a gallery, if the crowd has pictures and this build contains the gallery page
+  kNone,  ///< no gallery
 };
 
 /// The weights with which the heads' textures are blended into a face's textures: the weights that
@@ -50,17 +50,17 @@ enum class ColourWeights { kRecipe, kSampled };
 
 /// Which textures a new face gets.
 enum class TextureBlend {
-  kAuto,    ///< a blend of the heads' textures, if the heads' textures differ
+  kAuto,    ///< a blend of the heads' textures, or kTarget if these textures do not differ
   kTarget,  ///< the textures of the face's target
-  kNone,    ///< no textures in pictures; the written files are the same as with kTarget
+  kNone,    ///< the same as kTarget, but rendered images show no textures
 };
 /// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };
 /// Whether rendered images show textures.
 enum class SheetTexture {
-  kAuto,  ///< if at least one head has textures
-  kYes,
-  kNo,
+  kAuto,  ///< images show textures if at least one head has textures
+  kYes,   ///< images show textures; it is an error if no head has textures
+  kNo,    ///< images show no textures
 };
 
 /// How the smoothed versions of each head are represented.
@@ -78,7 +78,8 @@ struct MaterialAppearance {
   std::optional<std::array<std::uint8_t, 3>> colour;  ///< sRGB; none: the default colour of `kind`
 };
 
-/// What a line of text below a rendered image shows.
+/// What a line of text below a rendered image of a face shows. kNearest is the nearest face of the
+/// crowd, kNearestHead is the nearest head, and kTags are the tags of the face's target.
 enum class SheetLabel {
   kId,
   kFamily,
@@ -89,7 +90,7 @@ enum class SheetLabel {
   kTags,
   kAttachments
 };
-/// The order of the faces on contact sheets.
+/// The order of the faces on contact sheets. With kLikeness, similar faces are side by side.
 enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
 enum class SheetFormat { kPng, kExr, kPdf };
 
@@ -110,7 +111,7 @@ struct Config {
 
   struct Faces {
     std::vector<std::filesystem::path> files;  ///< one file for each head
-    std::vector<std::string> names;            ///< name of each head, from names_of_heads
+    std::vector<std::string> names;            ///< name of each head, made from its file's path
     /// unit of the heads' positions; required in the config, never guessed
     LengthUnit units = LengthUnit::kCentimetre;
     Axis up = {1, 1};
@@ -122,18 +123,21 @@ struct Config {
   struct Regions {
     /// names of the regions; empty: the whole head is one region, "all"
     std::vector<std::string> names;
-    /// paths of images, which may contain <UDIM>; the images' channels belong to the regions in
-    /// order
+    /// paths of mask files: images (a path may contain <UDIM>) or tables of vertex weights;
+    /// region_weights assigns the channels of these files to the regions
     std::vector<std::string> mask;
   } regions;
 
   struct Smoothing {
-    double max_size_mm = 240;  ///< smoothing can remove detail up to this size (wavelength)
-    std::optional<std::uint64_t> max_iterations;  ///< if set, replaces max_size_mm
+    double max_size_mm = 240;  ///< largest size (wavelength) of detail that smoothing can remove
+    /// largest number of smoothing iterations; if set, max_size_mm has no effect
+    std::optional<std::uint64_t> max_iterations;
     Boundary boundary = Boundary::kFixed;
     OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< value of the key `operator`
     LevelRepresentation levels = LevelRepresentation::kBasis;
-    double tolerance_mm = 0.05;  ///< `levels: basis`: largest error at any vertex and level
+    /// with `levels: basis`: largest distance between a vertex of a smoothed head and the vertex's
+    /// approximation by displacement fields
+    double tolerance_mm = 0.05;
   } smoothing;
 
   struct Blending {
@@ -147,6 +151,8 @@ struct Config {
   struct Parts {
     bool follow_skin = true;  ///< false with `parts: none`: everything is blended like skin
     PartShape shape = PartShape::kTarget;
+    /// Names of the components that are blended (skin), move rigidly (rigid), or have vertices that
+    /// follow the skin (bound). crowdface classifies all other components.
     std::vector<std::string> skin, rigid, bound;
     /// Groups of parts. The parts of each group move together as one rigid part.
     std::vector<std::vector<std::string>> together;
@@ -186,7 +192,8 @@ struct Config {
     /// file that lists the body's vertices at the ring; empty: the vertices are an open border of
     /// the body
     std::filesystem::path body_rim;
-    double falloff_mm = 60;  ///< faces are bent to fit the ring up to this height above the ring
+    /// distance from the ring, along the skin, over which a face is bent to fit the ring
+    double falloff_mm = 60;
     /// the body's colour texture, which is tinted for each face; empty: none
     std::filesystem::path body_texture;
     bool show_body = false;   ///< whether pictures show the body
@@ -199,7 +206,7 @@ struct Config {
   /// An attachment that a face may wear, such as hair or glasses. Each attachment is a separate
   /// mesh.
   struct Attachment : AttachmentItem {
-    std::filesystem::path file;
+    std::filesystem::path file;  ///< OBJ file of the attachment's mesh
     AttachmentMove moves = AttachmentMove::kBend;
   };
   struct Attachments {
@@ -207,7 +214,7 @@ struct Config {
     /// items were fitted to the mesh `file` (with the heads' topology) or, without `file`, to the
     /// mean of the heads.
     std::optional<Eigen::Index> fitted_head;
-    std::filesystem::path file;
+    std::filesystem::path file;  ///< see `fitted_head`; empty: none
     std::vector<Attachment> items;
     /// by kind: fraction of the faces that wear no item of the kind (key `none`)
     std::map<std::string, double> fraction_without_item_by_kind;
@@ -241,7 +248,8 @@ struct Config {
   /// Which vertices count when the distance between two faces is measured.
   struct Distance {
     FaceArea area = FaceArea::kFront;
-    /// path of an image, may contain <UDIM>; the first channel is the vertices' weight
+    /// path of a mask file: an image (the path may contain <UDIM>) or a table of vertex weights;
+    /// the first channel gives the weight of each vertex
     std::optional<std::string> mask;
   } distance;
   DiversityOptions diversity;
@@ -264,7 +272,8 @@ struct Config {
 
   struct Reviews {
     std::vector<std::filesystem::path> files;
-    /// the text of each file; the key `count` is added to a text that lacks this key
+    /// the text of each file; the keys `count` and `min_distance` are added if they are missing and
+    /// their values are known
     std::vector<std::string> texts;
     std::vector<std::string> original_texts;  ///< the unchanged text of each file
     std::vector<Review> reviews;              ///< the review read from each file
@@ -275,7 +284,8 @@ struct Config {
   /// none
   std::filesystem::path edits;
 
-  /// The mesh with which each face is compared, vertex by vertex; a colour map shows the distances.
+  /// The mesh with which each face is compared, vertex by vertex: the face's target (kTarget), the
+  /// nearest face of the crowd (kNearest), or `file`. A colour map shows the distances.
   struct MeshComparison {
     enum class Reference { kNothing, kTarget, kNearest, kFile } reference = Reference::kNothing;
     /// a mesh, or the folder of another crowd whose faces have the same ids

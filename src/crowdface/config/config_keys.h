@@ -21,6 +21,8 @@ struct StarterLines {
   std::string comment_beside = {};  ///< comment after the value, on the same line
   std::string comment_above = {};   ///< comment on the lines before the key
 };
+/// A function that returns a key's part of a starter config; nothing: the starter config does not
+/// contain the key.
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
 /// One row, which describes one key, of the tables in docs/config.md.
@@ -74,9 +76,11 @@ struct Key {
     key.accepted_values = values;
     return key;
   }
-  /// Documents a value that is a mapping.
+  /// Returns a copy of this key for a value that is a mapping: `rows` then returns the
+  /// documentation rows of the mapping's keys.
   ///
-  /// \param keys  keys of the mapping; must outlive this key.
+  /// \param keys     keys of the mapping; must outlive the returned key.
+  /// \param initial  section that contains the default values.
   template <class Inner>
   Key with_nested_keys(const std::vector<Key<Inner>>& keys, const Inner& initial = {}) const {
     Key key = *this;
@@ -212,8 +216,9 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   return text;
 }
 
-/// Makes the function that writes a section with these keys into a starter config. The keys must
-/// outlive this function.
+/// Returns a function that writes a section with these keys into a starter config.
+///
+/// \param keys  must outlive the returned function.
 template <class Section>
 Starter starter_section(const Keys<Section>& keys, const std::string& comment_above = {}) {
   return [=, &keys](const StarterFacts& facts) -> std::optional<StarterLines> {
@@ -305,9 +310,10 @@ std::string write_changes(const std::vector<FaceChange>& changes, const WriteCon
 /// Each entry of the list is a region (all its bands), a band (in all regions), or one band of one
 /// region.
 std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& draft);
-/// is_sampled_face_id returns whether a sampled face of this config's crowd has this id. is_face_id
-/// returns whether any face of the crowd has this id.
+/// Returns whether a sampled face of this config's crowd has this id.
 bool is_sampled_face_id(const std::string& id, const Config& config);
+/// Returns whether any face of this config's crowd has this id: a sampled face, a face written by
+/// hand, or a face of a family.
 bool is_face_id(const std::string& id, const Config& config);
 /// Returns the ids of a family's members and of the parents that casting makes for the family.
 std::vector<std::string> face_ids_of_family(const FamilyOptions& family, const std::string& crowd);
@@ -323,6 +329,7 @@ Key<Section> hair_colours_key(std::map<std::string, double> Section::*shares) {
 /// Reads a mapping from heads to weights, {head: weight}.
 void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
                        ConfigDraft& draft);
+/// Reads the value of the key `colours`: the colour weights of the heads.
 void read_colours(const YamlNode& node, std::vector<WeightedHead>& weights, ConfigDraft& draft);
 /// Makes the key `colours` of a section: the heads that lend textures.
 template <class Section>
@@ -337,6 +344,7 @@ Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
       }}
       .with_accepted_values("`{head: weight}`");
 }
+/// Reads the value of the key `review`, and the review files that this value names.
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
 std::string write_review(const Config& config, const WriteContext& context);
 

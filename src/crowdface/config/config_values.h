@@ -77,6 +77,7 @@ std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words
 
 /// Adds a complaint about each item of a list that repeats the text of an earlier item.
 void refuse_repeated(const YamlNode& list, Complaints& out);
+/// Returns whether the node is a scalar with this text, such as "none".
 bool is_word(const YamlNode& node, std::string_view word);
 bool has_control_character(std::string_view text);
 

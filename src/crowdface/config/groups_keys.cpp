@@ -27,7 +27,8 @@ void restrict_old_and_young_heads(SamplingOptions& sampling, const Wanted& wante
   }
 }
 
-/// Sets the group's targets and sources to the heads that have all of these tags.
+/// Reads the group's tags. Sets the group's targets and sources to the heads that have all of the
+/// tags. Restricts the lists of old and young heads to heads that have all tags except age tags.
 void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, female]").read(node, draft);
   if (!tags || tags->empty()) return;

@@ -81,7 +81,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
     return ending == ".gltf" ? ".glb" : ending;
   };
   std::vector<fs::path> files = visible_files(folder, is_head_file);
-  // If there are fewer than two OBJ files, find the most frequent format.
+  // If there are fewer than two OBJ files, find the most frequent format; OBJ wins a tie.
   std::map<std::string, std::size_t> counts;
   for (const fs::path& file : files) ++counts[ending_of(file)];
   std::string kind = ".obj";
@@ -90,8 +90,8 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
       if (count > counts[kind]) kind = ending;
     }
   }
-  // Remove files that are neither OBJ files nor of this format, and files that have the same stem
-  // as an OBJ file.
+  // Remove all files that are neither OBJ files nor files of the most frequent format. Of the files
+  // of this format, also remove those that have the same stem as an OBJ file.
   std::set<std::string> named;
   for (const fs::path& file : files) {
     if (is_obj(file)) named.insert(file.stem().string());

@@ -15,10 +15,10 @@ namespace crowdface {
 inline constexpr std::size_t kMinHeads = 2, kMaxHeads = 50;
 
 /// Lists the files in a folder that are heads, sorted by name: all OBJ files. If there are fewer
-/// than two OBJ files, also lists the files of the most frequent other format (is_head_file),
-/// except files that have the same stem as an OBJ file. Ignores subfolders and hidden files, such
-/// as the "._head.obj" that some systems create. Includes symbolic links to missing files, so that
-/// these are reported as missing.
+/// than two OBJ files, and another format (see is_head_file) is more frequent, also lists the files
+/// of the most frequent format, except files that have the same stem as an OBJ file. Ignores
+/// subfolders and hidden files, such as the "._head.obj" that some systems create. Includes
+/// symbolic links to missing files, so that these are reported as missing.
 ///
 /// \throws MissingInput if the folder cannot be read.
 std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folder);
@@ -29,8 +29,9 @@ std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folde
 /// \throws MissingInput if the folder cannot be read.
 std::string left_out_meshes_message(const std::filesystem::path& folder);
 
-/// Returns a hint for a folder that contains no heads, but whose subfolders contain one mesh each:
-/// a pattern that matches these meshes, up to two folders deep. Empty if no pattern matches all.
+/// Returns a hint for a folder that contains no heads itself, but has one subfolder for each head:
+/// a text that suggests a pattern for `faces.files`, such as "people/*/neutral.obj". Searches up to
+/// two folders deep. Empty if no such pattern matches at least kMinHeads files.
 std::string suggested_head_pattern(const std::filesystem::path& folder);
 
 /// Returns the message for a head whose file name gives an invalid head name (see is_name).
@@ -48,9 +49,8 @@ std::vector<std::filesystem::path> files_matching(const std::filesystem::path& p
 /// "ann".
 std::vector<std::string> names_of_heads(const std::vector<std::filesystem::path>& files);
 
-/// Returns every file that the config names: the config itself, heads, shapes, points, rig, neck,
-/// attachments, masks with all their tiles, reviews, edits, and the mesh for comparisons. Does not
-/// return material files and textures, because only the heads' files name these files.
+/// Returns the config file and every file that the config names, with all tiles of the masks. Does
+/// not return the heads' materials and textures, because only the heads' files name these files.
 std::vector<std::filesystem::path> input_files(const Config& config);
 
 /// Checks that a config can store a path.

@@ -103,8 +103,9 @@ class OverriddenKeys {
     }
   }
 
-  /// Finds heads that lend detail to a group although they do not have the group's tags. Also finds
-  /// the keys that the group's tags replace.
+  /// Finds heads that lend detail to a group although the heads do not have the group's tags. Also
+  /// finds keys of `sampling` that have no effect on the group, because the group's tags select its
+  /// heads.
   void find_heads_without_group_tags(const YamlNode& node, std::size_t g,
                                      const std::vector<std::string>& tags) {
     const SamplingOptions &own = config_.groups[g].sampling, &all = config_.sampling;

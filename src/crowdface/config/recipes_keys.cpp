@@ -35,8 +35,8 @@ const Keys<HandBand>& recipe_band_keys() {
                       return band.weights.empty() ? "" : write_weights(band.weights, context);
                     }}
           .with_accepted_values("`{head: weight}`"),
-      // Both keys are stored in one member. The unit of the stored value decides which of the keys
-      // is written.
+      // The keys `smoothness` and `iterations` set the same member. The unit of the stored value
+      // decides which of the two keys is written.
       key("smoothness", &HandBand::smoothness, smoothness()).written_if(std::not_fn(in_iterations)),
       key("iterations", &HandBand::smoothness, smoothness_in_iterations())
           .written_if(in_iterations),

@@ -133,8 +133,8 @@ std::string insert_key(std::string text, const std::string& key) {
   return text + concat(key, '\n');
 }
 
-/// Returns the text of a review. If the text has no `count` or no `min_distance`, adds the value
-/// that `kept` has.
+/// Returns the text of a review, completed with missing keys: if `review` has no `count` or no
+/// `min_distance`, adds the key with the value that `kept` has.
 std::string add_missing_keys(std::string text, const Review& review, const Review& kept) {
   if (!review.reviewed_face_count && kept.reviewed_face_count) {
     text = insert_key(std::move(text), concat("count: ", *kept.reviewed_face_count));

@@ -289,7 +289,7 @@ const Keys<Config>& root_keys() {
       Key<Config>{"review", read_review, write_review}
           .not_affecting_face_files()
           .not_affecting_recipes(),
-      // The file is merged by read_edits, before the keys are read.
+      // read_edits merges the file of edits into the config before any key is read.
       {"edits", [](const auto&...) {}, [](const auto&...) { return ""; }},
       section_key("output", &Config::output, output_keys(), {}, check_output)
           .not_affecting_recipes()};
@@ -297,7 +297,7 @@ const Keys<Config>& root_keys() {
 }
 
 std::string one_line_text(std::string_view value) {
-  // A value that applies to all regions is written as a map with the key `default`.
+  // A value that applies to all regions is written as a mapping with the key `default`.
   constexpr std::string_view kEverywhere = "\ndefault: ";
   if (value.starts_with(kEverywhere)) value.remove_prefix(kEverywhere.size());
   return std::string(value);

@@ -39,7 +39,7 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
     split.whole = node;
     return split;
   }
-  // `direct` collects the parameters of V that are not below `default`.
+  // `direct` collects the parameters that stand directly in the mapping, not below `default`.
   const Names& regions = draft.config.regions.names;
   YamlNode direct = node;
   direct.entries.clear();

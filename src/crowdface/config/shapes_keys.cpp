@@ -20,7 +20,7 @@ using Shapes = Config::Shapes;
 
 constexpr std::size_t kMaxShapes = 1000;
 
-/// The OBJ files of a folder, in the order of the files: pairs of shape name and path.
+/// Pairs of a shape's name and the path of the shape's file, sorted by name.
 using ShapeFiles = std::vector<std::pair<std::string, fs::path>>;
 ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::path& neutral,
                        ConfigDraft& draft) {

@@ -120,6 +120,7 @@ inline const auto& all_words() {
   return words_of_each_enum;
 }
 
+/// Returns the words of the enumeration `Value`.
 template <class Value>
 const Words<Value>& words_of() {
   return std::get<Words<Value>>(all_words());

@@ -26,8 +26,8 @@ inline void subtract_scaled(double factor, std::span<const double> x, std::span<
 /// (Gram–Schmidt, two passes against rounding errors).
 /// \param count       number of orthonormal directions.
 /// \param direction   direction(m) returns direction m, a span of the size of `vector`.
-/// \param on_removal  on_removal(m, component) is called once per direction m and pass, with the
-///                    component along the direction that the pass removes.
+/// \param on_removal  in each of the two passes, on_removal(m, component) is called for each
+///                    direction m; `component` is the component that the pass removes.
 /// \return            Euclidean norm of `vector` after the subtraction and before the scaling.
 template <class Direction, class OnRemoval>
 double orthonormalize(std::span<double> vector, std::size_t count, const Direction& direction,

@@ -45,7 +45,7 @@ class Hasher {
   Hasher& add(T value) {
     return add_integer(static_cast<std::uint64_t>(value));
   }
-  /// Hashes the number of values, then their bytes.
+  /// Hashes the number of values, then the bytes of the values.
   template <class T>
   Hasher& add_array(std::span<const T> values) {
     add_integer(values.size());

@@ -20,7 +20,7 @@ std::atomic<int> signal_seen = 0;
 static_assert(std::atomic<int>::is_always_lock_free);
 
 constexpr const char* kMessage = "interrupted by a signal; run the same command again to continue";
-constexpr timespec kGrace = {0, 700'000'000};  ///< 0.7 s
+constexpr timespec kGrace = {0, 700'000'000};  ///< time from a signal to end_program: 0.7 s
 
 timer_t grace_timer;
 const int kGraceSignal = SIGRTMIN;

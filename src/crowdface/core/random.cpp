@@ -39,8 +39,9 @@ double random_between(const RandomKey& key, double low, double high) {
 }
 
 double random_stratified(const RandomKey& key, std::uint64_t strata) {
-  // Every `strata` consecutive indices visit all intervals once, in cyclic order. The first
-  // interval and the cyclic direction are random.
+  // The indices k·strata, …, k·strata + strata − 1 are a run. The indices of a run visit all
+  // intervals once, in cyclic order. The first interval and the cyclic direction are random; lane
+  // kRunLane gives these two random numbers.
   constexpr std::uint32_t kRunLane = 0x5A17;
   const RandomKey run{key.seed, key.index / strata, key.purpose, key.attempt};
   const auto [place, direction] = random_pair(run, kRunLane);

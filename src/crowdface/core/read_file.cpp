@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// File tests and reading, declared in file.h, text_pieces.h and descriptor.h.
+// Functions that test whether files exist and read files; declared in file.h, text_pieces.h and
+// descriptor.h.
 #include <algorithm>
 #include <array>
 

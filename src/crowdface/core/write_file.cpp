@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writing of files, declared in file.h and text_pieces.h.
+// Functions that write files; declared in file.h and text_pieces.h.
 #include <atomic>
 #include <list>
 #include <set>
@@ -92,7 +92,8 @@ class TemporaryFile {
     bytes_in_writeback_ = written_;
   }
 
-  /// Syncs the file to disk, then closes it; the lock stays.
+  /// Syncs the file to disk, then closes the file. A duplicate of the descriptor (`lock_`) keeps
+  /// the file locked.
   void finish() {
     if (!sync_to_disk(file_.get())) fail("writing to disk");
     // Large new files should not displace other data from the page cache.

@@ -17,8 +17,8 @@
 
 namespace crowdface {
 
-/// Second part of the name of the file with the points that move with a face's mesh. The first part
-/// is the face's id and '+'.
+/// End of the name of a face's points file, ID+points.json. This file holds the points that move
+/// with the face's mesh.
 inline constexpr const char* kFacePointsFileSuffix = "points.json";
 
 /// Paths of the files in a crowd's folder (docs/crowd-directory.md).
@@ -39,6 +39,7 @@ struct CrowdDirectory {
   /// review in the order of the reviews, counted from 1.
   std::filesystem::path reviews() const { return root / "reviews"; }
   std::filesystem::path review(std::size_t number) const;
+  /// The existing review files: review(1), review(2), … up to the first number without a file.
   std::vector<std::filesystem::path> kept_reviews() const;
   std::filesystem::path table() const { return root / "crowd.csv"; }
   std::filesystem::path casting() const { return root / "casting.json"; }

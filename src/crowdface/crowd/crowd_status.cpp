@@ -50,8 +50,8 @@ void for_each_line_of(const fs::path& path, const Use& use) {
   }
 }
 
-/// Ids of faces that have a line in any ledger. Does not verify the lines, because runs that
-/// continue or gather the crowd verify the lines.
+/// Ids of faces that have a line in any ledger. Does not compare the lines with the files: a run
+/// that continues the crowd or gathers its shards does that.
 std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory) {
   std::unordered_set<std::string> ids;
   for (const fs::path& path : directory.ledgers()) {
@@ -128,7 +128,8 @@ ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
   return status;
 }
 
-/// Computes the final state and the remaining time of a shard. Requires `finished_face_count`.
+/// Sets the state kDone if all faces of the shard are finished. For a working shard, computes the
+/// time since the last write and the remaining time. Requires the face counts of `status`.
 void finish(const CrowdDirectory& directory, ShardStatus& status) {
   if (status.face_count > 0 && status.finished_face_count == status.face_count) {
     status.state = ShardState::kDone;

@@ -30,7 +30,7 @@ struct LedgerEntry {
   std::string item;         ///< such as "faces/market_0001" or "report.json"
   Digest key;               ///< hash of everything that determines the files
   std::vector<File> files;  ///< may be empty
-  std::string note;         ///< JSON that a later run needs, or empty
+  std::string note;  ///< further results as JSON, such as the defects of a face's skin; or empty
 };
 
 /// Formats a file as {"file": …, "bytes": …, "hash": …}.
@@ -47,8 +47,8 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
   std::size_t damaged_count = 0;  ///< number of invalid lines
-  /// Whether the ledger is the complete ledger of a finished run: it has all lines of this run, and
-  /// the lines list as many files in each folder as the run counted.
+  /// Whether a finished run wrote the ledger and no line is missing. Then the hash and the file
+  /// counts in the last line match the other lines.
   bool is_complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
@@ -100,12 +100,12 @@ class Ledger {
   /// content.
   void record_existing(const LedgerEntry::File& file);
 
-  /// Records files that were made again, possibly in another format than the config demands. If a
-  /// file of an item changed, the item gets a key that no run looks for, so that the next run makes
-  /// the item again as the config demands. Items with unchanged files keep their lines.
-  /// \param item, file_names  an item, and the names of its present files
-  /// \param remade_folders    folders with remade files; files of other items in these folders are
-  ///                          hashed again, too
+  /// Updates the ledger after files were remade, possibly in another format than the config
+  /// demands. Each item with a changed file gets a key that no run looks for. Therefore the next
+  /// run makes this item again as the config demands. Items with unchanged files keep their lines.
+  /// \param item, file_names  an item, and the names of all files that the item now has
+  /// \param remade_folders    folders with remade files; the function also hashes the files of all
+  ///                          other items in these folders
   void record_remade_files(const std::string& item, const std::vector<std::string>& file_names,
                            const std::vector<std::string>& remade_folders);
 

@@ -109,7 +109,8 @@ std::string format_status_json(const CrowdStatus& status) {
                               {"machine", shard.machine},
                               {"reason", shard.reason}});
   }
-  // Write ASCII only: JSON then escapes all special characters, and no other escaping is needed.
+  // Write ASCII only. `printable` escapes some other characters before a text is printed, and these
+  // escapes are not valid JSON.
   return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

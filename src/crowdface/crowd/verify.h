@@ -16,7 +16,7 @@ struct CrowdCheck {
   std::vector<std::string> altered_files;  ///< files with other content
   /// ids of planned faces, and names of the plan file and the report file, that no ledger lists
   std::vector<std::string> unfinished_items;
-  std::vector<std::string> remarks;  ///< problems of the ledger itself, and leftovers
+  std::vector<std::string> remarks;  ///< damaged or incomplete ledgers, and shards not gathered
 
   bool is_intact() const {
     return missing_files.empty() && altered_files.empty() && unfinished_items.empty() &&

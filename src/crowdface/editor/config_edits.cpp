@@ -100,7 +100,8 @@ std::string paths_from(const fs::path& config, const std::vector<fs::path>& file
   }));
 }
 
-/// Saves config sections in the file of edits. \param sections YAML text in the format of a config.
+/// Saves config sections in the file of edits.
+/// \param sections  YAML text in the format of a config.
 fs::path put_sections(const fs::path& config, const std::string& sections) {
   return put_edit(config, [&](YamlNode& edits) { merge_edits(parsed(sections, "edits"), edits); });
 }

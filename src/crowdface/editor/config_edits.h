@@ -27,7 +27,7 @@ std::filesystem::path save_regions_in_edits(const std::filesystem::path& config,
                                             const std::vector<std::string>& names,
                                             const std::vector<std::filesystem::path>& masks);
 
-/// Saves a list of heads in the file of edits: the config's heads, followed by new heads.
+/// Adds new heads to the list `faces.also` in the file of edits.
 /// \param config  file of the config.
 /// \param heads   mesh files of the new heads.
 /// \return the file of the edits.
@@ -41,7 +41,8 @@ std::filesystem::path save_heads_in_edits(const std::filesystem::path& config,
 std::optional<std::string> section_in_edits(const std::filesystem::path& edits,
                                             const std::string& section);
 
-/// Restores a section of the edits to a value that section_in_edits returned earlier.
+/// Restores a section of the edits to a value that section_in_edits returned earlier. Removes the
+/// section if this value is empty.
 /// \return the file of the edits.
 /// \throws Error as save_recipe_in_edits does, or if the text `value` contains more than one YAML
 ///     value.

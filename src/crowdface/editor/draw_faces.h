@@ -22,8 +22,10 @@ struct SampleRequest {
   /// 0 to 1: how far a variation moves from `original` (0) towards an independently sampled face
   /// (1)
   double variation = 1;
-  std::size_t count = 1;            ///< number of faces to sample
-  std::uint32_t first_attempt = 0;  ///< a different number yields different faces
+  std::size_t count = 1;  ///< number of faces to sample
+  /// Number of the first sampling attempt. Each attempt has its own number, and attempts with
+  /// different numbers sample different faces.
+  std::uint32_t first_attempt = 0;
 };
 
 /// Samples faces that satisfy the limits of the config. Without `original`, the sampled faces also

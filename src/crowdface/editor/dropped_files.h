@@ -32,7 +32,8 @@ class DroppedFiles {
   /// \throws UsageError if an earlier piece is missing, or the file would become larger than its
   /// size in `begin_upload`.
   void add(const std::string& name, std::uint64_t offset, std::string_view bytes);
-  /// Moves all files to a new folder. \return paths of the mesh files, sorted by name.
+  /// Moves all files to a new folder.
+  /// \return paths of the mesh files, sorted by name.
   /// \throws UsageError if a file is incomplete.
   std::vector<std::filesystem::path> move_to_config_folder();
 

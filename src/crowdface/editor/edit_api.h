@@ -51,6 +51,7 @@ class EditApi {
       face_picture;
   // Handlers of requests that save the editor's state or write other files.
   Handler saved_state, take_over_editing, save_state, save_face, put_recipe, review;
+  // Handlers of requests that generate the crowd and load the result.
   Handler generate, stop_generate, generate_progress, open_again;
   // Handlers of requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
@@ -61,10 +62,13 @@ class EditApi {
   /// Returns a path for new masks at which no file exists yet. Files of earlier masks are not
   /// overwritten, so that the user can undo steps.
   std::filesystem::path unused_mask_path() const;
+  /// \throws UsageError if the painted masks differ from the config's masks. A saved face would
+  ///         otherwise not match the config.
   void require_masks_of_config() const;
   /// \throws UsageError if the job was opened from a crowd's folder, whose config records how the
   ///         crowd was made and must not change.
   void require_editable_config() const;
+  /// \throws UsageError while `crowdface generate` is running.
   void require_no_run();
 
   // These functions read the value of a key from the body of a request.
@@ -72,9 +76,12 @@ class EditApi {
   std::vector<std::size_t> bands_in(const Json& body, const std::string& key) const;
   FacePlan face_in(const Json& body, const std::string& key = "recipe") const;
   static std::string opened_id(const Json& body);
+
+  /// The value of a section in the file of edits, as a text; null if the file has no such section.
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json measures_json(const FaceMeasures& measures) const;
   void note_request_number(const std::string& page, std::uint64_t request_number);
+  /// Returns whether the page has sent a request with a larger number.
   bool is_outdated_request(const std::string& page, std::uint64_t request_number);
 
   const EditSession& session_;

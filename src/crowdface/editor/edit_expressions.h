@@ -28,7 +28,7 @@ class EditExpressions {
   std::vector<std::string> names() const;
   /// Returns the weighted displacements of a face for the expressions in `weights`. Computes the
   /// displacements of all expressions of a face at once, and caches them until the face changes.
-  /// \param weights     {name: weight 0 … 1}; missing expressions have weight 0
+  /// \param weights    {name: weight 0 … 1}; missing expressions have weight 0
   /// \param positions  the face at rest
   /// \throws UsageError if a name does not exist or a weight is outside its range.
   Moves moves_of(const nlohmann::ordered_json& weights, const Recipe& recipe,
@@ -39,6 +39,7 @@ class EditExpressions {
   std::mutex mutex_;
   std::unique_ptr<const FaceShapes> shapes_;
   Positions cached_face_;  ///< the face for which `cached_moves_` was computed
+  /// displacements of each expression at weight 1
   std::vector<Displacements> cached_moves_;
 };
 

@@ -37,7 +37,7 @@ struct FaceMeasures {
   /// The smaller of two distances to `nearest_head`: `nearest_head_distance_as_built_mm`, and the
   /// distance without extrapolation (all extrapolation factors 1).
   double nearest_head_distance_mm = 0;
-  /// distance from the face, as built with its own extrapolation factors, to `nearest_head`
+  /// distance from the face, with the extrapolation factors of its recipe, to `nearest_head`
   double nearest_head_distance_as_built_mm = 0;
   /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
   /// which the user began the edit.
@@ -101,8 +101,8 @@ class EditSession {
   /// \param face  result of `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
                        const std::string& opened_id = "") const;
-  /// Finds visible faults in the whole mesh of a face; see MeshFaults. \param face result of
-  /// `build`
+  /// Finds visible faults in the whole mesh of a face; see MeshFaults.
+  /// \param face  result of `build`
   std::vector<std::string> mesh_faults(const Recipe& recipe, const Positions& face) const {
     return faults_.faults_of(recipe, face);
   }
@@ -111,8 +111,8 @@ class EditSession {
   /// Changes the weights of a face so that a measurement comes as near to `wanted` as the heads
   /// allow; see steer_trait. Returns the changed face.
   /// \param locked_bands  bands that do not change, as in SampleRequest
-  /// \throws UsageError if the measurement is not available, or if the config's normalization does
-  /// not allow weights that come from no position on the plane.
+  /// \throws UsageError if the measurement is not available, or if the config has
+  ///         Normalization::kPrinted, which only allows weights given by a position on the plane.
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
                  const std::vector<std::size_t>& locked_bands) const;
   /// Samples faces for the user to choose from; see the function sample_faces.
@@ -144,7 +144,10 @@ class EditSession {
                                                     const FacePlan& recipe,
                                                     const std::string& opened_id) const;
   nlohmann::ordered_json regions_json() const;
+  /// The face that the page shows first: the first face of the crowd. If there is no crowd, all
+  /// regions are at the first head's anchor.
   FacePlan first_face() const;
+  /// For each head: the displacement fields from which the page computes smoothed shapes.
   std::vector<HeadSmoothing> preview_levels() const;
 
   Job job_;
@@ -154,7 +157,8 @@ class EditSession {
   std::future<PreviewMesh> preview_future_;
   std::optional<std::vector<FacePlan>> crowd_;
   Prepared prepared_;
-  /// set only with `levels: exact`: the heads' fields, for the preview
+  /// Set only with `levels: exact`: the heads prepared with `levels: basis`, because the page needs
+  /// displacement fields.
   std::optional<Prepared> preview_prepared_;
   FaceBuilder builder_;
   MeshFaults faults_;

@@ -31,9 +31,9 @@ class EditedFolder {
   explicit EditedFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  /// Checks that this is still the folder that the constructor opened. Code outside this class must
-  /// call this function before it writes to the folder. \throws IoError if another folder has
-  /// replaced the folder.
+  /// Checks that the path still leads to the folder that the constructor opened. Code outside this
+  /// class must call this function before it writes to the folder.
+  /// \throws IoError if another folder has replaced the folder.
   void require_same_folder() const { handle_.require_still_at_path(); }
 
   /// Returns the state text that a page saved last; empty if no page has saved a state.
@@ -59,9 +59,10 @@ class EditedFolder {
   /// Completes saves that a crash or a disk error interrupted: writes each mesh that is older than
   /// the recipe of the same face.
   void finish_interrupted_saves(const Job& job, const WriteMesh& write);
-  /// Writes a mark or a change of a face to review.yaml, where it replaces the earlier mark or
-  /// change of this face. An empty change removes the earlier change. If a run has already applied
-  /// the review in this file to the crowd, begins a new review, so that no mark applies twice.
+  /// Writes a mark (save_mark) or a change (save_change) of a face to review.yaml. Replaces the
+  /// earlier mark or change of this face. An empty change removes the earlier change. If a run has
+  /// already applied the review in this file to the crowd, begins a new review, so that no mark
+  /// applies twice.
   /// \throws Error if review.yaml is invalid, or would be invalid afterwards.
   std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
   std::filesystem::path save_change(const Config& config, const FaceChange& change);

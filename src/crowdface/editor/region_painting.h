@@ -32,13 +32,13 @@ class RegionPainting {
 
   /// Applies one brush stroke: {region, mode, points: [{triangle, u, v}…] on the preview,
   /// radius_mm, strength, falloff, mirror, begin}. Without `begin`, the stroke continues the
-  /// previous one.
+  /// previous stroke.
   /// \throws UsageError if the request cannot be read.
   void apply_stroke(const nlohmann::ordered_json& body);
   /// Undoes the last brush stroke.
   /// \throws UsageError if there is no stroke to undo.
   void undo();
-  /// Whether the painted masks differ from the config's masks.
+  /// Whether the painted masks differ from the config's masks: whether a stroke can be undone.
   bool differs_from_config() const { return painter_ && painter_->can_undo(); }
 
   /// For each preview vertex: the weights α of all regions, one region after the other. Zero at
@@ -70,15 +70,17 @@ class RegionPainting {
   SurfacePoint surface_point_of(const nlohmann::ordered_json& point);
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   void paint(const nlohmann::ordered_json& body);
-  /// Applies all strokes that the file stores.
+  /// Discards the painted masks. Then applies all strokes and undo steps that the file stores.
   void replay_strokes();
-  /// Appends to the file a stroke that was just painted. If writing fails, undoes the stroke.
+  /// Appends a brush stroke or an undo step to the file of strokes. If writing fails, restores the
+  /// masks from the strokes that the file stores.
   void store_stroke(const nlohmann::ordered_json& step);
 
   EditSession& session_;
   HeadShape mean_;
   std::optional<MaskPainter> painter_;  ///< created at the first stroke
-  bool has_unapplied_paint_ = false;  ///< whether anything was painted since the last `apply_masks`
+  /// whether the painted masks have changed since the last call of `apply_masks`
+  bool has_unapplied_paint_ = false;
   StrokeLog strokes_;
 };
 

@@ -24,8 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Number of steps of a smoothness slider. The slider's position is the square root of the
-/// smoothness.
+/// Number of steps of a smoothness slider. See smoothness_at for the smoothness of each step.
 constexpr int kLevels = 256;
 
 double smoothness_at(int step) {

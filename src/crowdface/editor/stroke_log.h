@@ -12,20 +12,20 @@
 
 namespace crowdface {
 
-/// Stores brush strokes in a file, one line of JSON for each stroke, until the painted masks are
-/// saved. The strokes therefore survive the end of the editor.
+/// Stores brush strokes and undo steps in a file, one line of JSON for each, until the painted
+/// masks are saved. The strokes therefore survive the end of the editor.
 class StrokeLog {
  public:
   /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete
   /// last line.
   /// \param preview_digest  hash of the masks and of the preview. Strokes that were painted on
-  ///                    other masks are discarded with a log message.
+  ///                        other masks are discarded with a log message.
   StrokeLog(std::filesystem::path file, const Digest& preview_digest);
 
-  /// All stored strokes, oldest first.
+  /// All stored strokes and undo steps, oldest first.
   const std::vector<nlohmann::ordered_json>& strokes() const { return strokes_; }
   const std::filesystem::path& file() const { return file_; }
-  /// Appends a stroke.
+  /// Appends a stroke or an undo step.
   /// \throws CannotCreate, IoError: in this case the file does not contain the stroke.
   void add(const nlohmann::ordered_json& stroke);
   /// Removes all strokes. Call this function after the saved masks contain the effect of the

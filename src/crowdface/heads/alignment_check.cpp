@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 // Well-aligned heads of different people still differ by a few degrees in pose and by a few percent
-// in size. Larger differences mean that their coordinate frames differ.
+// in size. If two heads differ by more, their coordinate frames differ.
 constexpr double kMaxDegrees = 6;
 constexpr double kMaxShift = 0.06;
 constexpr double kMaxScale = 1.3;

@@ -58,6 +58,10 @@ TilePlace tile_of(const HeadSet& heads, Index face) {
   return {static_cast<std::int32_t>(middle.x()), static_cast<std::int32_t>(middle.y())};
 }
 
+/// Finds the texture file of each polygon of a head, for one kind of texture.
+/// \param of_material  for each material, its texture file
+/// \param ranges       materials of the polygons
+/// \param missing      receives the UDIM tiles that do not exist
 HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_material,
                                 const std::vector<TilePlace>& tiles,
                                 const std::vector<MaterialRange>& ranges,

@@ -39,8 +39,8 @@ struct FoundTextureFiles {
   bool heads_have_different_textures() const;
 };
 
-/// Removes files from the lists of `textures`, so that their polygons have no texture. No file is
-/// deleted.
+/// Removes files from the lists of `textures`, so that the polygons with these files have no
+/// texture. No file is deleted.
 void leave_out_files(FoundTextureFiles& textures, const std::set<std::filesystem::path>& files);
 /// Calls leave_out_files for the files that are not readable images.
 /// \return one warning per file.

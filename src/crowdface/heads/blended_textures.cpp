@@ -22,10 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Largest side length of images, in texels, if the config gives no size.
 constexpr int kLargestUnasked = 4096;
 
-/// For each image of the layout, the texture files of one head that are merged into this image;
-/// empty if the head has no texture for some polygon of the image.
+/// For each image of the layout, the texture files of one head that are merged into this image, as
+/// indices into placed.files. Empty if the head has no texture for some polygon of the image.
 std::vector<std::vector<std::uint32_t>> rows_in_pictures(const HeadTextureFiles& placed,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
@@ -163,7 +164,7 @@ std::shared_ptr<const TextureMap> compose(
 
 /// Sets the size of each image in the layout.
 /// \param sizes  size of each file
-/// \param rows   rows[head][picture]: the files that are merged, see rows_in_pictures
+/// \param rows   rows[head]: the result of rows_in_pictures for a head
 void choose_sizes(const FoundTextureFiles& found, const std::map<fs::path, ImageSize>& sizes,
                   const std::vector<std::vector<std::vector<std::uint32_t>>>& rows,
                   std::optional<std::uint64_t> size, TextureLayout& layout) {

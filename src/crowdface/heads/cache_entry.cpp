@@ -38,8 +38,8 @@ std::string_view as_bytes(const void* data, std::size_t size) {
 
 /// Whether all absolute values are at most 1e9 (kLargest). Compares bit patterns as integers,
 /// because compilers can vectorize this loop. The bit patterns of absolute values have the same
-/// order as the values; infinity and NaN come last. If a value exceeds kLargest, the difference is
-/// negative.
+/// order as the values; infinity and NaN come last. `differences` becomes negative if a bit pattern
+/// exceeds the bit pattern of kLargest.
 template <class Integer, class T>
 bool all_coordinates(std::span<const T> values) {
   constexpr auto kMagnitude = std::numeric_limits<Integer>::max();

@@ -32,6 +32,7 @@ struct CacheKey {
   Digest digest;          ///< hash of everything that the arrays depend on
 };
 
+/// Path of the file of a cache entry.
 std::filesystem::path cache_entry(const std::filesystem::path& cache, const CacheKey& key);
 
 namespace detail {
@@ -67,13 +68,13 @@ constexpr std::array<char, 4> number_type() {
 
 /// Describes an array of an entry and points to its numbers in memory.
 struct EntryArray {
-  std::string name;  ///< at most 23 bytes
-  std::array<char, 4> type;
+  std::string name;          ///< at most 23 bytes
+  std::array<char, 4> type;  ///< see detail::number_type
   /// Number of contiguous numbers in one element, or in one row of a row-major matrix.
   std::uint32_t columns;
   std::uint64_t rows;
   const void* data;
-  std::uint64_t bytes;
+  std::uint64_t bytes;  ///< size of the numbers in memory
   /// Keeps the numbers alive until the entry is written; null if the caller keeps the numbers
   /// alive.
   std::shared_ptr<const void> owner;
@@ -159,6 +160,7 @@ class CacheEntry {
     require_match(row.columns == Element::kNumbersPerElement);
     return {reinterpret_cast<const T*>(at(row)), row.rows};
   }
+  /// A matrix in the file. \throws InvalidInput like `get`, or if the matrix has the wrong size.
   template <class Matrix>
   Eigen::Map<const Matrix> matrix(std::string_view name) const {
     using Number = typename Matrix::Scalar;
@@ -182,7 +184,7 @@ class CacheEntry {
   void throw_if_truncated() const;
 
  private:
-  /// An array as the file describes it.
+  /// An array as the file describes it. `offset` is the position of the first number in the file.
   struct StoredArray {
     char name[24];
     std::array<char, 4> type;
@@ -203,7 +205,9 @@ class CacheEntry {
   }
   const StoredArray& find_array(std::string_view name, const std::array<char, 4>& type) const;
   const char* at(const StoredArray& row) const { return file_->bytes().data() + row.offset; }
+  /// Rejects the entry as an entry of another version or for other data if `matches` is false.
   void require_match(bool matches) const;
+  /// Rejects the entry as too short or too long if `fits` is false.
   void require_size_fits(bool fits) const;
 
   std::filesystem::path path_;

@@ -39,7 +39,7 @@ fs::path cache_directory() {
     return fs::path(home) / ".cache" / "crowdface";
   }
   std::error_code error;
-  // sets `error` if the folder does not exist
+  // temp_directory_path sets `error` if the folder does not exist.
   const fs::path temporary = fs::temp_directory_path(error);
   return (error ? fs::path("/tmp") : temporary) / "crowdface-cache";
 }

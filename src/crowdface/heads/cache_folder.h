@@ -37,9 +37,12 @@ struct CacheContents {
   std::size_t loaded_head_count = 0;    ///< number of entries with the parsed file of a head
   std::uintmax_t bytes = 0;
 };
+/// Lists the entries; finds none if the folder does not exist.
+/// \throws MissingInput if the folder cannot be read.
 CacheContents list_cache(const std::filesystem::path& cache);
 
-/// Removes all entries of the cache and no other file. \return the number of removed entries.
+/// Removes all entries, and the temporary files that killed runs left. Removes no other file.
+/// \return the number of removed entries and temporary files.
 std::size_t clear_cache(const std::filesystem::path& cache);
 
 }  // namespace crowdface

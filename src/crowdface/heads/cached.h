@@ -61,13 +61,14 @@ std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
 }
 
 /// Writes an entry, if there is a cache.
-/// \param what  replaces WHAT in the warning "WHAT cannot be kept".
+/// \param what  replaces WHAT in the warning "WHAT cannot be stored in the cache".
 /// \return whether the entry was written.
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,
            std::string_view what = "data computed from the heads");
 
 /// Returns the value from the cache. If the cache lacks the value, calls `make()` and stores the
 /// result.
+/// \param visit, is_sound, value  see find_cached
 template <class Make, class Visit, class IsSound>
 auto read_or_make(const CacheFolder& cache, const CacheKey& key, const Make& make,
                   const Visit& visit, const IsSound& is_sound, decltype(make()) value = {}) {

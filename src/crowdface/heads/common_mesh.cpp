@@ -228,11 +228,13 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
 }
 
 /// Finds a common mesh for heads from formats whose reader joins all vertices at the same position.
-/// In the common mesh, corners share a vertex if they have the same position in every head.
+/// In the common mesh, corners share a vertex if they have the same position in every head. If the
+/// common mesh has over 2 % more vertices than the head with most vertices, the meshes really
+/// differ; then the result is the first head.
 /// \param heads  heads with the same polygons
 /// \param made   receives the common mesh if no head has this mesh. This happens if each head joins
 ///               some vertices that are separate in another head.
-/// \return a head with the common mesh
+/// \return a head with the common mesh, or the first head
 const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
   constexpr double kMaxTouching = 0.02;  // fraction of vertices; different meshes exceed it
   Vertices vertices = heads[0]->mesh->topology.corner_vertices;

@@ -25,15 +25,16 @@ constexpr std::size_t kMinHeads = 4, kMinFittedVertices = 50;
 /// scaled to this height.
 constexpr double kEyesAboveMouthMm = 65;
 
-/// A Gaussian window on the skin, seen from the front.
+/// A Gaussian window on the skin, seen from the front; in millimetres.
 struct Window {
-  double across, above_mouth;  ///< the centre: distance from the symmetry plane, height
-  double sigma_across = 4, sigma_up = 3.5;  ///< standard deviations
+  double across, above_mouth;  ///< position of the centre: outwards from the symmetry plane, and up
+  double sigma_across = 4, sigma_up = 3.5;  ///< standard deviations of the Gaussian
 };
 
 enum class Direction { kOutwards, kUp, kForwards };
 
-/// The mean displacement of the skin in a window, along a direction, times a factor.
+/// One term of a movement's value: the mean displacement of the skin in a window, along a
+/// direction, times `factor`.
 struct Term {
   double factor;
   Window window;
@@ -107,7 +108,8 @@ const std::vector<Movement>& mouth_movements() {
   return movements;
 }
 
-/// Raised and lowered upper lids, raised brows; chosen like mouth_movements.
+/// Raised and lowered upper lids, and raised brows. The windows and factors are chosen in the same
+/// way as for mouth_movements.
 const std::vector<Movement>& eye_movements() {
   constexpr Window kUpperLid{31, 70, 7, 2.5}, kLidFold{31, 82, 7, 3}, kLowerLid{31, 58, 7, 3},
       kInnerCorner{14, 65}, kOuterCorner{48, 65}, kEye{31, 65, 7, 7}, kBelowBrow{31, 78},
@@ -185,7 +187,8 @@ class FaceSkin {
   std::optional<LinearForm> linear_form_of(const Movement& movement, int side) const {
     LinearForm form;
     for (const Term& term : movement.terms) {
-      // kReach: half the size of the window, in standard deviations
+      // kReach: half the size of the window, in standard deviations. kDepth: how far behind the
+      // foremost vertex of the window a vertex may lie, in millimetres.
       constexpr double kReach = 2.4, kDepth = 15, kMinWeightSum = 0.5;
       const Window& window = term.window;
       const double across = side * window.across;
@@ -286,16 +289,17 @@ class HeadDisplacements {
 /// The movement in which a head deviates most from the other heads.
 struct LargestDeviation {
   double ratio = 0;         ///< deviation_mm / usual_mm
-  double deviation_mm = 0;  ///< how far the movement's value is from the median of all heads
-  double usual_mm = 0;      ///< how far the values of the other heads usually are from this median
+  double deviation_mm = 0;  ///< distance of the movement's value from the median over all heads
+  double usual_mm = 0;      ///< root mean square of the other heads' deviations, see update_largest
   const char* text = nullptr;  ///< start of the warning
 };
 
-/// Replaces the largest deviation of each head that deviates more in this movement.
+/// Updates each head's largest deviation: stores this movement for the heads that deviate more in
+/// this movement than in all earlier ones.
 void update_largest(const Movement& movement, const FaceSkin& skin,
                     const HeadDisplacements& displacements,
                     std::vector<LargestDeviation>& largest) {
-  // for each half of the face: the deviation of each head, in millimetres
+  // sides[s][h]: the deviation of head h on half s of the face, in millimetres
   std::vector<std::vector<double>> sides;
   for (const int side : {1, -1}) {
     const auto form = skin.linear_form_of(movement, side);
@@ -308,8 +312,9 @@ void update_largest(const Movement& movement, const FaceSkin& skin,
   double sum = 0;
   for (std::size_t h = 0; h < largest.size(); ++h) sum += mean_square(h);
   for (std::size_t h = 0; h < largest.size(); ++h) {
-    // The usual deviation is the root mean square of the other heads' deviations. Because a few
-    // heads are a small sample, include this many more neutral heads with the known deviation.
+    // The usual deviation is the root mean square of the other heads' deviations. The other heads
+    // are a small sample, so the mean also includes kAddedHeads imagined neutral heads, whose
+    // deviation is known.
     constexpr double kAddedHeads = 6;
     const double others = static_cast<double>(largest.size() - 1);
     const double usual =

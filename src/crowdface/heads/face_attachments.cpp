@@ -13,7 +13,8 @@ namespace crowdface {
 
 namespace {
 
-/// Whether two attachments have the same mesh; their materials may differ.
+/// Whether two attachments have the same vertices and polygons, and follow the skin in the same
+/// way. Their materials may differ.
 bool equal_meshes(const Attachment& a, const Attachment& b) {
   const Topology &one = a.file.topology, &other = b.file.topology;
   return a.moves == b.moves && a.file.positions.rows() == b.file.positions.rows() &&

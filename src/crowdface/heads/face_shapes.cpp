@@ -39,7 +39,7 @@ double power(double base, std::uint64_t exponent) {
 /// normalisation, the weight of head h is t(h) − Σ_b w_b(h) r_b. t(h) is the weight of h in the
 /// target. w_b(h) is the weight of h in band b (see weights_by_level). r_b is the fraction of the
 /// shape that smoothing to the level of band b removes.
-/// \param kept  result of kept_by_smoothing
+/// \param kept  the fraction of the shape that one smoothing iteration keeps, see kept_by_smoothing
 ShapeSetShares shares_in(const Recipe& recipe, std::size_t region, std::size_t heads, double kept) {
   std::vector<double> shares(heads, 0.0);
   for (const SourceWeight& part : target_head_weights(recipe)) {

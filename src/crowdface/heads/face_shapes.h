@@ -34,6 +34,8 @@ class FaceShapes {
   std::size_t memory_bytes() const;
 
  private:
+  /// For each shape, the weights of the heads' shape sets in each region of a face; empty if the
+  /// heads have no shapes of their own.
   std::vector<RegionShares> shares_of(const Recipe& recipe) const;
 
   const Inputs& inputs_;

@@ -16,6 +16,7 @@ namespace crowdface {
 /// each other kind.
 std::vector<PictureName> face_picture_names(const Inputs& inputs);
 
+/// Whether each face gets textures that are blended from the heads' textures.
 inline bool has_own_textures(const Inputs& inputs) {
   return inputs.textures.are_blended() || !inputs.other_textures.empty();
 }
@@ -23,6 +24,8 @@ inline bool has_own_textures(const Inputs& inputs) {
 /// A recipe that gives a face exactly the colours of one input head.
 Recipe recipe_of_head(Index head);
 
+/// Blends the textures and vertex colours of a crowd's faces, and paints the body's texture for
+/// each face.
 class FaceTextures {
  public:
   /// \param inputs  must outlive this object.
@@ -38,11 +41,12 @@ class FaceTextures {
   /// Vertex colours of a face; no rows if the heads have no vertex colours. Thread-safe.
   ColourRows vertex_colours(const Recipe& recipe) const;
 
-  /// Mean colour of the skin in a band above the neck's ring, in linear light; nothing without
-  /// `neck` or without colours. Thread-safe.
+  /// Mean colour of the skin in a band above the neck's ring, in linear light; nothing if the
+  /// config has no `neck` or the heads have no colours. Thread-safe.
   std::optional<Eigen::Array3d> seam_colour(const Recipe& recipe) const;
-  /// Paints the body's texture for each face. Null if faces have no colours, or if neither renders
-  /// nor files show the body.
+  /// The painter of the body's texture. Null if the heads are not on a body, if faces have no
+  /// colours, or if the config shows no body (`neck.show_body`) and names no texture for it
+  /// (`neck.body_texture`).
   const BodyPainter* body_painter() const { return body_.get(); }
   /// The body's texture for a face. Requires body_painter(). Thread-safe.
   BlendedPicture paint_body(const Recipe& recipe) const;
@@ -53,6 +57,7 @@ class FaceTextures {
   std::uint64_t blend_bytes() const;
 
  private:
+  /// Makes the blenders of all kinds of textures, and computes the data for blending colours.
   void blend_textures(const Config& config);
   /// The weight of each head in the mean colour of the whole face.
   std::vector<double> head_weights_in_mean_colour(const Recipe& recipe) const;
@@ -73,8 +78,8 @@ class FaceTextures {
   std::unique_ptr<const BodyPainter> body_;
 };
 
-/// Size, in bytes, of the heads' texture maps and vertex colours; maps that lie in files do not
-/// count.
+/// Size, in bytes, of the heads' textures and vertex colours in memory. Texture maps that were
+/// moved to files do not count.
 std::uint64_t texture_bytes(const Inputs& inputs);
 
 }  // namespace crowdface

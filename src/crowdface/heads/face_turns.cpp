@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// The columns of the samples that the bend of the neck does not move; the columns of all samples
-/// if the bend moves most samples.
+/// Returns the indices of at most 500 evenly spaced samples that the bend of the neck does not
+/// move. If the bend leaves fewer than 100 samples unmoved, chooses from all samples.
 std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
   constexpr std::size_t kPoints = 500, kFewest = 100;
   std::vector<Index> all(samples.size()), above;
@@ -47,8 +47,8 @@ SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
   return heads;
 }
 
-/// Rotates each head about the middle of the neck's ring into the common pose of all heads.
-/// Smoothing commutes with rotations.
+/// Rotates each head about the middle of the neck's ring into the common pose of all heads. Rotates
+/// the smoothing trajectories too, because smoothing commutes with rotations.
 void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
   for (std::size_t h = 0; h < heads.heads.size(); ++h) {
     if (neck.heads[h].pose_rotation.isZero(0)) continue;

@@ -53,8 +53,9 @@ FileFingerprint::FileFingerprint(const CacheFolder& cache, const fs::path& file)
 
 void FileFingerprint::remember(const Digest& digest) const {
   if (!stamp_ || digest_ == digest || stamp_of(file_) != stamp_) return;
-  // In nanoseconds. File systems advance their time stamps only a few hundred times a second, so a
-  // second change soon after the first might leave the time stamps equal.
+  // A hash is stored only if the last change of the file is at least this many nanoseconds old.
+  // File systems advance their time stamps only a few hundred times a second. A second change soon
+  // after the first might leave the time stamps equal.
   constexpr std::int64_t kSettled = 1'000'000'000;
   timespec now{};
   if (::clock_gettime(CLOCK_REALTIME, &now) != 0 || nanoseconds(now) - stamp_->back() < kSettled) {

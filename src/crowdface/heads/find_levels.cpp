@@ -23,9 +23,9 @@ LevelError in_mm(LevelError error, double mm) {
   return {error.max * mm, error.root_mean_square * mm};
 }
 
-/// The mean head, with some parts enlarged or reduced: edge collapse keeps more triangles in
-/// enlarged parts. Eyes and the lids around them are nearly doubled in size, teeth are reduced to a
-/// third.
+/// The mean head, with some parts enlarged or reduced, because edge collapse keeps more triangles
+/// in enlarged parts. Eyes and the lids around them are nearly doubled in size; other rigid parts,
+/// such as teeth, are reduced to 30 %.
 Positions weighted(const Positions& mean, const PartList& parts) {
   constexpr double kEyes = 0.8, kTeeth = 0.3;
   Positions sizes = mean;
@@ -96,7 +96,10 @@ void require_ring(const Inputs& inputs, const DetailLevel& level) {
                             "that is an open border"));
 }
 
-/// A level of detail, and its error on the heads and their shapes.
+/// Makes a level of detail, and measures its error on the heads and their shapes.
+/// \param typical  result of `weighted`, on which edges are collapsed
+/// \param share    fraction of the triangles to keep
+/// \param mm       millimetres per file unit
 MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, double share,
                              double mm) {
   const Borders borders = inputs.heads_on_body ? Borders::kKeep : Borders::kCollapse;
@@ -112,7 +115,7 @@ MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, doubl
   return {std::move(level), of_heads, of_shapes};
 }
 
-/// Hash of everything that a level depends on.
+/// Hash of everything that a level of detail depends on. See measured_level for the parameters.
 Digest key_of(const Inputs& inputs, const HeadSet& typical, double share, double mm) {
   Hasher key;
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);

@@ -81,7 +81,8 @@ bool ends_within_line(const ObjFile& file) {
   return !text.empty() && text.back() != '\n' && text.back() != '\r';
 }
 
-/// Explains which export setting gave a head another topology than the first, and how to fix it.
+/// Explains why a head has another topology than the first head (usually an export setting), and
+/// how to fix the difference.
 std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head) {
   const Topology &first = first_head.mesh->topology, &found = head.mesh->topology;
   const auto triangles = [](const Topology& topology) {
@@ -165,7 +166,8 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
                name_of(asked.up), "; set up: ", name_of(found->up),
                " and front: ", name_of(found->front), " (faces.align: none skips this check)"));
   }
-  // eyes to mouth: 45 mm (child) to about 85 mm, with a margin
+  // Limits of the distance from the eyes to the mouth. Children have at least 45 mm, adults at most
+  // about 85 mm; the limits leave a margin.
   constexpr double kMinMm = 35, kMaxMm = 120;
   const double mm = marks->eye_to_mouth() * mm_per(config.faces.units);
   if (mm >= kMinMm && mm <= kMaxMm) return std::nullopt;
@@ -186,9 +188,10 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
 
 std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
-  // kMaxMm: largest distance of two heads that may be the same person. kMaxOfOthers: this distance
-  // as a fraction of the median distance between a head and its nearest head. kIdenticalMm: largest
-  // distance of two copies of one head; needs no other heads to compare with.
+  // kMaxMm: largest distance between two heads that may be the same person. kMaxOfOthers: largest
+  // ratio of this distance to the distance between another head and its nearest head (median over
+  // all other heads). kIdenticalMm: largest distance between two copies of one head; below it, the
+  // ratio does not matter.
   constexpr double kMaxMm = 1, kMaxOfOthers = 0.4, kIdenticalMm = 0.01;
   const std::vector<Head>& heads = inputs.head_set.heads;
   std::vector<Positions> sampled(heads.size());

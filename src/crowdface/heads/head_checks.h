@@ -17,8 +17,8 @@ namespace crowdface {
 /// names the difference and the export setting that probably caused it.
 void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& problems);
 
-/// Warns if the heads face the configured direction, but contain too little of a human face for
-/// measurements.
+/// Checks that the heads face the configured direction and have the size of people. Returns a
+/// warning if the mesh is too coarse for this check. Checks nothing with `faces.align: none`.
 /// \throws InvalidInput if the heads face another direction than the config says, or have an
 ///         impossible size: every measurement would then be wrong.
 std::optional<std::string> check_orientation_and_size(const Config& config, const Inputs& inputs);

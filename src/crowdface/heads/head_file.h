@@ -13,8 +13,8 @@ namespace crowdface {
 /// `mesh`; the same members of `file` are empty.
 struct HeadFile {
   ObjFile file;
-  Digest text_digest;  ///< hash of the file's bytes
-  Digest mesh_digest;
+  Digest text_digest;              ///< hash of the file's bytes
+  Digest mesh_digest;              ///< HeadMesh::digest of `mesh`
   std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
   bool is_cached = false;          ///< whether the cache has the head
   /// whether the file has several vertices at the same position, which the reader has joined

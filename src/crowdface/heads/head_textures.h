@@ -51,7 +51,8 @@ int max_rendered_texels(const Config::ContactSheet& sheet);
 /// Whether renders show any of these kinds of textures.
 bool are_any_rendered(const std::vector<HeadTextures>& maps);
 
-/// Colours as a texture for renders. \param max_px  maximum side length
+/// Converts a blended colour image to a texture for renders.
+/// \param max_px  maximum side length; larger images are downscaled
 Texture texture_of(const BlendedPicture& colours, int max_px);
 
 /// A face's own textures for renders: colours in linear light, and normals and roughness for

@@ -16,7 +16,7 @@ namespace crowdface {
 /// its own translation. Each finished face is rotated and its neck is bent, so that above the bend
 /// the face has the same shape as it would have without a body.
 struct HeadsOnBody {
-  /// How a head was placed.
+  /// How a head was placed on the body.
   struct Head {
     RigidMotion placement;  ///< from the head's file to its place on the body; scale 1
     /// The rotation of the placed head into the common pose of all heads, see rotation_vector; zero
@@ -44,7 +44,9 @@ struct HeadsOnBody {
                                [](const Head& head) { return !head.pose_rotation.isZero(0); });
   }
 
-  Digest digest;  ///< hash of the seam, of `falloff`, and of the body if there is one
+  /// hash of the seam, of `falloff`, of the heads' pose rotations, and of the body and its texture,
+  /// if there are any
+  Digest digest;
 };
 
 /// A rotation about the point `middle`. \param turn  see rotation_vector

@@ -45,7 +45,7 @@ struct ColouredAttachment {
   const Attachment* item;
   std::optional<HairColour> colour = {};  ///< if the attachment has a tint
 
-  /// Text from colour_label, or empty.
+  /// The colour as text, see colour_label; empty without a colour.
   std::string label() const { return colour ? colour_label(*colour) : std::string(); }
   /// The attachment's name; with a colour, "NAME+LABEL".
   std::string name() const;
@@ -66,9 +66,12 @@ struct AttachmentSet {
   bool empty() const { return items.empty(); }
   /// The attachment with this name, which must exist.
   const Attachment& at(const std::string& name) const { return items[index(name)]; }
+  /// Index into `items` of the attachment with this name, which must exist.
   std::size_t index(const std::string& name) const;
   /// The attachments that a face wears, in their colours.
   std::vector<ColouredAttachment> worn_by(const FacePlan& face) const;
+  /// The attachment with this name, in the colour that suits the hair colour. Has no colour if the
+  /// attachment has no tint or `hair` is empty.
   ColouredAttachment coloured(const std::string& name, const std::optional<HairColour>& hair) const;
   /// All attachments in all colours that these faces wear, without duplicates, sorted by name.
   std::vector<ColouredAttachment> worn_by(std::span<const FacePlan> faces) const;
@@ -86,8 +89,9 @@ struct Rig {
 /// A level of detail, and its error relative to the full mesh.
 struct MeasuredLevel {
   DetailLevel level;
-  LevelError heads_error;  ///< distance of the full mesh from the level, over all heads, mm
-  /// like heads_error, but over all blend shapes of the template; 0 if there are none
+  LevelError heads_error;  ///< error on all heads, in millimetres
+  /// error on all shapes (expressions), in millimetres: on the template's shapes or, if the heads
+  /// have shapes of their own, on the shapes of each head; 0 without shapes
   LevelError shapes_error;
 };
 
@@ -101,7 +105,7 @@ struct Inputs {
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
   /// colours.
   std::vector<ColourRows> vertex_colours;
-  Digest colours_digest;
+  Digest colours_digest;    ///< hash of `vertex_colours`, if there are any
   FaceMaterials materials;  ///< material of each polygon of the first head
   Adjacency adjacency;
   Components components;
@@ -112,7 +116,7 @@ struct Inputs {
   std::shared_ptr<const HeadsOnBody> heads_on_body;
   ShapeSet shapes;
   Digest shapes_digest;                      ///< hash of the shapes, if there are any
-  std::vector<MeasuredLevel> detail_levels;  ///< key `output.lods`
+  std::vector<MeasuredLevel> detail_levels;  ///< from the key `output.lods`
   PointSet points;
   Digest points_digest;  ///< hash of the points, if there are any
   Rig rig;

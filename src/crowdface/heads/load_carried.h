@@ -27,8 +27,9 @@ void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the rig; the shapes must be loaded before. The rig's vertices are matched to the heads'
 /// vertices by `_VERTEX_ID`; without this attribute, by their distance from the vertices of the
-/// shapes' template or of a head. A vertex of the heads without a match, or a joint with
-/// non-uniform scale, is a problem.
+/// shapes' template or of a head. Problems are: a vertex of the heads without a match, a joint that
+/// is mirrored, sheared or scaled non-uniformly, and a mesh that is far from the heads or of
+/// another size.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the attachments in parallel. A mesh that cannot be read or lies far from the head, or a

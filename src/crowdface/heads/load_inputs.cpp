@@ -77,7 +77,7 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
   return sum / static_cast<double>(heads.size()) * mm_per(config.faces.units);
 }
 
-/// Warns if output.surfaces names materials that no polygon has.
+/// Returns a warning if output.surfaces names materials that no polygon has.
 std::optional<std::string> unknown_surfaces(const Config& config, const Inputs& inputs) {
   const std::vector<std::string>& known = inputs.materials.names;
   std::vector<std::string> unknown, materials;

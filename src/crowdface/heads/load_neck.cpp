@@ -38,8 +38,9 @@ Vector3d ring_middle(const Positions& rim) {
   return sum / static_cast<double>(rim.rows());
 }
 
-/// Vertices of the skin that the bend of the neck does not move; all vertices of the skin if the
-/// bend moves all of them.
+/// At most 2000 vertices, evenly spaced by index, of the skin that the bend of the neck does not
+/// move. If the bend leaves fewer than 100 vertices of the skin unmoved, the vertices are chosen
+/// from the whole skin.
 std::vector<std::uint32_t> skin_above(const Inputs& inputs, const Positions& mean, const Rim& rim,
                                       double falloff) {
   constexpr std::size_t kPoints = 2000, kFewest = 100;
@@ -167,8 +168,8 @@ void warn_of_visible_bends(const Config& config, const std::vector<HeadsOnBody::
 }
 
 /// Places a head on the body. All heads get the same rotation: different rotations would change the
-/// differences between heads, and so the faces' identities. If a head has another pose, faces
-/// blended from this head are rotated at the end.
+/// differences between heads, and so the faces' identities. If the pose of a head differs from the
+/// common pose, the finished faces that contain this head are rotated instead.
 HeadsOnBody::Head place(const Rim& rim, const Goal& goal, const Matrix3d& turn, double mm,
                         Positions& head) {
   HeadsOnBody::Head placed;
@@ -189,7 +190,7 @@ HeadsOnBody::Head place(const Rim& rim, const Goal& goal, const Matrix3d& turn, 
   return placed;
 }
 
-/// The mean of the placed and turned heads.
+/// The mean of the placed heads, after each head is rotated into the common pose.
 Positions turned_mean(const HeadSet& heads, const std::vector<HeadsOnBody::Head>& placements,
                       const Vector3d& middle) {
   Positions mean = mean_head(heads);
@@ -224,7 +225,9 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
   return hasher.digest();
 }
 
-/// Unit normals from the summed area vectors of skin and body.
+/// Unit normals at the ring of the neck, #rim by 3.
+/// \param areas, of_body  the area vectors around each vertex of the ring, on the heads and on the
+///                        body
 Positions normals_of(Positions areas, const Positions& of_body) {
   areas += of_body;
   for (Index i = 0; i < areas.rows(); ++i) areas.row(i) = row3(areas, i).normalized().transpose();

@@ -86,7 +86,8 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
   }
 }
 
-/// The positions of the mesh on which one set of points lies.
+/// The positions of the mesh that the points belong to: the key `template` of the file, or
+/// `neutral`.
 Positions template_of(const YamlNode& root, const std::filesystem::path& file,
                       const std::filesystem::path& neutral, const Inputs& inputs,
                       Complaints& complaints) {
@@ -101,6 +102,7 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
   return read_positions(file.parent_path() / entry->value.text, topology, "the heads");
 }
 
+/// Reads the points of one mesh, or of each head, from a parsed file.
 /// \param neutral  file of the shapes' template; empty if there is none
 void read_points_file(const std::filesystem::path& file, const YamlNode& root,
                       const std::filesystem::path& neutral, Inputs& inputs,

@@ -85,11 +85,11 @@ Match match_by_place(const PointGrid& grid, const Positions& mesh, double reach)
   return match;
 }
 
-/// The position of the rig relative to the heads.
+/// How the rig fits the heads.
 struct Fit {
   Frame frame;
   Match match;
-  Positions mesh;  ///< positions of the rig's vertices, in the heads' topology
+  Positions mesh;  ///< #V by 3: the rig's mesh at rest, in the heads' frame and vertex order
 };
 
 Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
@@ -155,7 +155,8 @@ void require_near_heads(const Fit& fit, const Config& config, const Inputs& inpu
 }
 
 /// A joint's axes in the heads' frame.
-/// \throws InvalidInput if the axes have different lengths (non-uniform scale).
+/// \throws InvalidInput if the axes have different lengths (non-uniform scale), are not orthogonal,
+///         or are mirrored.
 Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
   constexpr double kAlike = 1e-3;
   Eigen::Matrix3d axes;

@@ -70,7 +70,8 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
                     [&](std::size_t i) { take(numbers[i], std::move(fitting[i].file.positions)); });
 }
 
-/// Sets a shape's displacements to zero at the neck's ring, where all faces end.
+/// Changes a shape's displacements smoothly, so that the ring of the neck does not move: all faces
+/// end in this ring.
 void hold_ring(const Inputs& inputs, Displacements& moves) {
   if (inputs.heads_on_body) inputs.heads_on_body->seam.keep_rim_still(moves);
 }
@@ -96,7 +97,7 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   return set;
 }
 
-/// A head as stored in its file, and the rigid motion that aligns the head.
+/// A head as stored in its file, and the rigid motion to its position among the loaded heads.
 struct RestingHead {
   Positions mesh;
   RigidMotion motion;
@@ -173,8 +174,8 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   }
 }
 
-/// Removes shapes that move no vertex of any head: either the shape is the neutral pose, or a head
-/// model lists the shape but has no data for it.
+/// Removes shapes that move no vertex of any head. Such a shape is the neutral pose, or a head
+/// model lists it without data.
 void remove_shapes_without_motion(Inputs& inputs) {
   ShapeSet& set = inputs.shapes;
   for (std::size_t s = set.shapes.size(); s-- > 0;) {

@@ -33,8 +33,8 @@ struct BodyBelowNeck {
   void reverse_inward_polygons(const Positions& head_areas);
 };
 
-/// Reads the body and matches its rim with the heads' rim. If the body's rim (`neck.body_rim`) is
-/// not an open border, removes the head above this rim.
+/// Reads the body and matches its rim with the heads' rim. If the config names the body's rim
+/// (`neck.body_rim`), removes the polygons above this rim, such as the body's own head.
 /// \param rim   the heads' rim
 /// \param ring  the mean of the heads' positions at the rim, #rim by 3
 /// \throws InvalidInput if no rim fits, or if the config needs a body and the file has a head.

@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Letters and digits of a material's name, for use in file names.
+/// The first 40 letters, digits, hyphens and underscores of a material's name, for use in file
+/// names.
 std::string part_name(const std::string& material) {
   std::string name;
   for (const char c : material) {

@@ -114,6 +114,7 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
   return prepared;
 }
 
+/// The sizes that the cache entry of a prepared head must have.
 HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
   return {inputs.head_set.topology.vertex_count,
           static_cast<Index>(prepared.trajectory_samples.size()),

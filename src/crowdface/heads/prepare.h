@@ -22,7 +22,7 @@ namespace crowdface {
 
 /// All heads, ready for casting and blending.
 struct Prepared {
-  FaceSamples samples;
+  FaceSamples samples;  ///< the vertices at which faces are compared and judged
   /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
   /// on which the samples' mirror images depend.
   FaceSamples trajectory_samples;
@@ -51,7 +51,7 @@ void throw_if_truncated(const Prepared& prepared);
 Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                  const CacheFolder& cache);
 
-/// Prepares heads that the cache lacks and stores them there.
+/// Prepares the wanted heads that the cache lacks, and stores them in the cache.
 /// \param is_wanted  called with the index of a head; returns whether to prepare the head
 /// \throws CannotCreate, IoError if a head cannot be stored.
 void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,

@@ -59,6 +59,7 @@ class SharedMeshes {
     const std::lock_guard lock(mutex_);
     return of_summary_.emplace(summary, Known()).second;
   }
+  /// Stores the mesh that was read from a head's file, and sets the head's mesh to it.
   /// \param summary  hash of the text that describes the mesh
   void put(const Digest& summary, HeadMesh mesh, HeadFile& head) {
     head.mesh_digest = mesh.digest();
@@ -121,7 +122,7 @@ void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   }
 }
 
-/// Adds a note to each head whose polygons stay reversed.
+/// Adds a note to each head whose polygons were reversed and not turned back by restore_mirrored.
 void note_reversed_faces(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (head && head->file.has_reversed_faces) head->file.notes.emplace_back(kReversedFacesNote);
@@ -161,7 +162,7 @@ bool read_from_cache(HeadFile& head, const CacheFolder& cache, SharedMeshes& sha
   return false;
 }
 
-/// A head that is being read.
+/// A head that is being read. `summary` describes the text of an OBJ file.
 struct HeadReading {
   HeadFile head;
   ObjSummary summary;
@@ -192,8 +193,8 @@ const fs::path& scratch_folder() {
 /// Stores the textures embedded in a mesh file as image files next to a material file, as for OBJ
 /// files. The files are in a folder of the cache, or in a scratch folder if no cache can be
 /// written.
-/// \return the path that the material file is relative to, and the material file's name; empty if
-///         there are no textures
+/// \return the head's new ObjFile::material_base, and the name of the material file in that folder;
+///         empty if there are no textures
 std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
                                                const FileMesh& mesh) {
   if (mesh.textures.empty()) return {};

@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-constexpr double kBandMm = 20;  ///< height of the band, along the skin
+constexpr double kBandMm = 20;  ///< height of the band above the ring, along the skin
 
 /// The optical densities of a head's texture around each vertex, #vertices by 3: the mean of one
 /// sample from each polygon at the vertex. No rows if some vertex has no textured polygon.

@@ -50,7 +50,7 @@ bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
   return counted == sizes;
 }
 
-/// Whether the numbers are valid barycentric coordinates.
+/// Whether all barycentric coordinates lie between 0 and 1, within rounding.
 bool are_shares(const std::array<double, 3>& shares) {
   constexpr double kRounding = 1e-9;
   return std::ranges::all_of(

@@ -20,12 +20,15 @@ void find_neighbours(Inputs& inputs);
 /// \param inputs  `inputs.parts` must be set
 RegionWeights load_regions(const Config& config, const Inputs& inputs);
 
-/// Like choose_face_samples and find_sample_cells for the mean head, but from the cache if
-/// possible.
+/// Chooses `count` samples on the mean head before placement on a body (see choose_face_samples),
+/// or reads the samples from the cache.
 FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index count);
+/// Assigns the vertices of the mean head to samples (see find_sample_cells), or reads the
+/// assignment from the cache.
 SampleCells find_cells(const Inputs& inputs, const FaceSamples& samples);
 
-/// Like find_mirror, but from the cache if possible.
+/// Finds the mirror partners of the mean head's vertices, or reads them from the cache.
+/// \param side  direction from the right to the left of the head
 FoundMirror find_cached_mirror(const Inputs& inputs, const Eigen::Vector3d& side);
 
 }  // namespace crowdface

@@ -21,7 +21,7 @@ class HeadColourWeights {
   std::vector<double> weights_of(const Recipe& recipe) const;
 
  private:
-  std::size_t heads_;
+  std::size_t heads_;  ///< number of heads
   std::vector<double> region_area_fractions_;
 };
 

@@ -41,7 +41,7 @@ bool EncodedFile::replace_line(std::string_view word, std::string_view line) {
     std::size_t kept = 0;
     for (std::size_t at = piece.find(word); at != piece.npos; at = piece.find(word, at + 1)) {
       const std::size_t before = piece.substr(0, at).find_last_not_of(" \t");
-      // Of all pieces, only the first is known to begin at the start of a line.
+      // The first piece begins at the start of a line; other pieces may begin within a line.
       const bool begins =
           before == piece.npos ? piece.data() == old.front().data() : piece[before] == '\n';
       const std::size_t after = at + word.size();

@@ -25,8 +25,8 @@ class EncodedFile {
   void add_without_copy(std::string_view bytes);
   /// Appends a text, which this object then owns.
   void add(std::string text);
-  /// Shares the ownership of the object that holds referenced bytes, so that these bytes live as
-  /// long as this object.
+  /// Keeps `owner` alive as long as this object. `owner` is an object that holds bytes appended
+  /// with `add_without_copy`.
   void share_ownership(std::shared_ptr<const void> owner);
   /// Allocates `capacity` uninitialised bytes. The caller fills these bytes and appends ranges of
   /// them with `add_without_copy`.

@@ -26,7 +26,7 @@ JoinedBorders joined_ids(const FileMesh& mesh) {
   return result;
 }
 
-/// Merges the copies of each split vertex.
+/// Merges the copies of each vertex that the format has split.
 void join_vertices(FileMesh& mesh) {
   const JoinedBorders by = mesh.vertex_ids.empty()
                                ? joined_borders(mesh.topology, mesh.positions, mesh.mesh_of_vertex)

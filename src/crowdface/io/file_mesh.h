@@ -17,7 +17,7 @@ namespace crowdface {
 
 /// A texture that a mesh file embeds or names.
 struct MeshTexture {
-  std::string material;
+  std::string material;  ///< name of the material
   TextureKind kind;
   std::string bytes;  ///< content of the image file
 };
@@ -30,15 +30,15 @@ struct FileMesh : Mesh {
   /// For each vertex, the index of its mesh among the meshes of the file. Only for formats that
   /// split vertices at seams; empty for other formats.
   std::vector<std::uint32_t> mesh_of_vertex;
-  std::vector<std::uint32_t>
-      vertex_ids;  ///< one id per vertex, from before the split; empty if the file has no ids
+  /// For each vertex, the id of the vertex before the split. Empty if the file has no ids.
+  std::vector<std::uint32_t> vertex_ids;
   std::vector<MeshTexture> textures;  ///< textures of the materials
   /// Base colours of materials in linear light, for formats without material files.
   std::map<std::string, std::array<float, 3>> material_colours;
   /// Material files that an OBJ file names. Empty for other formats, which list their textures in
   /// `textures`.
   std::vector<std::string> material_libraries;
-  std::vector<std::string> notes;  ///< repairs and omissions, one sentence each
+  std::vector<std::string> notes;  ///< repairs and ignored content, one sentence each
 };
 
 /// Sets the vertices, texture coordinates and vertex colours of a mesh. If there are no texture
@@ -56,10 +56,10 @@ inline std::string shapes_note(std::size_t count, std::string_view kind) {
 }
 
 /// Merges vertices that a format has split at seams. Two vertices of the same mesh are copies of
-/// one vertex if they have the same id. In a file without ids, they are copies if both lie on the
-/// mesh's border at the same position (see joined_borders). The merged vertices have the order of
-/// their first copies. Texture coordinates move from vertices to polygon corners. Adds a note if
-/// vertices were merged.
+/// one vertex if they have the same id. In a file without ids, two vertices are copies if both lie
+/// on the mesh's border at the same position (see joined_borders). The merged vertices have the
+/// order of their first copies. Texture coordinates move from vertices to polygon corners. Adds a
+/// note if vertices were merged.
 /// \return whether any vertices were merged.
 bool join_split_vertices(FileMesh& mesh);
 

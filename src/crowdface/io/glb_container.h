@@ -25,11 +25,13 @@ inline constexpr int kUnsignedInt = 5125, kFloat = 5126;
 inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 }  // namespace gltf
 
+/// The contents of the two chunks of a GLB file.
 struct GlbChunks {
   std::string_view json, binary;
 };
 
-/// The two chunks of a GLB file; nothing if the bytes are not a GLB file or the file is truncated.
+/// Finds the two chunks of a GLB file; nothing if the bytes are not a GLB file or the file is
+/// truncated.
 inline std::optional<GlbChunks> glb_chunks(std::string_view bytes) {
   using namespace glb;
   if (bytes.size() < kBinaryHeaderSize || number_at<std::uint32_t>(bytes.data()) != kMagic ||

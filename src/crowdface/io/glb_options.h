@@ -51,6 +51,7 @@ struct GlbFaceImage {
   std::string suffix;  ///< end of the image's name, after the mesh's name, such as ".normal"
 };
 
+/// The content that the GLB files of all faces have in common. Also used for USD layers.
 struct GlbOptions {
   /// Length unit of the positions; the file's root node scales the positions to metres.
   LengthUnit unit = LengthUnit::kMetre;
@@ -62,10 +63,10 @@ struct GlbOptions {
   /// for each polygon, the index of its material in `materials`; empty if there are no materials
   std::vector<std::uint32_t> face_materials;
   std::vector<GlbMorphTarget> targets;
-  /// Names of the points. Each point is a child of the face's node; its position differs from face
-  /// to face.
+  /// Names of the points. Each point is an empty child node of the face's node. The positions of
+  /// the points differ from face to face.
   std::vector<std::string> point_names;
-  GlbSkin skin;  ///< joints below the face's node; their positions differ from face to face
+  GlbSkin skin;  ///< joints below the face's node; the joints' positions differ from face to face
   /// The value of `_VERTEX_ID` for each vertex. If empty, the values are 0, 1, 2, …
   std::vector<std::uint32_t> vertex_ids;
   std::vector<GlbFaceImage> images;  ///< the images embedded in every file

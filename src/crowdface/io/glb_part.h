@@ -22,10 +22,11 @@ namespace crowdface {
 
 /// Material of an additional mesh in a GLB file.
 struct GlbPartMaterial {
+  /// How the alpha channel of the base colour image acts (glTF's alphaMode).
   enum class Alpha {
     kOpaque,
-    kMask,   ///< each texel is visible or invisible; the image's alpha decides
-    kBlend,  ///< partly transparent according to alpha
+    kMask,   ///< each texel is visible or invisible
+    kBlend,  ///< alpha is the opacity
   };
   std::string name;
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
@@ -42,9 +43,10 @@ struct GlbImage {
   std::string name = {};
 };
 
-/// An additional mesh in the GLB files of faces, with its own topology, materials and images. Its
-/// node is a child of the face's node. Like `GlbTemplate`, the object is prepared once; for each
-/// face it writes only the positions, the normals and the displacements of the morph targets.
+/// An additional mesh, such as hair, in the GLB files of faces, with its own topology, materials
+/// and images. The node of the additional mesh is a child of the face's node. Like a `GlbTemplate`,
+/// the object is prepared once; for each face it writes only the positions, the normals and the
+/// displacements of the morph targets.
 class GlbPart {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
@@ -60,7 +62,7 @@ class GlbPart {
           const CompressedRows<Influence>& influences = {}, std::vector<std::string> targets = {},
           GivenNormals fixed = {});
 
-  /// Adds node, mesh, materials and accessors to a scene.
+  /// Adds the part's node, mesh, materials and accessors to a scene.
   /// \param size  bytes in the buffer so far, a multiple of four.
   /// \param moves  for each morph target, the displacements of this mesh's vertices.
   /// \return the buffer size afterwards, a multiple of four.
@@ -79,8 +81,9 @@ class GlbPart {
   std::size_t encoding_memory_bytes() const;
 
  private:
+  /// The triangles of one material.
   struct Primitive {
-    std::size_t material, index_count;  ///< index of the material; number of indices
+    std::size_t material, index_count;  ///< index of the material; number of vertex indices
   };
 
   std::string name_;
@@ -94,7 +97,7 @@ class GlbPart {
   // The `bytes` of the images and of the skin attributes are empty; `shared_data_` has the data.
   std::vector<GlbImage> images_;
   std::vector<GlbSkinAttribute> skin_;  ///< no elements if the mesh is not skinned
-  std::vector<std::string> targets_;
+  std::vector<std::string> targets_;    ///< names of the morph targets
   GivenNormals given_normals_;
   std::string shared_data_;  ///< texture coordinates, influences, triangles, images
 };
@@ -103,7 +106,7 @@ class GlbPart {
 struct PlacedGlbPart {
   const GlbPart* part;
   const Positions* positions;
-  std::span<const Displacements> moves = {};
+  std::span<const Displacements> moves = {};  ///< for each morph target
   PartLook look = {};
 };
 

@@ -40,7 +40,8 @@ void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::strin
 void set_morph_targets(nlohmann::ordered_json& mesh, std::size_t first,
                        const std::vector<std::string>& names);
 
-/// Adds arrays to a glTF buffer. Each array gets one buffer view, which the scene describes.
+/// Adds the buffer views and accessors of arrays to a glTF scene. The bytes of the arrays are
+/// written elsewhere, in the same order.
 class GlbBuffer {
  public:
   /// \param size  number of bytes that the buffer already has.
@@ -48,8 +49,9 @@ class GlbBuffer {
 
   std::size_t size() const { return size_; }
 
-  /// Adds a buffer view of `size` bytes at the end of the buffer. \return index of the new buffer
-  /// view.
+  /// Adds a buffer view of `size` bytes at the end of the buffer.
+  /// \param target  gltf::kArrayBuffer, gltf::kElementArrayBuffer, or 0 for other data.
+  /// \return index of the new buffer view.
   std::size_t add_view(std::size_t size, int target = 0);
 
   /// Aligns the start of the next view to four bytes.
@@ -57,12 +59,15 @@ class GlbBuffer {
   std::size_t pad();
 
   /// Adds an accessor to the last buffer view.
-  /// \param offset  bytes from the start of the view.
+  /// \param component  component type of the numbers, such as gltf::kFloat.
+  /// \param type       type of an element, such as "VEC3".
+  /// \param count      number of elements.
+  /// \param offset     bytes from the start of the view.
   /// \return index of the new accessor.
   std::size_t add_accessor(int component, const char* type, std::size_t count,
                            std::size_t offset = 0);
 
-  /// Adds an accessor of `count` zero vectors.
+  /// Adds an accessor without data: `count` vectors that are zero.
   void add_zeros(std::size_t count);
   /// Makes the last accessor sparse, with `count` non-zero elements.
   /// \param indices, values  the buffer views that hold the elements' indices and values.

@@ -16,14 +16,14 @@ namespace crowdface {
 
 /// Weight of a joint for one vertex.
 struct Influence {
-  std::uint32_t joint;
-  float weight;  ///< the weights of a vertex add up to one
+  std::uint32_t joint;  ///< index of the joint
+  float weight;         ///< the weights of a vertex add up to one
 };
 
 /// A joint of the rig that all files share. Only the joint's position differs from face to face.
 struct GlbJoint {
   std::string name;
-  std::uint32_t parent;      ///< kNoIndex: no parent
+  std::uint32_t parent;      ///< index of the parent joint; kNoIndex: no parent
   Eigen::Matrix3d rotation;  ///< from the joint's axes to the axes of the positions
 };
 
@@ -32,17 +32,18 @@ struct GlbSkin {
   std::vector<GlbJoint> joints;               ///< empty: no rig
   CompressedRows<Influence> influences = {};  ///< one row per vertex
 
+  /// Number of bytes of the inverse bind matrices.
   std::size_t matrix_bytes() const { return joints.size() * 16 * sizeof(float); }
 };
 
-/// The attribute JOINTS_n or WEIGHTS_n: its component type and its data.
+/// A vertex attribute of a skinned mesh.
 struct GlbSkinAttribute {
-  std::string name;
-  int component_type;
-  std::string bytes;
+  std::string name;    ///< JOINTS_n or WEIGHTS_n
+  int component_type;  ///< as glTF numbers the types, such as gltf::kFloat
+  std::string bytes;   ///< data for all vertices
 };
-/// Builds pairs of JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex; the vertex with
-/// the most influences determines the number of pairs.
+/// Builds pairs of the attributes JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex.
+/// The vertex with the most influences determines the number of pairs.
 /// \param vertices  for each vertex of the file, its row in `influences`
 std::vector<GlbSkinAttribute> skin_attributes(const CompressedRows<Influence>& influences,
                                               std::span<const std::uint32_t> vertices);

@@ -19,10 +19,10 @@
 
 namespace crowdface {
 
-/// Writes binary glTF 2.0 files of one topology. The data that all faces share (texture
-/// coordinates, triangles, vertices split at seams, see `SplitVertices`) is built once, and each
+/// Writes binary glTF 2.0 files of one topology. The constructor builds the data that all faces
+/// share: texture coordinates, triangles, and vertices split at seams (see `SplitVertices`). Each
 /// encoded file references this data. Positions keep their unit and axes. The attribute
-/// `_VERTEX_ID` holds the original vertex of each split vertex, or the value that
+/// `_VERTEX_ID` holds the index of the original vertex of each split vertex, or the value that
 /// `GlbOptions::vertex_ids` gives for the original vertex. The first #V vertices of the file are
 /// the original vertices in order. Files with a normal map have tangents.
 class GlbTemplate {
@@ -75,13 +75,13 @@ class GlbTemplate {
   std::vector<std::uint32_t> copied_vertices_;
   std::optional<Tangents> tangents_;   ///< set if a material has a normal map
   std::string shared_data_;            ///< the part of the buffer that is the same in all files
-  std::vector<GlbMorphRows> targets_;  ///< `vertices` of each element is empty
+  std::vector<GlbMorphRows> targets_;  ///< the morph targets; `vertices` of each element is empty
   /// Index of the accessor of the first morph target's displacements; the accessors of further
   /// morph targets follow.
   std::size_t first_target_ = 0;
   GlbSkin skin_;                  ///< only the joints; `influences` is empty
   std::size_t target_bytes_ = 0;  ///< bytes of the displacements of all targets
-  /// The scene as JSON, without the bounds and names, because these differ between faces.
+  /// The scene as JSON, without the bounds and names, which differ from face to face.
   std::string json_;
 };
 

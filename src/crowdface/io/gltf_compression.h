@@ -11,8 +11,8 @@ namespace crowdface {
 
 /// Parameters of a buffer view compressed with EXT_meshopt_compression.
 struct MeshoptView {
-  std::size_t count = 0, stride = 0;
-  std::string mode, filter;
+  std::size_t count = 0, stride = 0;  ///< number of elements; bytes per element
+  std::string mode, filter;           ///< as in the extension: "TRIANGLES"; "OCTAHEDRAL"
 };
 /// Decompresses a meshopt buffer view.
 /// \return nothing if the data is damaged, or if the data is too short to expand to the size that
@@ -21,17 +21,19 @@ std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptV
 
 /// A decoded Draco mesh: triangles, and attributes in row-major order.
 struct DracoMesh {
-  std::size_t point_count = 0;
-  std::vector<std::uint32_t> corners;
-  std::vector<std::vector<double>> attributes;  ///< one for each requested attribute
+  std::size_t point_count = 0;         ///< number of vertices
+  std::vector<std::uint32_t> corners;  ///< three vertices per triangle
+  /// for each requested attribute, the values of all vertices
+  std::vector<std::vector<double>> attributes;
 };
+/// A vertex attribute to decode.
 struct DracoAttribute {
-  std::uint32_t id = 0;
+  std::uint32_t id = 0;  ///< Draco's unique id of the attribute
   std::size_t component_count = 0;
 };
 /// Decompresses a Draco mesh.
-/// \param attributes  for each attribute to decode: its id and its number of components.
-/// \return nothing if the bytes are damaged or one of the attributes is missing.
+/// \return nothing if the bytes are damaged, an attribute is missing, or the mesh exceeds
+/// `input_limits()`.
 std::optional<DracoMesh> decode_draco(std::string_view bytes,
                                       const std::vector<DracoAttribute>& attributes);
 

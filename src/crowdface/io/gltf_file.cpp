@@ -18,9 +18,9 @@ namespace {
 using namespace gltf;
 using GltfJson = GltfFile::Json;
 
-/// Largest absolute value that a node's matrix may contain: 1000 km in metres.
+/// Largest absolute value that the matrix of a node may contain; as a translation, 1000 km.
 constexpr double kFarthestNode = 1e6;
-/// For each byte of the file's buffers, at most this many numbers may be read.
+/// The reader may read at most this many numbers for each byte of the file's buffers.
 constexpr std::size_t kMaxNumbersPerByte = 4;
 
 std::size_t size_of_type(int type) {
@@ -29,7 +29,7 @@ std::size_t size_of_type(int type) {
   return 4;
 }
 
-/// The number by which a normalized integer of this component type is divided; 1 for floats.
+/// The number by which a normalized integer of this component type is divided; 1 for other types.
 double full_of_type(int type) {
   if (type == kUnsignedByte) return 255;
   if (type == kByte) return 127;
@@ -200,8 +200,9 @@ std::string_view GltfFile::view(std::size_t number) {
   return part(json);
 }
 
-/// Subtracts `more` from the number of values that may still be read from the file. The file size
-/// alone is no limit: many nodes may use one mesh, and several accessors may share data.
+/// Subtracts `more` from `remaining_numbers_`; fails if fewer numbers remain. The limit is
+/// necessary because many nodes may use one mesh, and several accessors may share data, so that a
+/// small file may describe a huge mesh.
 void GltfFile::reserve_numbers(std::size_t more) {
   if (more > remaining_numbers_) {
     fail("its meshes and skins use far more numbers than its buffers have bytes");

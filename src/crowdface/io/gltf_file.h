@@ -25,11 +25,13 @@ class GltfFile {
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
   const Json& scene() const { return scene_; }
-  /// \throws InvalidInput with a message that names the file.
+  /// Throws InvalidInput with the name of the file and `what`.
   [[noreturn]] void fail(const std::string& what) const;
 
   /// The values of an accessor in row-major order. Normalized integers become the fractions that
   /// they encode. Sparse values replace the values of the base array.
+  /// \param accessor  index of the accessor.
+  /// \param width     numbers per element: 3 for "VEC3".
   /// \throws InvalidInput if a value is not finite.
   std::vector<double> read_values(std::size_t accessor, std::size_t width);
   /// The values of an accessor as unsigned integers.
@@ -37,15 +39,17 @@ class GltfFile {
   /// The data of a URI: embedded, or read from a file beside this one.
   /// \param what  name of the data in messages, such as "its buffer 2"
   std::string read_uri(const std::string& uri, const std::string& what) const;
-  /// The uncompressed content of a buffer view.
+  /// The uncompressed content of the buffer view with the index `number`.
   std::string_view view(std::size_t number);
 
   /// The parent of each node, or kNoIndex.
   std::vector<std::uint32_t> parents() const;
   /// For each node, the transform from the node's axes to the file's axes.
+  /// \param parents  result of `parents`.
   std::vector<Eigen::Matrix4d> world_transforms(const std::vector<std::uint32_t>& parents) const;
 
  private:
+  /// The content of the buffer with the index `number`.
   std::string_view buffer(std::size_t number);
   /// Reads `count` rows of `width` numbers.
   /// \param view_index  the buffer view that contains the rows
@@ -58,7 +62,8 @@ class GltfFile {
 
   std::filesystem::path path_;
   Json scene_;
-  std::string_view binary_;
+  std::string_view binary_;  ///< the binary chunk of a GLB file; empty for JSON text
+  /// contents of the buffers that have a URI and of the compressed buffer views, by index
   std::map<std::size_t, std::string> decoded_buffers_, decoded_views_;
   std::size_t remaining_numbers_ = 0;  ///< how many more numbers may be read from this file
 };

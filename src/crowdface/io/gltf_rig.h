@@ -17,7 +17,7 @@ namespace crowdface {
 struct GltfRig {
   struct Joint {
     std::string name;
-    std::uint32_t parent;            ///< kNoIndex: no parent
+    std::uint32_t parent;            ///< index of the parent joint; kNoIndex: no parent
     Eigen::Matrix4d rest_transform;  ///< from the joint's axes to the file's axes
   };
   std::vector<Joint> joints;

@@ -89,8 +89,8 @@ std::uint64_t png_bits_per_pixel(std::string_view bytes) {
 
 /// Rejects PNG headers that claim more pixels than the file can contain, because memory for all
 /// pixels is allocated before decoding. TIFFs are checked before they are opened (`tiff_defect`).
-/// For OpenEXR and JPEG, the file size does not limit the number of pixels; only the memory limit
-/// for all images does.
+/// For OpenEXR and JPEG, the file size does not limit the number of pixels; only `ImageLimits` and
+/// the memory limit for all images do.
 void check_png_claim(const path& file, std::string_view bytes, const ImageHeader& spec) {
   constexpr std::uint64_t kMaxOfOneByte = 1100;  // deflate expands a byte to at most 1032 bytes
   const std::uint64_t bits = png_bits_per_pixel(bytes);
@@ -105,8 +105,8 @@ void check_png_claim(const path& file, std::string_view bytes, const ImageHeader
 
 void check_kind(const path& file, std::string_view format, const ImageHeader& spec) {
   if (spec.is_deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
-  // Only OpenEXR has display windows. In other formats an offset says from where in a larger image
-  // this image was cropped.
+  // Only OpenEXR has display windows. In other formats, an image that differs in size from the full
+  // image is a crop.
   const bool has_windows = format == "openexr";
   if (!has_windows && (spec.width != spec.full_width || spec.height != spec.full_height)) {
     refuse_file(file, concat("expected the whole image, found ", spec.width, " x ", spec.height,
@@ -145,7 +145,8 @@ std::uint64_t pixel_bytes(const ImageHeader& facts) {
 std::mutex taking;
 std::uint64_t taken = 0;  ///< bytes reserved for all images
 
-/// Number of bytes of the limit `most` that are not reserved. The caller must hold the mutex.
+/// Number of bytes that can still be reserved if the limit is `most`. The caller must hold the
+/// mutex.
 std::uint64_t free_of(std::uint64_t most) {
   return most - std::min(taken, most);
 }
@@ -180,7 +181,7 @@ std::string encode(const std::string& format, const ImageToEncode& picture, std:
   return bytes;
 }
 
-/// Opens a file and rejects images that are not safe or not supported to decode.
+/// Opens a file. Rejects images that are unsafe to decode and images that are not supported.
 OpenPicture open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
   const ImageCodec& codec = codec_of(format);
@@ -284,8 +285,8 @@ Image read_image(const path& file, const ImageLimits& limits) {
   try {
     return decode(file, mapped, limits);
   } catch (const InvalidInput&) {
-    // Decoders report a lack of memory as damaged data. To tell a lack of memory from damaged data,
-    // decode a second time.
+    // Decoders report a temporary lack of memory as damaged data. Decode a second time: if this
+    // attempt fails too, the data is damaged.
     try {
       return decode(file, mapped, limits);
     } catch (const InvalidInput& again) {

@@ -33,8 +33,8 @@ struct Image {
   int alpha_channel = -1;  ///< index of the alpha channel; −1: none
   /// The pixels row by row, top row first. The channels of each pixel are next to each other.
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
-  ImageMemory memory = {};
-  std::vector<std::string> channel_names = {};  ///< #channels, if the format has any
+  ImageMemory memory = {};  ///< the reservation for `pixels`; null without a reservation
+  std::vector<std::string> channel_names = {};  ///< #channels; empty if the format has no names
 
   /// Whether the values are single-precision numbers; otherwise they are integers.
   bool has_floats() const { return pixels.index() == 0; }
@@ -85,15 +85,16 @@ class DamagedImage : public InvalidInput {
 /// JPEG), or all images together would exceed the memory limit.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
-/// Size and value type of the image that `read_image` would return. Reading the size does not
-/// decode pixels.
+/// Size and value type of the image that `read_image` would return.
 struct ImageSize {
   int width = 0;
   int height = 0;
   int channels = 0;
-  bool has_8_bit_values = false;  ///< 8 bits per value
-  bool has_floats = false;        ///< single precision; if neither flag is set, 16 bits per value
+  bool has_8_bit_values = false;  ///< integers of 8 bits
+  bool has_floats = false;        ///< single precision; if neither flag is set, integers of 16 bits
 };
+/// Reads the header of an image file, without decoding pixels.
+/// \throws MissingInput, InvalidInput.
 ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& limits = {});
 
 /// Encodes an 8-bit PNG file in memory. Equal pixels give equal bytes; the file has no time stamp.
@@ -102,8 +103,8 @@ ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& 
 /// \throws BrokenPrecondition if the sizes do not match.
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-/// Encodes a PNG with deflate's uncompressed ("stored") blocks, so that the bytes do not depend on
-/// the installed zlib.
+/// Encodes an 8-bit RGB PNG with deflate's uncompressed ("stored") blocks, so that the bytes do not
+/// depend on the installed zlib.
 std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels);
 
 /// Encodes a PNG with 16 bits per value.

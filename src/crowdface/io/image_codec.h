@@ -14,12 +14,12 @@ struct ImageHeader {
   int full_x = 0, full_y = 0, full_width = 0, full_height = 0;  ///< the display window
   int tile_width = 0, tile_height = 0;                          ///< 0: the image is not tiled
   int alpha_channel = -1;
-  std::vector<std::string> channel_names;  ///< if the format has any
-  bool is_deep = false;
+  std::vector<std::string> channel_names;  ///< #channels for OpenEXR; empty for other formats
+  bool is_deep = false;                    ///< several samples per pixel (OpenEXR)
   enum class ValueType { kBytes, kWords, kFloats, kOthers };
-  ValueType value_type =
-      ValueType::kOthers;  ///< type after reading: 8 bits, 16 bits or single precision
-  std::string type_name;   ///< value type in the file, for messages
+  /// type of the values that `ImageCodec::read` returns: 8 bits, 16 bits or single precision
+  ValueType value_type = ValueType::kOthers;
+  std::string type_name;  ///< value type in the file, for messages
 };
 
 /// Pixels to be encoded as a file.
@@ -38,6 +38,7 @@ struct ImageCodec {
   /// Opens an image and reads its header.
   /// \param format  name of the reader in OpenImageIO.
   /// \param bytes  content of the file; must outlive the opened image.
+  /// \param facts  receives the header.
   /// \return null if the image cannot be opened; `error` gives the reason.
   void* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
                 ImageHeader& facts, std::string& error);
@@ -49,10 +50,10 @@ struct ImageCodec {
   bool (*encode)(const ImageToEncode& picture, std::string& bytes, std::string& error);
 };
 
-/// The codec for all formats but PNG, based on OpenImageIO. OpenImageIO depends on some 250
+/// The codec for all formats except PNG, based on OpenImageIO. OpenImageIO depends on some 250
 /// libraries, which need 0.2 s to load. The codec is therefore in a separate shared library
-/// (openimageio_codec.cpp), which the first call loads. The library holds no state of this program.
-/// Thread-safe.
+/// (openimageio_codec.cpp), which the first call loads. This shared library holds no state of the
+/// program. Thread-safe.
 /// \throws IoError if the library is missing from its installed place or cannot be loaded.
 const ImageCodec& image_codec();
 

@@ -8,8 +8,8 @@
 namespace crowdface {
 
 /// Decodes a text of unknown encoding as GBK (GB 18030), as Shift-JIS and as Latin-1
-/// (Windows-1252). Returns each valid result, converted to UTF-8; nothing if the text already is
-/// UTF-8.
+/// (Windows-1252). Returns each valid result, converted to UTF-8. Returns nothing if the text
+/// already is UTF-8 or is longer than 4096 bytes.
 std::vector<std::string> legacy_decodings(std::string_view bytes);
 
 }  // namespace crowdface

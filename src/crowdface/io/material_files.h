@@ -23,29 +23,31 @@ struct MaterialFile {
   std::optional<TextureKind> kind = {};
 };
 
+/// Result of `find_material_files`.
 struct MaterialFiles {
   std::vector<MaterialFile> files;  ///< the files to copy, one entry per destination
-  /// The problems found, one message each: a file that is missing, cannot be read or is not copied;
-  /// too many names.
+  /// One message for each problem: a file is missing, cannot be read or is not copied; the material
+  /// files contain too many names.
   std::vector<std::string> warnings;
-  /// Whether a material file was found under another path than the mesh names. In this case a
-  /// written mesh must name the found file in its `mtllib` line.
+  /// Whether a material file was found at another path than the mesh names. In this case the
+  /// `mtllib` line of a written mesh must name the path where the file was found.
   bool has_library_at_other_path = false;
 };
 
 /// Name of the folder, beside the meshes, that contains only files made by this program.
 inline constexpr std::string_view kBlendedFolder = "blended";
 
-/// The first word of a line in a material file, and the text after this word; nothing if the line
-/// has fewer than two words.
+/// The first word of a line in a material file, and the text after this word. Both are empty if the
+/// line has fewer than two words.
 struct MaterialStatement {
   std::string_view keyword, arguments;
 };
 MaterialStatement material_statement(std::string_view line);
 /// Whether a statement with this first word names a texture.
 bool is_texture_statement(std::string_view word);
-/// All suffixes of a text that begin at one of its last 32 words, longest first. One suffix is the
-/// file name of a statement, because the file name comes after the options and may contain spaces.
+/// All suffixes of a statement's arguments that begin at one of the last 32 words, longest first.
+/// One of the suffixes is the file name: the file name comes after the options and may contain
+/// spaces.
 std::vector<std::string_view> suffixes_starting_at_words(std::string_view text);
 
 /// Finds the material files that a mesh names, and the textures that these files name. A name with

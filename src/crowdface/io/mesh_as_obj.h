@@ -12,6 +12,7 @@ namespace crowdface {
 /// Whether a head may be stored in a file with this extension. The format must keep the vertex
 /// order, or must allow split vertices to be joined again. STL does neither.
 bool is_head_file(const std::filesystem::path& path);
+/// Whether the extension is ".obj", ignoring case.
 bool is_obj(const std::filesystem::path& path);
 
 /// Converts a mesh to an OBJ file in memory.
@@ -21,7 +22,7 @@ bool is_obj(const std::filesystem::path& path);
 ObjFile convert_to_obj(FileMesh mesh, const std::filesystem::path& path,
                        const std::string& library = {});
 
-/// Reads a mesh of any format and joins vertices that the format split. `notes` reports the join.
+/// Reads a mesh of any format and joins vertices that the format split (see `join_split_vertices`).
 FileMesh read_joined_mesh(const std::filesystem::path& path);
 /// Reads a mesh of any format and returns it as an OBJ file. An OBJ file keeps its text; other
 /// formats get a new text. Reverses the polygons of a mesh that is inside out.

@@ -24,7 +24,7 @@ inline constexpr std::size_t kMeshFormatCount = 5;
 
 /// Where a format stores a kind of data: shapes, attachments or textures.
 enum class DataStorage {
-  kNowhere,
+  kNowhere,   ///< not stored
   kInside,    ///< stored in the file of the face
   kOneFile,   ///< stored together in one additional file of the same format
   kOwnFiles,  ///< one file for each shape or texture, one OBJ file for each attachment
@@ -32,10 +32,10 @@ enum class DataStorage {
 
 /// For which meshes an encoder must be given normals.
 enum class FileNormals {
-  kNone,
+  kNone,        ///< for no mesh
   kOnLevels,    ///< only for levels of detail; the encoder computes the normals of the full mesh
-  kLikeTarget,  ///< only if the target's file has normals
-  kAlways,
+  kLikeTarget,  ///< for all meshes if the target's file has normals; otherwise for no mesh
+  kAlways,      ///< for all meshes
 };
 
 /// Properties of a format. The program needs them to plan, name, read and check files of the
@@ -55,6 +55,7 @@ struct MeshFormatTraits {
   Positions (*read)(const std::filesystem::path& file, Index vertices);
 };
 
+/// The properties of a format.
 const MeshFormatTraits& traits_of(MeshFormat format);
 /// Whether a face file of this format refers to the texture files of attachments by file name. If
 /// so, these texture files are stored beside the meshes.

@@ -26,7 +26,7 @@ std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::pat
 void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,
                         FileMesh& mesh);
 
-/// Changes a name into a material name that is valid in OBJ and material files: one line, not
+/// Changes a text into a name that is valid for a material in OBJ and material files: one line, not
 /// empty.
 std::string material_name_of(std::string name);
 

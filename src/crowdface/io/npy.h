@@ -30,6 +30,7 @@ std::size_t npy_encode_bytes(Index vertices);
 /// \throws InvalidInput if the file has any other content.
 Positions read_npy(const std::filesystem::path& path);
 
+/// Names of the files that `write_topology_arrays` writes.
 inline constexpr std::array kTopologyArrays = {"corners.npy", "offsets.npy", "uvs.npy",
                                                "corner_uvs.npy", "shape_names.npy"};
 

@@ -17,8 +17,8 @@ ColourRows byte_colours(const Positions& fractions);
 /// Converts sRGB colours from bytes to fractions (0 to 1).
 Positions colour_fractions(const ColourRows& colours);
 
-/// The colours of the `v` lines; no rows if any line lacks a colour. If values exceed 1, all values
-/// count as bytes from 0 to 255.
+/// The colours of the `v` lines; no rows if any line lacks a colour. If a value exceeds 1, all
+/// values count as bytes from 0 to 255.
 /// \param vertices  number of vertices in the text.
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 

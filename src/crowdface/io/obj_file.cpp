@@ -18,8 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// A stream buffer that reads a text in memory without copying it. After a signal, the buffer
-/// pretends that the text ends, because the code that reads the stream does not check for signals.
+/// A stream buffer that reads a text in memory without copying it. After a signal such as Ctrl-C,
+/// the buffer pretends that the text ends, because tinyobjloader does not check for signals.
 class ViewBuffer : public std::streambuf {
  public:
   explicit ViewBuffer(std::string_view text) : rest_(text) {}

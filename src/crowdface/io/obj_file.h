@@ -21,9 +21,9 @@ struct ObjFile {
   TextureCoordinates uvs;  ///< #T by 2
   /// For each corner, the index of its `vn` line, or kNoIndex. Empty if the file has no `vn` lines.
   std::vector<std::uint32_t> corner_normals;
-  std::vector<std::string> material_libraries;
-  std::vector<MaterialRange> materials;
-  std::vector<MaterialRange> groups;
+  std::vector<std::string> material_libraries;  ///< arguments of the `mtllib` lines
+  std::vector<MaterialRange> materials;         ///< ascending first_face
+  std::vector<MaterialRange> groups;            ///< groups and objects, ascending first_face
   std::vector<std::string> notes;   ///< repairs and ignored statements, one sentence each
   bool is_mended = false;           ///< whether repairs changed the text
   bool has_reversed_faces = false;  ///< see with_outward_faces
@@ -31,6 +31,7 @@ struct ObjFile {
   /// material files are in the folder of `path`.
   std::filesystem::path material_base;
 
+  /// A path in the folder that contains the material files.
   const std::filesystem::path& material_path() const {
     return material_base.empty() ? path : material_base;
   }

@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// A repaired OBJ text that passes the strict check.
+/// A repaired OBJ text.
 struct MendedObj {
   std::string text;
   std::vector<std::string> notes;  ///< changes, one sentence each

@@ -118,8 +118,8 @@ class Summariser {
     if (!run_.empty()) hasher_.add(run_);
     run_ = {};
   }
-  /// Adds to the hash how many vertices and normals precede this line, because relative indices
-  /// count back from these numbers.
+  /// Adds to the hash the numbers of vertices and normals before the current line, because relative
+  /// indices count backwards from these numbers.
   void mark_place() { hasher_.add(summary_.vertex_count).add(summary_.normal_count); }
 
   ObjSummary summary_;
@@ -179,7 +179,8 @@ class Scanner {
         concat(name_, ": expected at most ", most, ' ', what, " (--limit), found ", found));
   }
 
-  /// Whether the check can skip a line because it belongs to the known mesh (a `vt` or `f` line).
+  /// Whether the check can skip a line because the line belongs to the known mesh: `vt` and `f`.
+  /// Counts the `f` lines.
   bool passes_over(std::string_view line) {
     line = without_blanks_before(line);
     if (is_of(line, "vt")) return true;
@@ -339,7 +340,7 @@ class Scanner {
   std::string_view text_;
   const std::string& name_;
   std::size_t line_number_ = 0;
-  bool in_cut_line_ = false;  ///< whether the text ends in this line, without a line end
+  bool in_cut_line_ = false;  ///< whether the current line is the last and has no line end
   std::vector<std::string_view> words_;
   ObjLineSelection line_selection_;
   ObjSummary total_, seen_;  ///< counts in the whole text, and in the lines checked so far

@@ -23,14 +23,14 @@ struct ObjScan {
   TextureCoordinates uvs;  ///< #T by 2
   Index face_count = 0;
   Index corner_count = 0;
-  std::vector<std::string> material_libraries;
+  std::vector<std::string> material_libraries;  ///< arguments of the `mtllib` lines
   /// In ascending order of first_face; empty if the text uses no material.
   std::vector<MaterialRange> materials;
   std::vector<MaterialRange> groups;  ///< groups and objects (`g`, `o`), ascending first_face
   std::vector<std::string> notes;     ///< ignored statements, one sentence each
 };
 
-/// Line counts and a hash of an OBJ text. `summarise_obj` computes them in a fast first pass.
+/// Line counts and a hash of an OBJ text, from a fast first pass over the text.
 struct ObjSummary {
   std::uint64_t vertex_count = 0, uv_count = 0, normal_count = 0, face_count = 0;
   /// Hash of the whole text except the numbers of `v` and `vn`, comments, and the names of groups,
@@ -38,13 +38,14 @@ struct ObjSummary {
   /// on the same lines.
   Digest mesh_digest;
 };
+/// Counts the lines of an OBJ text and computes its hash, without checking the lines.
 ObjSummary summarise_obj(std::string_view text);
 
 /// Which lines `scan_obj` checks.
 enum class ObjLineSelection {
   kAll,
-  /// all lines except `f` and `vt`: for a text with the same `mesh_digest` as a text whose lines
-  /// have all been checked
+  /// All lines except `f` and `vt`. Use this value if another text with the same `mesh_digest` has
+  /// been checked completely: its `f` and `vt` lines are the same.
   kAllButMesh,
 };
 

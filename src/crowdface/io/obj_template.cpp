@@ -162,9 +162,9 @@ void ObjTemplate::add_block(const std::vector<NumberRange>& ranges) {
   block.begin = blocks_.empty() ? 0 : blocks_.back().end;
   block.end = ranges.back().begin + ranges.back().length;
   block.buffer = buffer_size_;
-  // Upper bound of the block's length: the new numbers at maximum length, plus the old text without
-  // the digits of vertices. The digits of old normals stay in the sum, because a normal that no
-  // polygon uses keeps its text.
+  // Upper bound of the output's length: the new numbers at maximum length, plus the old text
+  // without the digits of positions. The digits of normals stay in the sum, because a normal that
+  // no polygon uses keeps its text.
   std::size_t old_text = block.end - block.begin;
   for (const NumberRange& range : ranges) {
     if (range.is_normal) continue;

@@ -26,8 +26,8 @@ class ObjTemplate {
   ///                files; the rest of the target need not.
   /// \param topology  the polygons, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  vertices with given normals. A `vn` line gets the given normal of
-  ///               a vertex if no other vertex uses the line.
+  /// \param fixed  vertices with given normals. A `vn` line gets the given normal of a vertex if no
+  ///               other vertex uses the line.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const GivenNormals& fixed = {});
 
@@ -59,12 +59,13 @@ class ObjTemplate {
   };
   /// A sequence of number ranges in the text. One thread formats all ranges of a block.
   struct Block {
-    /// Offset in the text at which the block starts: the end of the preceding range.
+    /// offset in the text at which the block starts: the end of the preceding block
     std::uint64_t begin = 0;
     std::uint64_t end = 0;     ///< offset in the text at which the block ends
     std::uint64_t buffer = 0;  ///< offset of the block's output in the output buffer
     std::vector<NumberRange> ranges;
   };
+  /// The new values of the `v` and `vn` lines.
   struct Rows {
     const Positions& positions;
     const Positions& normals;
@@ -74,7 +75,11 @@ class ObjTemplate {
   /// Finds the `vn` lines that get given normals, and fills in `given_normals_`.
   void set_given_normals(const std::vector<std::uint32_t>& corner_rows, const GivenNormals& given);
   void add_block(const std::vector<NumberRange>& ranges);
+  /// Writes the text of a block with new numbers.
+  /// \return the end of the output.
   char* encode_block(const Block& block, const Rows& rows, char* out) const;
+  /// Writes the new numbers of one line.
+  /// \return the end of the output.
   char* encode_range(const NumberRange& range, const Rows& rows, char* out) const;
 
   std::string_view text_;
@@ -82,11 +87,11 @@ class ObjTemplate {
   Index vertex_count_ = 0;
   bool has_colours_;
   std::vector<Block> blocks_;
-  /// The normals whose values are given: row (number of the `vn` line) and value.
+  /// The normals whose values are given: index of the `vn` line among the `vn` lines, and value.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> given_normals_;
-  /// For each `vn` line, the polygons that use the line; empty if no polygon uses normals.
+  /// For each `vn` line, the polygons that use the line; nothing if no polygon uses normals.
   std::optional<NormalFans> fans_;
-  std::size_t buffer_size_ = 0;
+  std::size_t buffer_size_ = 0;  ///< upper bound of the output's length
 };
 
 }  // namespace crowdface

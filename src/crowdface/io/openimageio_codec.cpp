@@ -80,9 +80,10 @@ void* open(const std::string& format, const std::string& file, std::string_view 
   return picture.release();
 }
 
-/// Whether to decode the strips of a TIFF row by row. This is needed because a decoder that reads
-/// several strips at once does not report damage of a single strip. (With separate planes the
-/// decoder reports damage, and reading by rows would decode the rows again for each plane.)
+/// Whether to decode an image row by row. The strips of a TIFF are read row by row, because a
+/// decoder that reads several strips at once does not report damage of a single strip. Exception:
+/// for a TIFF with separate planes, the decoder reports damage, and reading row by row would decode
+/// the rows again for each plane.
 bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
   return std::string_view(input.format_name()) == "tiff" && spec.tile_width == 0 &&
          spec.get_string_attribute("planarconfig") != "separate";

@@ -15,8 +15,8 @@ class MergedMaterials {
  public:
   /// \param mesh, libraries  as in `find_material_files`; material files that cannot be read are
   ///                         skipped.
-  /// \param shared  path from the new file's folder to the folder of the textures that are not
-  ///                replaced, such as ".."; empty: the same folder.
+  /// \param shared  path from the folder of the merged file to the folder of the textures that are
+  ///                not replaced, such as ".."; empty if both are the same folder.
   MergedMaterials(const std::filesystem::path& mesh, const std::vector<std::string>& libraries,
                   const std::string& shared = {});
 
@@ -32,11 +32,12 @@ class MergedMaterials {
   std::string text(const Replacements& textures) const;
 
  private:
+  /// A line of the merged file.
   struct Line {
     std::string text;       ///< the whole line
     std::string keyword;    ///< the first word; empty: no statement
     std::string arguments;  ///< the line after the first word
-    std::string material;   ///< material that the line belongs to
+    std::string material;   ///< name of the material that the line describes
   };
   std::vector<Line> lines_;
 };

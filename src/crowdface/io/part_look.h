@@ -13,7 +13,7 @@ struct PartLook {
   std::array<float, 3> tint = {1, 1, 1};
   /// Text that replaces `UsdaPart::kLookName` in the names of texture files.
   std::string name = {};
-  /// Content of a PNG file that belongs to this face only; empty if there is no such file.
+  /// Content of a PNG texture that belongs to this face only; empty if there is no such texture.
   std::string_view image = {};
 };
 

@@ -14,6 +14,7 @@ namespace crowdface {
 /// texture coordinates, and polygons grouped by material.
 class PlainObjTemplate {
  public:
+  /// Whether files have no normals or one normal per vertex.
   enum class Normals { kNone, kVertex };
 
   /// \param uvs  #T by 2; may be empty.
@@ -37,8 +38,8 @@ class PlainObjTemplate {
  private:
   Index vertex_count_;
   Normals normals_;
-  std::string
-      shared_text_;  ///< the lines of texture coordinates and polygons, the same in all files
+  /// the lines of texture coordinates and polygons, the same in all files
+  std::string shared_text_;
 };
 
 }  // namespace crowdface

@@ -28,7 +28,7 @@ double number_in(const std::array<char, 8>& raw) {
 struct Type {
   std::string_view name, other;
   std::size_t bytes;
-  double full;  ///< if the number is a colour: the value that means full intensity
+  double full;  ///< the value that means full intensity if the number is a colour
   double (*read)(const std::array<char, 8>&);
 };
 constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std::int8_t>},

@@ -12,8 +12,8 @@ namespace crowdface {
 
 /// Writes binary little-endian PLY files of one topology: vertices in order with x y z and optional
 /// nx ny nz as floats, then polygons of any size as `vertex_indices`. Files have no texture
-/// coordinates. The only layout that most programs read has one texture coordinate per vertex. This
-/// layout would split vertices at seams and change the order of vertices.
+/// coordinates: the only layout of texture coordinates that most programs read is one per vertex,
+/// which would split vertices at seams and change the order of vertices.
 class PlyTemplate {
  public:
   /// \throws InvalidInput if a polygon has more than 255 corners.

@@ -21,9 +21,9 @@
 namespace crowdface {
 namespace {
 
-/// Names the libraries that are being loaded, in the middle of an error message. With the phrase
-/// "images need (OpenImageIO)", the message is "the libraries that images need (OpenImageIO) cannot
-/// be started".
+/// Describes the libraries that are being loaded; part of an error message. With the phrase "images
+/// need (OpenImageIO)", the message is "the libraries that images need (OpenImageIO) cannot be
+/// started".
 std::atomic<const char*> current_dependents_phrase{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only
@@ -43,15 +43,15 @@ constexpr unsigned kLongestStart = 60;  ///< seconds that loading a library may 
 std::atomic<bool> handles_crashes = false;
 volatile std::sig_atomic_t starting = 0;
 
-/// Runs when a library calls exit() while it is being loaded. For example, libgfortran does this if
-/// it cannot allocate memory.
+/// Handler of exit(): ends the process with a message if a library calls exit() while the library
+/// is being loaded. For example, libgfortran calls exit() if it cannot allocate memory.
 void end_if_starting() {
   if (starting != 0) end_without_libraries(0);
 }
 
-/// While this object lives, the program prints an error message if a library ends the process
-/// during loading, for example for lack of memory. The same applies if a library hangs, for example
-/// a logger that waits for a thread that could not start.
+/// Lives while a library is being loaded. If the library ends the process (for example for lack of
+/// memory) or hangs (for example a logger that waits for a thread that could not start), the
+/// program ends with an error message.
 class StartOfLibraries {
  public:
   explicit StartOfLibraries(const char* dependents_phrase) {

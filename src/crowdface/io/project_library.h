@@ -8,18 +8,19 @@ namespace crowdface {
 /// libraries have the same place relative to the program in the build folder and after
 /// installation.
 /// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
-/// \param dependents_phrase  who needs the libraries. It completes the error message "the libraries
-///     that … cannot be started", for example with "images need (OpenImageIO)".
+/// \param dependents_phrase  what needs the libraries, such as "images need (OpenImageIO)". The
+///     phrase completes the error message "the libraries that … cannot be started".
 /// \param failure_phrase  beginning of all other error messages, such as "images cannot be read".
 /// \throws IoError if the library is missing from its installed place, cannot be loaded, or lacks
 ///     the function.
 void* load_library_function(const char* library, const char* function,
                             const char* dependents_phrase, const char* failure_phrase);
 
-/// Makes load_library_function install handlers of signals and of exit while it loads a library. If
-/// the library aborts, calls exit, or needs longer than a minute, the handlers end the process with
-/// code 74 and a message; this happens when memory or threads run out. Only a program may call this
-/// function, at its start, because the handlers and the alarm belong to the whole process.
+/// After this call, `load_library_function` installs handlers of signals and of exit while it loads
+/// a library. If memory or threads run out, the library may abort, call exit, or hang. The handlers
+/// then end the process with code 74 and a message, after a minute if the library hangs. Only a
+/// program may call this function, at its start, because the handlers and the alarm belong to the
+/// whole process.
 void handle_crashes_during_library_loading();
 
 }  // namespace crowdface

@@ -35,8 +35,9 @@ Index rows_of(const NpyArray& array) {
   return static_cast<Index>(array.rows());
 }
 
-/// Reads polygons stored beside an array of positions. They are either in the files that crowdface
-/// writes (topology/corners.npy, offsets.npy, …) or in one array of triangles or quads.
+/// Reads polygons stored beside an array of positions. The polygons are either in the files that
+/// crowdface writes (topology/corners.npy, offsets.npy, …) or in one array of triangles or quads.
+/// Leaves the mesh without polygons if none of these files exists.
 void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
   Topology& topology = mesh.topology;
   const auto index_of = [&](double number, Index rows, const fs::path& file) {
@@ -116,8 +117,8 @@ FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   return mesh;
 }
 
-/// The extension of the file's format. The first bytes decide, whatever the file's name; if they
-/// are ambiguous, the file's extension decides.
+/// The usual extension of the file's format. The first bytes determine the format; if they match no
+/// known format, the file's own extension determines it.
 std::string kind_of(std::string_view bytes, const fs::path& path) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return ".ply";
   if (bytes.starts_with("glTF")) return ".glb";

@@ -32,7 +32,7 @@ inline char* write_single(char* out, double value) {
 }
 
 /// Rounds positions as every mesh format stores them. Results computed from the rounded positions
-/// equal results computed from a file.
+/// equal results computed from positions that were written to a file and read again.
 Positions round_to_single(const Positions& positions);
 
 /// Writes the three numbers of a row in binary.
@@ -49,8 +49,7 @@ inline char* put_row(char* out, const Positions& rows, Index i) {
 /// \throws InvalidInput if a number is not finite.
 Positions read_singles(const char* bytes, Index rows, std::size_t stride, const std::string& what);
 
-/// Checks the size of positions, and that all numbers are finite. Called before positions are
-/// written.
+/// Checks, before positions are written, the number of rows and whether all numbers are finite.
 /// \param what  names the mesh in messages.
 /// \throws BrokenPrecondition unless there are `vertices` rows; InvalidInput unless all numbers are
 /// finite in single precision.

@@ -9,10 +9,11 @@
 
 namespace crowdface {
 
-/// A triangulated topology with copies of vertices, for formats that allow only triangles and one
-/// texture coordinate per vertex. The first #V split vertices are the original vertices in order,
-/// each with the texture coordinate of its first corner. Copies for further texture coordinates
-/// follow, in order of corners. Depends only on the topology.
+/// A triangulated topology in which each vertex has one texture coordinate, for formats that
+/// require this. A vertex with several texture coordinates is split into several vertices. The
+/// first #V split vertices are the original vertices in order, each with the texture coordinate of
+/// its first corner. Copies of vertices for further texture coordinates follow, in order of
+/// corners.
 struct SplitVertices {
   /// The original vertex of each split vertex. For i < #V, vertices[i] is i.
   std::vector<std::uint32_t> vertices;
@@ -24,6 +25,7 @@ struct SplitVertices {
   std::vector<std::uint32_t> triangle_faces;  ///< index of the polygon that contains each triangle
 };
 
+/// Splits the vertices of a topology and triangulates its polygons.
 SplitVertices split_vertices(const Topology& topology);
 
 }  // namespace crowdface

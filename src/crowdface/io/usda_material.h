@@ -10,10 +10,10 @@ namespace crowdface {
 /// The appearance of a material in a USD layer. Paths of files are relative to the layer; an empty
 /// path means that there is no file.
 struct UsdaSurface {
-  std::array<float, 4> colour = {
-      1, 1, 1, 1};              ///< linear RGB, used without colour map; opacity, used without mask
-  std::string colour_map = {};  ///< colour map, sRGB
-  std::string normal_map = {};  ///< tangent-space normal map
+  /// linear RGB, used if there is no colour map; and opacity, used if there is no mask
+  std::array<float, 4> colour = {1, 1, 1, 1};
+  std::string colour_map = {};     ///< colour map, sRGB
+  std::string normal_map = {};     ///< tangent-space normal map
   std::string roughness_map = {};  ///< roughness map, first channel
   /// Path of a mask file. The surface is opaque where the mask is at least one half; elsewhere it
   /// has holes.
@@ -27,6 +27,7 @@ struct UsdaSurface {
 
 /// The text of a Scope prim, which is below the root prim and contains Material prims with preview
 /// surfaces. Empty if there are no materials.
+/// \param root   path of the root prim.
 /// \param scope  name of the Scope prim.
 /// \param names  names of the Material prims; materials with an empty name are skipped.
 /// \param surfaces  one per name

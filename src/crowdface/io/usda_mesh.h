@@ -17,24 +17,24 @@
 
 namespace crowdface {
 
-/// Text before the points of a Mesh prim. The first occurrence of this text in a layer belongs to
-/// the prim of the face; later occurrences belong to additional meshes.
+/// The text before the points of a Mesh prim. In a layer, the face's prim comes first, so the first
+/// occurrence of this text is followed by the points of the face.
 inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 
 /// Writes a Mesh prim of one topology: polygons, texture coordinates as the primvar `st`, material
-/// subsets, and UsdSkel blend shapes. Formats positions, normals and displacements for
+/// subsets, and UsdSkel blend shapes. Formats positions, normals, colours and displacements for
 /// each file, and everything else once.
 class UsdaMesh {
  public:
   /// What the prim contains in addition to the polygons. These contents are the same in all files.
   struct Options {
     Subdivision subdivision = Subdivision::kNone;
-    std::vector<std::string> materials = {};  ///< names; may be empty
+    std::vector<std::string> materials = {};  ///< names of the materials; may be empty
     /// for each polygon, the index of its material in `materials`; empty: all polygons use the
     /// first material
     std::vector<std::uint32_t> face_materials = {};
-    /// Blend shapes, each with the vertices that it moves. If a target lists no vertices here, the
-    /// file of each face lists the moved vertices together with their displacements.
+    /// Blend shapes, each with the vertices that it moves. If the vertices of a blend shape differ
+    /// from face to face, its list here is empty.
     std::vector<GlbMorphTarget> targets = {};
     std::string extra_prim_lines = {};  ///< text lines that are added to the prim
   };
@@ -42,7 +42,7 @@ class UsdaMesh {
   /// \param uvs  #T by 2; may be empty.
   UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Options& options);
 
-  /// Paths and names of a prim and its related prims in one layer.
+  /// Name of the Mesh prim in a layer, and paths of the prims that the Mesh prim refers to.
   struct PrimPaths {
     std::string face_prim;  ///< path of the parent prim, which contains the skeleton
     std::string name;       ///< name of the Mesh prim
@@ -69,20 +69,22 @@ class UsdaMesh {
   std::size_t encoding_memory_bytes() const;
 
  private:
+  /// Adds the blend shapes.
   void add_shapes(EncodedFile& file, const PrimPaths& place, std::span<const Displacements> moves,
                   const std::string& what) const;
+  /// Binds the materials: one material to the whole mesh, or each material to its polygons.
   void add_subsets(EncodedFile& file, const PrimPaths& place) const;
 
   Index vertex_count_;
   Subdivision subdivision_;
-  /// the prim's text that is the same in all files (no positions, normals and colours)
+  /// the text of polygons, texture coordinates and options, which is the same in all files
   std::string faces_;
   /// prim names of the materials; empty for a material that no polygon uses
   std::vector<std::string> materials_;
   std::vector<std::string> subsets_;  ///< for each material, the text that lists its polygons
   std::vector<std::string> shapes_;   ///< prim names of the blend shapes
   std::vector<std::string> quoted_shape_names_;
-  std::vector<std::string> indices_;  ///< formatted vertex indices of each target
+  std::vector<std::string> indices_;  ///< formatted vertex indices of each blend shape, or ""
   /// upper bound of the number of displacements in all blend shapes together
   std::size_t max_displacement_count_ = 0;
 };

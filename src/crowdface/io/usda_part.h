@@ -15,9 +15,9 @@
 
 namespace crowdface {
 
-/// An additional mesh with its own topology and materials in the USD layers of faces. The prim of
-/// the additional mesh is a sibling of the face's mesh and has the same blend shapes. Like
-/// `UsdaTemplate`, the object is built once.
+/// An additional mesh, such as hair, in the USD layers of faces, with its own topology and
+/// materials. The prim of the additional mesh is a sibling of the prim of the face's mesh and has
+/// the same blend shapes. Like a `UsdaTemplate`, the object is built once for all faces.
 class UsdaPart {
  public:
   /// Placeholder in the names of texture files. The `PartLook::name` of each face replaces it.
@@ -38,7 +38,7 @@ class UsdaPart {
            const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
            const std::vector<std::string>& targets, GivenNormals fixed = {});
 
-  /// Adds the mesh below the face's prim. The file references memory of this object.
+  /// Adds the Mesh prim of the part below the root prim. The file references memory of this object.
   /// \param root  path of the face's root prim.
   /// \param moves  for each blend shape, its displacements.
   /// \param what  names the mesh in messages.
@@ -65,7 +65,7 @@ class UsdaPart {
 struct PlacedUsdaPart {
   const UsdaPart* part;
   const Positions* positions;
-  std::span<const Displacements> moves = {};
+  std::span<const Displacements> moves = {};  ///< for each blend shape
   PartLook look = {};
 };
 

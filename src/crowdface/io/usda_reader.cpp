@@ -173,7 +173,7 @@ class UsdaReader {
     if (prim.type == "GeomSubset" && parent != nullptr) parent->subsets.push_back(std::move(prim));
   }
 
-  /// \param words  before '=': "uniform token orientation"
+  /// \param words  the words before '=', such as "uniform", "token" and "orientation"
   void read_property(const std::vector<std::string_view>& words, Prim& prim) {
     const std::string name(words.empty() ? std::string_view() : words.back());
     const std::string_view type = words.size() < 2 ? std::string_view() : words[words.size() - 2];

@@ -17,9 +17,9 @@ namespace crowdface {
 
 /// Writes USD text layers (`.usda`) of one topology: a Mesh with its polygons, texture coordinates
 /// as the primvar `st`, overlay coordinates as `st1`, material subsets bound to preview surfaces,
-/// and UsdSkel blend shapes if there are targets. Positions keep their unit, given by
-/// metersPerUnit. The stage's up axis is Y or Z; a transform rotates heads with another up axis to
-/// Y. All text except vectors and names is formatted only once.
+/// and UsdSkel blend shapes if there are targets. Positions keep their unit, which the layer states
+/// as metersPerUnit. The stage's up axis is Y or Z; a transform rotates heads with another up axis
+/// to Y. All text except vectors and names is formatted only once.
 class UsdaTemplate {
  public:
   /// \param uvs  #T by 2; may be empty.
@@ -53,8 +53,8 @@ class UsdaTemplate {
 
   UsdaMesh mesh_;
   std::string layer_metadata_;  ///< the layer's unit and up axis
-  std::string
-      axis_transform_;  ///< transform of the mesh if the stage's axes differ from the heads' axes
+  /// transform of the mesh if the stage's axes differ from the heads' axes; else empty
+  std::string axis_transform_;
   std::vector<GlbMaterial> surfaces_;
   std::string shared_folder_;                  ///< see `GlbOptions::shared_folder`
   std::vector<std::string> point_prim_names_;  ///< prim names of the points

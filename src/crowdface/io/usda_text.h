@@ -15,10 +15,10 @@ namespace crowdface {
 /// begin with a digit.
 std::string usda_name(std::string_view text);
 
-/// Makes valid prim names unique by adding numbers to repeated names.
+/// Makes unique prim names: adds a number to a name that was used before.
 class UsdaNames {
  public:
-  /// Returns a unique prim name for a text.
+  /// Returns a valid prim name for a text, different from all names returned before.
   std::string add(std::string_view text);
 
  private:
@@ -31,18 +31,18 @@ std::string usda_list(std::span<const std::string> items);
 /// The text in double quotes, with special characters escaped.
 std::string usda_string(std::string_view text);
 
-/// Formats rows as USD vectors, "(1,2,3),(4,5,6)", without enclosing brackets. Each number is the
-/// shortest text that reads back as the same single-precision value. A row has at most
-/// kMaxUsdaRowLength characters.
+/// Maximum number of characters of a row in the result of `usda_rows`.
 inline constexpr std::size_t kMaxUsdaRowLength = 50;
+/// Formats rows as USD vectors, "(1,2,3),(4,5,6)", without enclosing brackets. Each number is the
+/// shortest text that reads back as the same single-precision value.
 std::string usda_rows(const Positions& rows);
 
 /// Formats texture coordinates: "[(0.5,1),(0,0.25)]".
 /// \param uvs  #T by 2
 std::string usda_uvs(const TextureCoordinates& uvs);
 
-/// The metadata lines of a layer with unit and up axis. If `up` is neither the Y nor the Z axis,
-/// the layer's up axis is Y.
+/// The lines at the start of a layer that state its unit and up axis. If `up` is neither the Y nor
+/// the Z axis, the layer's up axis is Y.
 std::string usda_layer_metadata(LengthUnit unit, Axis up);
 
 }  // namespace crowdface

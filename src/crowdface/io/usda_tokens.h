@@ -24,16 +24,16 @@ class UsdaTokens {
 
   /// Consumes and returns the next token.
   UsdaToken next();
-  /// Consumes the next token if it is this punctuation character. \return whether the token was
-  /// consumed.
+  /// Consumes the next token if it is this punctuation character.
+  /// \return whether the token was consumed.
   bool consume(char sign);
   /// Consumes everything up to the closing bracket of a group whose opening bracket is already
   /// consumed.
-  /// \return the interpolation named in the group.
+  /// \return the value of `interpolation` in the group; empty if the group does not set it.
   std::string skip_group();
   /// Consumes a value, which may have brackets, and returns all numbers in it.
   std::vector<double> read_numbers();
-  /// \throws InvalidInput
+  /// Throws InvalidInput with the file's name and `what`.
   [[noreturn]] void fail(std::string_view what) const;
 
  private:

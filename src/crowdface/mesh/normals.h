@@ -42,9 +42,9 @@ class NormalFans {
   CompressedRows<std::uint32_t> faces_;  ///< the polygons of each normal, ascending
 };
 
-/// Unit normals of the vertices, #V by 3, as NormalFans computes normals; (0, 0, 1) where the sum
-/// vanishes. For many meshes of one topology, it is faster to make one NormalFans and call its
-/// function `normals`.
+/// Unit normals of the vertices, #V by 3: the normalised, area-weighted sums of polygon normals
+/// (see NormalFans); (0, 0, 1) where the sum vanishes. For many meshes of one topology, making one
+/// NormalFans and calling NormalFans::normals is faster.
 Positions vertex_normals(const Topology& topology, const Positions& positions);
 Positions vertex_normals(const NormalFans& fans, const Topology& topology,
                          const Positions& positions);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRounds = 12;                  ///< rounds of colour refinement
 constexpr std::size_t kMaxCandidates = 256;  ///< start corners that are tried for each component
-/// Limit of the number of all traversal steps together, as a multiple of the number of corners.
+/// Largest total number of traversal steps, as a multiple of the number of corners.
 constexpr std::size_t kMaxSteps = 64;
 
 std::uint64_t mixed(std::uint64_t x) {

@@ -93,7 +93,7 @@ std::string mm_text(double mm) {
 /// The vertices of a body's rim in one order, and how well they fit the heads' rim.
 struct OrderedRim {
   Rim order;
-  double square_sum = 0;  ///< sum of squared distances without a motion
+  double square_sum = 0;  ///< sum of squared distances between unmoved rims
   RigidFit fit;
 };
 
@@ -126,8 +126,9 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
 }
 
 /// Returns the order of a body's rim vertices with the best rigid fit to the heads' rim.
-/// \param orders  first the orders that go around the rim in one direction, then the orders that go
-///                around it in the other direction
+/// \param orders  all orders of one direction around the rim, followed by all orders of the
+///                opposite direction, if any
+/// \param of_one_direction  number of orders in the first direction
 const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
   // A rim whose left and right halves are equal also fits in the wrong direction, after a rotation
   // that turns the rim upside down. So compare the best fits of both directions. If the larger

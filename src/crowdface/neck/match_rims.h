@@ -29,9 +29,9 @@ struct RimMatch {
   std::string mismatch_reason;      ///< why the rims do not match; empty if they do
 };
 
-/// Matches the vertices of two rims of equal length. Tries every start in both directions, and
-/// takes the order with the smallest sum of squared distances. Then fits a rotation for each order.
-/// If another order then has a much smaller distance than this order, takes the other order.
+/// Matches the vertices of two rims with the same number of vertices. Tries every start vertex in
+/// both directions. Returns the order with the smallest sum of squared distances, unless another
+/// order is much closer to the heads' rim after a rigid motion.
 /// \param head_rim  the heads' rim, #rim by 3, in mm, in order
 /// \param body_positions  positions of the whole body, in mm
 /// \param max_distance_mm  largest distance between the rims; callers pass the falloff

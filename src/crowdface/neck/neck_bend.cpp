@@ -36,7 +36,8 @@ std::vector<Triangle> triangles_around(const Topology& topology, const Adjacency
 }  // namespace
 
 struct NeckBend::Factorisation {
-  SparseMatrix from_rim;  ///< #moved by #rim
+  /// #moved by #rim: block of the bending energy's matrix that couples moved vertices with the rim
+  SparseMatrix from_rim;
   Eigen::SimplicialLDLT<SparseMatrix> inner;
 };
 

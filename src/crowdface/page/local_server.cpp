@@ -110,7 +110,7 @@ struct Connection {
   /// While a request arrives: the time at which its head or body began. While an answer is sent:
   /// the time at which the client last accepted bytes.
   Clock::time_point since = Clock::now();
-  std::optional<HttpAnswer> answer;  ///< set by a thread; guarded by the server's mutex
+  std::optional<HttpAnswer> answer;  ///< set by a thread of the pool; guarded by State::mutex
 };
 
 }  // namespace

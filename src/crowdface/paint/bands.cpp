@@ -13,21 +13,21 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the distance from mouth to eyes. The upper border runs under the brows,
-// the lower border between nose and lips. The transition between two bands extends by kSoft above
-// and below their border, so that the transition is about four centimetres wide. Adjacent bands
-// come from different people, whose surfaces are often a centimetre apart. A narrower transition
-// would therefore be visible as a ridge.
+// Lengths are fractions of the height of the eyes above the mouth, about 65 mm. The upper border
+// runs under the brows, the lower border between nose and lips. The transition between two bands
+// extends by kSoft above and below their border, so that the transition is about four
+// centimetres wide. Adjacent bands come from different people, whose surfaces are often a
+// centimetre apart, so a narrower transition would be visible as a ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
-// Fractions of the distance from mouth to eyes: how far the ear regions extend beyond the ears
-// (kAroundEar, kBelowEar, kFrontOfEar), how far below the chin the neck begins (kBelowChin), and
-// half the width of the soft borders (kEarSoft, kNeckSoft).
+// Fractions of the height of the eyes above the mouth. kAroundEar, kBelowEar and kFrontOfEar: the
+// distances by which the ear regions extend beyond the ears. kBelowChin: how far below the chin the
+// neck begins. kEarSoft and kNeckSoft: half the width of the soft borders.
 constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSoft = 0.12,
                  kBelowChin = 0.12, kNeckSoft = 0.12;
 
-// Fractions of the distance from eyes to mouth, about 65 mm. Ears are searched between the height
-// kAbove above the eyes and the height kBelow below the mouth. kMinEar is the smallest distance by
-// which an ear protrudes from the head.
+// Fractions of the height of the eyes above the mouth. The search range for ears extends from
+// kBelow below the mouth to kAbove above the eyes. kMinEar is the
+// smallest distance by which an ear protrudes from the head.
 constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
 /// The vertical range of an ear consists of the heights at which the ear protrudes by more than
 /// this fraction of its maximum protrusion.
@@ -45,7 +45,8 @@ double ear_share(const EarBox& ears, double face, double side, double height, do
          smooth_step(ears.inner - 2 * around, ears.inner, side);
 }
 
-/// The border below which the neck begins. Its height rises from below the chin to below the ears.
+/// The border below which the neck begins. Its height is interpolated between a point below the
+/// chin and a point below the ears.
 struct NeckBorder {
   double chin_front, chin, ear_front, ear;
   double at(double front) const {
@@ -69,7 +70,8 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   const auto breadth_at = [&](const Eigen::Vector3d& p) {
     return std::abs(p.dot(side) - marks.symmetry_offset);
   };
-  // Half breadth of the head in each height bin, measured at the edges of the skin mesh.
+  // Half breadth of the head at each of kBins heights, measured where the edges of the
+  // skin mesh cross this height.
   std::array<double, kBins> breadth{};
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face_corners = topology.face(f);
@@ -111,8 +113,8 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   while (top < kBins - 1 && stands_out(top + 1) > kMinProtrusionFraction * most) ++top;
   EarBox ears{low + bottom * step, low + top * step, std::numeric_limits<double>::infinity(),
               -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  // From the vertices at these heights, compute the inner rim of the ears and their extent from
-  // front to back.
+  // From the vertices between `ears.bottom` and `ears.top` that protrude, compute where the ears
+  // begin (`ears.inner`) and their extent from front to back.
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double height = p.dot(axes.up), front = p.dot(axes.front);

@@ -15,8 +15,8 @@
 
 namespace crowdface {
 
-/// Bands around a head, used as mask regions, that can be computed from the head's shape. Unrelated
-/// to bands of detail.
+/// Mask regions that are horizontal bands of a head, or its ears or neck, and that can be computed
+/// from the head's shape. Unrelated to the bands of detail.
 enum class Band : std::uint8_t {
   kBrow,   ///< brows and above
   kNose,   ///< eyes and nose
@@ -36,16 +36,18 @@ inline constexpr std::array<std::pair<std::string_view, Band>, 5> kMaskBandNames
 struct EarBox {
   double bottom = 0, top = 0;  ///< heights
   double back = 0, front = 0;  ///< positions along HeadAxes::front
-  double inner = 0;            ///< distance from the middle at which the ears begin
+  double inner = 0;            ///< distance from the symmetry plane at which the ears begin
 };
-/// Finds the ears: the parts that protrude from the skin at both sides, between the heights of
-/// mouth and brows.
+/// Finds the ears: the parts of the skin that protrude at both sides of the head, between the
+/// heights of mouth and brows.
 /// \return nothing if nothing protrudes.
 std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
                                 const FaceMarks& marks);
 
 /// Computes the weights of brow, nose and mouth (columns 0 to 2) as horizontal bands with soft
-/// borders, #V by 3. \param heights  #V: height of each vertex, upwards.
+/// borders, #V by 3.
+/// \param heights      #V: height of each vertex, upwards.
+/// \param eyes, mouth  heights of the eyes and of the mouth.
 /// \throws InvalidInput unless the eyes are above the mouth.
 RegionWeights::Alpha horizontal_bands(const Eigen::VectorXd& heights, double eyes, double mouth);
 

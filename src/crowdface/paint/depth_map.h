@@ -11,24 +11,26 @@
 
 namespace crowdface {
 
-/// Depth map of a surface seen from the front: the depth of the foremost point in each square of a
-/// grid.
+/// Depth map of a surface seen from the front: the depth (front coordinate) of the foremost point
+/// in each square cell of a grid.
 class DepthMap {
  public:
-  /// \param square_size  edge length of a square
+  /// \param samples      #S by 3: points of the surface
+  /// \param square_size  edge length of a cell
   DepthMap(const Positions& samples, const HeadAxes& axes, double square_size);
 
-  /// Reduces noise: replaces each depth by the mean of the known depths in the three by three
-  /// squares around it. Also fills empty squares next to the surface. The outermost squares of the
-  /// grid do not change.
+  /// Reduces noise: replaces the depth of each cell by the mean of the known depths in the three by
+  /// three cells around this cell. Also fills empty cells next to the surface. The outermost cells
+  /// of the grid do not change.
   void smooth();
 
+  /// Bounds of the samples: coordinates along axes.side() and along axes.up.
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// Compares the depths of the surface with the depths of the mean face. The arguments place and
-  /// scale the mean face.
-  /// \param lateral_position, height  coordinates of the point between the eyes.
-  /// \param scale, stretch  see ReliefMatch
+  /// Compares the depths of the surface with the depths of the mean face, after placing the mean
+  /// face on the surface.
+  /// \param lateral_position, height  where to place the point between the eyes of the mean face
+  /// \param scale, stretch  size of the mean face, see ReliefMatch
   ReliefFit fit(double lateral_position, double height, double scale, double stretch = 1) const;
 
   /// Depth at a point; kNoDepth where the map shows no surface.
@@ -42,11 +44,15 @@ class DepthMap {
     Index cell_centred_below = -1;
     double next_cell_weight = 0;  ///< interpolation weight of cell `cell_centred_below` + 1
   };
+  /// \param offset  distance of the coordinate from the start of the axis
+  /// \param extent  length of the grid along the axis
+  /// \param count   number of cells along the axis
   AxisCells cells_at(double offset, double extent, Index count) const;
   /// Depth at a point of the grid: interpolated bilinearly between the centres of the four nearest
   /// cells if all four show the surface, otherwise the depth of the cell that contains the point.
   /// kNoDepth outside the grid.
   double depth_in_cells(const AxisCells& column, const AxisCells& row) const;
+  /// Index in `depths_` of the cell that contains a point.
   std::size_t cell_index(double x, double y) const;
 
   Eigen::AlignedBox2d box_;

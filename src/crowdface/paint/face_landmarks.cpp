@@ -223,9 +223,10 @@ class LandmarkSearch {
     }
   }
 
+  /// The opening between the lids of an eye.
   struct Opening {
     std::vector<InHead> points;  ///< points of the eyeball between the lids
-    double radius = 0;
+    double radius = 0;           ///< radius of the eyeball
   };
   Opening opening_of(const ComponentShape& ball) const {
     constexpr double kStep = 0.25, kFar = 1.2;
@@ -244,7 +245,8 @@ class LandmarkSearch {
     }
     return opening;
   }
-  /// Walks from a point in a direction, and returns the first skin that is visible from the front.
+  /// Walks from a point in the direction (`across`, `up`), and returns the first point of the skin
+  /// that is visible from the front.
   std::optional<Hit> skin_beside(const InHead& from, double across, double up) const {
     constexpr double kStep = 0.1, kReach = 8;
     for (double way = 0; way <= kReach; way += kStep) {
@@ -371,7 +373,8 @@ class LandmarkSearch {
   /// is shallow.
   void mouth_corners() {
     constexpr double kFrom = 4, kTo = 42, kStep = 0.5, kWander = 1.2, kLip = 3.5;
-    constexpr double kShallow = 0.3;  // as a fraction of the groove's median depth
+    // The mouth ends where the groove is less deep than this fraction of its median depth.
+    constexpr double kShallow = 0.3;
     const char* const reason = "no groove between the lips ends in a corner";
     const auto middle = at("mouth_middle");
     if (!middle) return miss({"mouth_left", "mouth_right"}, reason);
@@ -431,8 +434,8 @@ class LandmarkSearch {
       return miss({"cheek_left", "cheek_right", "jaw_left", "jaw_right"}, reason);
     }
     const double eyes = height(marks_.eyes_height);
-    // The front coordinate at which the face ends: at the ears, or without ears about 95 mm behind
-    // the tip of the nose.
+    // The front coordinate at which the sides of the face end: 12 mm in front of the ears; without
+    // ears, 80 mm behind the base of the nose.
     const double back = ears ? ears->front / mm_ + kBeforeEar : base->front - 80;
     const double front = outer ? outer->front - kBehindEyes : base->front - 30;
     widest("cheek", {0, base->up, back}, {0, eyes - kBelowEyes, front}, reason);
@@ -441,8 +444,8 @@ class LandmarkSearch {
   }
 
   /// Finds the ears' highest and lowest points. Rays from the side scan the surface downwards from
-  /// above the ear, and upwards from below it. In each direction, the first steep rise of the
-  /// surface is the ear's rim.
+  /// above the ear, and upwards from below the ear. In each of the two directions, the first steep
+  /// rise of the surface is the ear's rim.
   void ear_rims(const EarBox& ears) {
     constexpr double kAround = 16, kStep = 0.5, kRise = 0.8;
     const double back = ears.back / mm_, front = ears.front / mm_;

@@ -14,8 +14,8 @@ namespace crowdface {
 
 /// Landmarks of a face by name: points on the skin, and the reasons why landmarks are missing.
 struct FaceLandmarks {
-  std::map<std::string, SurfacePoint> points;          ///< found landmarks
-  std::map<std::string, std::string> missing_reasons;  ///< reasons, as phrases
+  std::map<std::string, SurfacePoint> points;          ///< by name of the landmark
+  std::map<std::string, std::string> missing_reasons;  ///< by name of the landmark; phrases
 };
 
 /// Finds the landmarks of Farkas' measurements (docs/traits.md) on a head from these parts of its

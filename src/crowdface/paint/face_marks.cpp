@@ -17,7 +17,7 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kHeights = 720;
+constexpr Index kHeights = 720;  // number of samples of a profile
 
 /// Profile of the skin near the symmetry plane: the front coordinate of the foremost skin at each
 /// of kHeights heights.
@@ -81,8 +81,9 @@ class Outline {
     closed.front_ = extreme(extreme(front_, highest), lowest);
     return closed;
   }
-  /// The distance by which the profile at `height` lies behind the line between the profile's
-  /// points at `height` + `way` and `height` − `way`.
+  /// The depth of the profile at `height`, measured from the straight line between the profile's
+  /// points at `height` + `way` and `height` − `way`. Negative where the profile is
+  /// convex.
   double hollow(double height, double way) const {
     return (at(height + way) + at(height - way)) / 2 - at(height);
   }
@@ -104,7 +105,7 @@ class Outline {
   static constexpr double kNothing = -std::numeric_limits<double>::infinity();
   static constexpr double kSoftMm = 1.5;
 
-  /// Adds the curve in which a plane cuts the skin.
+  /// Adds to `front_` the curve in which the plane at the lateral position `middle` cuts the skin.
   void cut(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
            const HeadAxes& axes, double middle) {
     const Eigen::Vector3d side = axes.side();
@@ -135,8 +136,8 @@ class Outline {
       front = std::max(front, lower.y() + t * (upper.y() - lower.y()));
     }
   }
-  /// Fills in `front_` at heights at which the plane cuts no skin. Interpolates linearly between
-  /// the nearest heights with skin; above and below all skin, repeats the nearest value.
+  /// Sets `front_` at heights at which the plane cuts no skin: interpolates linearly between the
+  /// nearest heights with skin. Above and below all skin, repeats the nearest value.
   void fill_gaps() {
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < front_.size(); ++i) {
@@ -169,11 +170,14 @@ class Outline {
   std::vector<double> front_;
 };
 
-// Lengths in millimetres on a face of average size. Heights are relative to the eyes of the mean
-// relief.
-/// Hollows of the profile that are narrower than this, such as an open mouth, are filled.
+// The following lengths are millimetres on a face of average size.
+/// `without_slits` fills hollows of the profile that are narrower than this, such as an open mouth.
 constexpr double kMaxSlitMm = 11;
+/// Heights of the bridge and of the tip of the nose above the eyes on the mean face.
 constexpr double kBridgeMm = 5, kTipMm = -34;
+/// kBridgeReachMm, kTipReachMm: half heights of the search ranges of the bridge and of the tip of
+/// the nose. kMouthReachMm: distance of the mouth from its height on the mean face at which the
+/// penalty is prior / 2.
 constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.
@@ -181,6 +185,10 @@ constexpr double kBridgeWayMm = 15, kLipWayMm = 5, kChinWayMm = 10;
 /// Penalty on a fine mesh for a height at the end of the search range. The search subtracts the
 /// penalty from the depth of a hollow of the profile.
 constexpr double kMaxHeightPenaltyMm = 3;
+/// kSameMiddleMm: maximum distance of the middle of the skin from the symmetry plane of the
+/// relief; beyond it, the symmetry plane of the relief is used. kEyesNearMm: maximum
+/// difference in height of the eyeballs from the eyes of the relief; beyond it, the eyeballs are
+/// ignored.
 constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
 constexpr double kFineMm = 5;       ///< edges up to this length resolve the lips
 constexpr double kCoarsestMm = 18;  ///< longer edges do not show a face
@@ -192,7 +200,8 @@ struct MouthAndChin {
 /// chin is convex. The mouth divides the distance from the tip of the nose to the chin in about the
 /// same ratio in all faces.
 /// \param tip    height of the tip of the nose
-/// \param prior  penalty of a mouth at the end of its search range
+/// \param prior  twice the penalty of a mouth at the distance kMouthReachMm from its height on the
+///               mean face
 MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, double stretch,
                             double prior) {
   constexpr double kChinFromMm = 115, kChinToMm = 50, kMouthFromMm = 65, kMouthToMm = 18;
@@ -298,8 +307,8 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   FaceMarks marks;
   marks.axes = match.axes;
   const double mm = match.scale, eyes = match.eye_midpoint.dot(match.fitted_axes.up);
-  // The middle of the skin gives the symmetry plane more accurately than the relief does, but hair
-  // or a cap may shift this middle.
+  // The middle of the skin gives the symmetry plane more accurately than the relief does, except
+  // if hair or a cap shifts this middle.
   marks.symmetry_offset = symmetry_offset(topology, head, marks.axes);
   const double of_relief = match.eye_midpoint.dot(match.axes.side());
   if (std::abs(marks.symmetry_offset - of_relief) > kSameMiddleMm * mm)
@@ -335,8 +344,9 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   marks.mouth_height = height(mouth);
   marks.chin_height = height(chin);
   marks.chin_front = place(chin).dot(marks.axes.front);
-  // Take the mean of two estimates: the eyes of the matched relief, and a fixed distance below the
-  // bridge. If there are eyeballs near this height, take the eyeballs.
+  // The height of the eyes is the mean of two estimates: the eyes of the matched relief, and a
+  // point at a fixed distance below the bridge. If the head has eyeballs near the eyes of the
+  // relief, the height of the eyeballs replaces this mean.
   marks.eyes_height =
       (match.eye_midpoint.dot(marks.axes.up) + height(bridge - kBridgeMm * match.stretch * mm)) / 2;
   double of_balls = 0;

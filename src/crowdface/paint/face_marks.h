@@ -14,30 +14,31 @@ namespace crowdface {
 
 /// Positions of the features of a face. Heights are along axes.up, in the unit of the positions.
 struct FaceMarks {
-  HeadAxes axes;               ///< axes of the face, see ReliefMatch
+  HeadAxes axes;               ///< see ReliefMatch::axes
   double symmetry_offset = 0;  ///< position of the symmetry plane along axes.side()
   double bridge_height = 0;    ///< height of the deepest point of the bridge of the nose
   double tip_height = 0;       ///< height of the tip of the nose
   double eyes_height = 0;      ///< height of the centres of the eyes
   double mouth_height = 0;     ///< height of the line between the lips
   double chin_height = 0;      ///< height of the most convex point of the profile of the chin
-  double chin_front = 0;       ///< how far in front the chin is, along axes.front
-  /// Height of the eyes above the mouth, about 65 mm. Other lengths of the face are multiples of
-  /// this height.
+  double chin_front = 0;       ///< front coordinate of the chin, along axes.front
+  /// Height of the eyes above the mouth, about 65 mm on a face of average size. Many lengths are
+  /// defined as multiples of this height.
   double eye_to_mouth() const { return eyes_height - mouth_height; }
 };
 
-/// A head, as input for the functions below that find its face; usually the mean of all heads.
+/// A head in which the functions below search for a face; usually the mean of all heads.
 struct HeadShape {
   Positions positions;        ///< #V by 3
   std::vector<bool> is_skin;  ///< #V
-  std::vector<Eigen::Vector3d>
-      eyeball_centres;  ///< centres of the eyeballs, if the head has eyeballs
+  /// empty if the head has no eyeballs
+  std::vector<Eigen::Vector3d> eyeball_centres;
 };
 /// Returns the shape of the mean of all heads.
 HeadShape mean_head_shape(const HeadSet& heads);
 
-/// Offset of the symmetry plane along HeadAxes::side(), estimated as the middle of the skin.
+/// Offset of the symmetry plane along HeadAxes::side(), estimated as the mean position of the skin
+/// along this axis, weighted by area.
 double symmetry_offset(const Topology& topology, const HeadShape& head, const HeadAxes& axes);
 
 /// Finds the face on a head by the relief of the face, see match_relief.
@@ -45,10 +46,11 @@ double symmetry_offset(const Topology& topology, const HeadShape& head, const He
 /// \return nothing if no part of the skin has the relief of a face
 std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& head,
                                      const HeadAxes& axes);
-/// Finds nose, mouth and chin in the profile, the curve in which the symmetry plane of the face
-/// cuts the skin.
+/// Finds nose, mouth and chin in the profile of a face. The profile is the curve in which the
+/// symmetry plane of the face cuts the skin.
 FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const ReliefMatch& face);
-/// Calls find_face and marks_of_face. The result does not depend on the tessellation of the mesh.
+/// Calls find_face and marks_of_face; returns nothing if find_face finds no face. The result does
+/// not depend on the tessellation of the mesh.
 std::optional<FaceMarks> find_face_marks(const Topology& topology, const HeadShape& head,
                                          const HeadAxes& axes);
 
@@ -59,19 +61,20 @@ struct Orientation {
 };
 /// Returns the axes of a head with this orientation.
 HeadAxes axes_of(const Orientation& orientation);
-std::vector<Orientation> all_orientations();  ///< the 24 axis-aligned orientations of a head
+/// Returns the 24 axis-aligned orientations of a head.
+std::vector<Orientation> all_orientations();
 
 /// Tries all 24 axis-aligned orientations of a head and returns the one in which the relief of a
 /// face matches best.
 /// \return nothing if no orientation shows a face.
 std::optional<Orientation> find_orientation(const Topology& topology, const HeadShape& head);
 
-/// Returns a message if the mesh has the relief of a face, but its edges are too long to represent
-/// the features of a face; otherwise nothing.
+/// Returns a message if the mesh has the relief of a face but too long edges to represent the
+/// features of a face. Returns nothing for other meshes.
 std::optional<std::string> long_edges_message(const Topology& topology, const HeadShape& head,
                                               const HeadAxes& axes);
-/// Explains why `find_face` found nothing: the axes are wrong, edges are too long, or there is no
-/// face.
+/// Explains why `find_face` found nothing: the face has another orientation than `axes` (the text
+/// names this orientation), the mesh has too long edges, or there is no face.
 std::string why_no_face_found(const Topology& topology, const HeadShape& head,
                               const HeadAxes& axes);
 

@@ -45,10 +45,12 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)) / kRadians;
 }
 
+/// The score of a match is its correlation plus kVoteOfEyes times the result of
+/// vote_of_eyes.
 constexpr double kVoteOfEyes = 0.15;
 
 /// Returns 1 if the midpoint of the known eyeballs is near the point between the eyes of a match,
-/// −1 if the two points are far from each other, and 0 if no eyeballs are known.
+/// −1 if the two points are farther apart than kNearMm, and 0 if no eyeballs are known.
 int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                  double height, double scale) {
   constexpr double kNearMm = 20;
@@ -61,8 +63,8 @@ int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes,
              : -1;
 }
 
-/// Finds the best position and size of the relief in one view.
-/// \param coarseness  step width as a multiple of the finest steps
+/// Finds the position and size at which the relief matches best, seen along `axes`.
+/// \param coarseness  width of the search steps as a multiple of the finest steps
 Candidate search_view(const Positions& samples, const HeadAxes& axes,
                       const std::vector<Eigen::Vector3d>& eyes, double coarseness) {
   constexpr double kMinAmplitude = 0.45, kMaxAmplitude = 2;
@@ -87,7 +89,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
     const double scale = best.scale;
     const double top = box.max().y() - 0.5 * kReliefTopRowHeightMm * scale,
                  low = box.min().y() + kReliefTopRowHeightMm * scale;
-    // Try all heights, and lateral positions up to a quarter of the breadth from the middle.
+    // Try all heights, and lateral positions whose distance from the middle is at most a quarter of
+    // the breadth.
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {
       for (int i = -aside; i <= aside; ++i) {
@@ -172,9 +175,9 @@ class Refinement {
   static constexpr int kRounds = 6;
   static constexpr double kSteadyDegrees = 0.3;
 
-  /// Searches heights, sizes and stretches in steps for several pitches of the face. The score has
-  /// several maxima. The start of a pattern search determines which maximum the search reaches.
-  /// \return the matches with the highest scores that differ in size or height
+  /// Finds starts for the pattern search. The score has several maxima, and the start determines
+  /// which maximum a pattern search reaches. Tries a grid of pitches, heights, sizes and stretches.
+  /// \return the matches with the highest scores that differ from each other in size or height
   std::vector<ReliefMatch> starts_in_symmetry_plane() {
     constexpr std::size_t kStarts = 4;
     constexpr double kOtherSize = 0.12, kOtherHeightMm = 10;
@@ -218,8 +221,8 @@ class Refinement {
     return starts;
   }
 
-  /// Compensates the pitch of the head, which causes a vertical slope of the depths.
-  /// \return the angle of the compensation in degrees
+  /// Rotates the axes of the best match by the pitch that the vertical slope of the depths shows.
+  /// \return the absolute angle of the rotation in degrees
   double make_upright() {
     place();
     const double pitch = std::atan(slope_up_) / kRadians;
@@ -235,7 +238,7 @@ class Refinement {
     }
   }
 
-  /// Replaces the best match by a match that has the same position but other axes.
+  /// Replaces the best match by `match` with other axes, even if the score decreases.
   void restart(const ReliefMatch& match, const HeadAxes& axes) {
     ReliefMatch next = match;
     next.fitted_axes = axes;
@@ -244,8 +247,8 @@ class Refinement {
     if (score_ <= kWorst) best_ = next;
   }
 
-  /// Differences between the depths to the left and to the right of the plane through `middle`,
-  /// seen along `axes`.
+  /// Differences between the depths at points to the left of the plane through `middle` and at
+  /// their mirror images to the right, seen along `axes`.
   std::vector<double> asymmetry(const HeadAxes& axes, const Eigen::Vector3d& middle) const {
     constexpr double kHighMm = 40, kLowMm = -100, kAsideMm = 60, kStepMm = 4;
     DepthMap map(near_, axes, square_);
@@ -262,7 +265,8 @@ class Refinement {
     return differences;
   }
 
-  /// Turns and moves the match until the face is symmetric. Uses robust Gauss-Newton steps.
+  /// Turns the match about the up and front axes and moves it sideways until the face is symmetric.
+  /// Uses robust Gauss-Newton steps.
   void make_symmetric() {
     constexpr int kSteps = 8;
     constexpr double kDegrees = 2, kMm = 2;  // step sizes for numerical derivatives
@@ -311,7 +315,8 @@ class Refinement {
     restart(next, axes);
   }
 
-  /// Searches for better heights, sizes and stretches around the best match.
+  /// Searches for better heights, sizes and stretches near those of the best match: first on a
+  /// grid, then by pattern search.
   void place() {
     const ReliefMatch first = best_;
     for (int up = -3; up <= 3; ++up) {
@@ -328,8 +333,9 @@ class Refinement {
     search(false);
   }
 
-  /// Changes each parameter by one step in both directions, and keeps the changes that improve the
-  /// match.
+  /// Changes each parameter of the best match by one step up and one step down, and keeps the
+  /// changes that improve the match.
+  /// \param turns  whether to change the rotation and the lateral position too
   void step_all(double step, bool turns) {
     for (const double sign : {1.0, -1.0}) {
       if (!turns) break;
@@ -428,20 +434,22 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
                                         const std::vector<HeadAxes>& all_axes,
                                         const std::vector<Eigen::Vector3d>& eyes) {
   constexpr std::size_t kRefined = 6;
-  // the steps in the rotated views are wider by this factor, because there are many rotated views
+  // The search along rotated axes uses steps that are wider by this factor, because there are many
+  // rotated axes.
   constexpr double kCoarser = 1.5;
-  constexpr double kTurn = 25;  // rotation of the rotated views, in degrees
-  // A face within this angle in degrees counts as aligned with the axes.
+  constexpr double kTurn = 25;  // angle of the rotated axes, in degrees
+  // A face whose axes differ by less than this angle (in degrees) counts as aligned with the axes.
   constexpr double kStraight = 5;
-  constexpr double kMinPitch = 10;  // smaller angles come from posture or the form of the face
+  // A smaller pitch (in degrees) comes from posture or the form of the face.
+  constexpr double kMinPitch = 10;
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
   const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {
     std::vector<Candidate> found(views.size());
     parallel_for_each(views.size(), [&](std::size_t i) {
       found[i] = search_view(samples, views[i], eyes, coarseness);
     });
-    // Refine the best views before comparing them: before refinement, a view with a wrong rotation
-    // may have as high a score as the right view.
+    // Refine several candidates before the final comparison: without refinement, a candidate with a
+    // wrong rotation may have as high a score as the right candidate.
     std::vector<std::size_t> order(views.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return found[i].score; });
@@ -459,14 +467,15 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
-    // Of the requested axes, choose the axes that are nearest to the axes of the face.
+    // Choose the requested axes that are nearest to the axes of the face.
     match.nearest_orientation_index = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -
         all_axes.begin());
     const HeadAxes& asked = all_axes[match.nearest_orientation_index];
     match.rotation_degrees = angle_between(match.axes, asked);
-    // Compensate a small pitch of the match.
+    // Remove a small pitch from the axes of the match, because it comes from posture or the form of
+    // the face.
     const double pitch =
         std::asin(std::clamp(match.fitted_axes.up.dot(asked.front), -1.0, 1.0)) / kRadians;
     if (std::abs(pitch) < kMinPitch) {
@@ -484,8 +493,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  // Most runs have one pair of axes, so this case must be fast. Wide steps almost always find the
-  // face. If the wide steps miss the face, the search in the rotated views follows.
+  // Most calls request only one pair of axes. This case must be fast, so it uses wider steps, which
+  // almost always find the face. If these steps miss the face, the search along rotated axes
+  // follows.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.score < kMinScore || match.rotation_degrees > kTurn) {

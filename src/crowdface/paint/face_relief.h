@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// Number of samples that suffices to find a face even on a bust.
+/// Number of samples of the skin that suffices to find a face even if the mesh also has shoulders
+/// and chest.
 inline constexpr Index kSkinSamples = 150'000;
 
 /// Samples the skin evenly by area, so that measurements on the samples do not depend on the
@@ -32,14 +33,17 @@ struct ReliefMatch {
   /// index of the requested orientation (argument `axes` of match_relief) that is nearest to the
   /// orientation of the face
   std::size_t nearest_orientation_index = 0;
-  double rotation_degrees = 0;  ///< angle between the nearest requested axes and the face's axes
-  HeadAxes axes;  ///< axes of the face; equal to the requested axes if they differ by less than 5°
-  /// Axes of the face: in these axes the face is symmetric and as upright as the mean face. Small
-  /// rotations from the requested axes are due to the posture and shape of the face.
+  /// angle between the nearest requested axes and `fitted_axes`
+  double rotation_degrees = 0;
+  /// `fitted_axes`, without a pitch below 10° from the nearest requested axes. Equal to the nearest
+  /// requested axes if the remaining difference is less than 5°.
+  HeadAxes axes;
+  /// The axes in which the face is symmetric and as upright as the mean face. Small rotations from
+  /// the requested axes are due to the posture and shape of the face.
   HeadAxes fitted_axes;
   Eigen::Vector3d eye_midpoint;  ///< point on the surface between the eyes
-  double scale = 1;    ///< horizontal: units of the positions per millimetre of the mean face
-  double stretch = 1;  ///< vertical scale as a multiple of `scale`
+  double scale = 1;    ///< horizontal scale: units of the positions per millimetre of the mean face
+  double stretch = 1;  ///< vertical scale divided by the horizontal scale
 };
 
 /// A match with a lower score does not count as a face.
@@ -49,8 +53,8 @@ inline constexpr double kMaxRotationDegrees = 45;
 
 /// Searches a surface for the relief of a face (nose, eye sockets, mouth and chin) by normalised
 /// cross-correlation with the depths of a mean face. Finds faces of any size that are rotated by up
-/// to about 35° from one of `axes` in any direction. Searches for rotated faces only if no upright
-/// face matches.
+/// to about 35° from one of `axes` in any direction. First searches along `axes`; only if no face
+/// matches, also searches along rotated axes.
 /// \param samples  see sample_skin
 /// \param eyes     centres of the eyeballs, if known; used in the score of a match
 /// \return the match with the highest score, even if this score is low; nothing if there are no

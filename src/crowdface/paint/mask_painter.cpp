@@ -14,8 +14,8 @@ namespace {
 
 using Alpha = RegionWeights::Alpha;
 
-// Distances over which smoothing and growing act, as fractions of the brush's radius. These
-// distances do not depend on the resolution of the mesh.
+// Distances over which one call of `paint` smooths weights or grows a region, as fractions of the
+// brush's radius. These distances do not depend on the resolution of the mesh.
 constexpr double kSmoothReach = 0.25, kGrowReach = 0.125;
 constexpr int kMaxRounds = 400;
 
@@ -25,6 +25,7 @@ struct Touched {
   double strength;
 };
 
+/// Sets negative weights of a vertex to zero, and scales the weights so that their sum is one.
 void scale_to_one(Alpha& alpha, Index row) {
   double sum = 0;
   for (Index k = 0; k < alpha.cols(); ++k) {
@@ -50,8 +51,8 @@ void set_share(Alpha& alpha, Index row, Index region, double share, Index receiv
   scale_to_one(alpha, row);
 }
 
-/// Returns the region, among all regions except `region`, with the largest total weight at the
-/// touched vertices. If several regions have this total, returns the region with the lowest index.
+/// Returns the region other than `region` with the largest total weight at the touched vertices. If
+/// several regions have the same total, returns the region with the lowest index.
 Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
   Index receiver = region;
   double most = -1;
@@ -66,7 +67,7 @@ Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index
   return receiver;
 }
 
-/// The vertices next to each touched vertex.
+/// The vertices that share an edge with each vertex under the brush; one row per `touched`.
 CompressedRows<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
                                             const std::vector<Touched>& touched) {
   CompressedRows<std::uint32_t> neighbours;
@@ -85,8 +86,7 @@ double edge_length(const Positions& positions, const std::vector<Touched>& touch
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
 }
 
-/// Number of rounds in which weights spread over a distance of `edges` edge lengths. In each round,
-/// weights spread by one edge.
+/// Rounds a number of smoothing or growing rounds up, and limits it to 1 … kMaxRounds.
 int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }
@@ -111,6 +111,8 @@ void smooth_once(const std::vector<Touched>& touched,
   }
 }
 
+/// Raises the region's weight at each touched vertex towards the largest weight at the vertex's
+/// neighbours.
 void grow_once(const std::vector<Touched>& touched, const CompressedRows<std::uint32_t>& neighbours,
                Index region, Alpha& alpha) {
   std::vector<double> share;
@@ -179,6 +181,8 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
       const double smooth = kSmoothReach * brush.radius / std::max(edge, 1e-300);
       const double grow = kGrowReach * brush.radius / std::max(edge, 1e-300);
       const bool smooths = brush.mode == BrushMode::kSmooth;
+      // Each round grows the region by one edge. Smoothing acts like diffusion: its distance is the
+      // square root of the number of rounds.
       for (int i = rounds(smooths ? smooth * smooth : grow); i > 0; --i) {
         if (smooths) {
           smooth_once(touched, neighbours, alpha_);
@@ -206,8 +210,8 @@ MaskPainter::Alpha MaskPainter::alpha_without(Index region) const {
       unassigned.push_back(static_cast<std::uint32_t>(v));
     }
   }
-  // Vertices that belonged only to the removed region have no weights now. Give them weights, from
-  // the border of this region inwards.
+  // Vertices that belonged only to the removed region have no weights now. Give these vertices
+  // weights, from the border of the removed region inwards.
   while (!unassigned.empty()) {
     std::vector<std::uint32_t> left;
     std::vector<std::pair<std::uint32_t, Eigen::RowVectorXd>> filled;

@@ -11,6 +11,7 @@
 
 namespace crowdface {
 
+/// What the brush does to the weights of the painted region.
 enum class BrushMode : std::uint8_t {
   kAdd,     ///< increases the weight of the region
   kErase,   ///< decreases the weight of the region; the other regions' weights grow in proportion
@@ -18,19 +19,21 @@ enum class BrushMode : std::uint8_t {
   kGrow,    ///< moves the border of the region outwards
 };
 
+/// Settings of the brush with which the user paints weights.
 struct Brush {
   BrushMode mode = BrushMode::kAdd;
   /// radius of the brush along the surface, in the unit of the positions, above 0
   double radius = 1;
   double strength = 1;  ///< change at the centre of the brush, 0 to 1
-  /// 0: constant strength up to the rim; 1: the strength falls off from the centre on.
+  /// 0: constant strength from the centre to the rim; 1: the strength decreases all the way from
+  /// the centre to the rim
   double falloff = 1;
   /// whether each stroke also paints on the other half of the head
   bool paints_mirror_image = false;
 };
 
 /// Regions of a mesh that the user paints by hand. At every vertex the weights are not negative and
-/// sum to one. Each undo restores exactly the weights before a step.
+/// sum to one. Each undo restores exactly the weights before the last stroke.
 class MaskPainter {
  public:
   using Alpha = RegionWeights::Alpha;
@@ -38,7 +41,7 @@ class MaskPainter {
   /// \param positions  #V by 3, the head on which the user paints. Topology and positions must
   ///                   outlive this object.
   /// \param mirror     symmetry plane of the head.
-  /// \param alpha      #V by #R.
+  /// \param alpha      #V by #regions: the weights at the start.
   MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
               Alpha alpha);
 
@@ -54,20 +57,20 @@ class MaskPainter {
   std::vector<std::uint32_t> paint(Index region, const std::vector<SurfacePoint>& points,
                                    const Brush& brush, bool continues_stroke = false);
 
-  /// The weights after removal of a region. At each vertex, the weight of the removed region goes
-  /// to the vertex's other regions in proportion to their weights. A vertex without other regions
-  /// gets the mean weights of its neighbours, or the first region if no path along edges leads to a
-  /// vertex with other regions.
+  /// The weights after removal of a region, #V by #regions − 1. At each vertex, the weight of the
+  /// removed region goes to the vertex's other regions in proportion to their weights. A vertex
+  /// without other regions gets the mean weights of its neighbours. If no path along edges leads to
+  /// a vertex with other regions, the vertex gets the weight 1 of the first remaining region.
   /// \throws BrokenPrecondition if there is no other region.
   Alpha alpha_without(Index region) const;
 
   bool can_undo() const { return !undo_steps_.empty(); }
-  /// Undoes the last step.
-  /// \return false if there is no step to undo.
+  /// Undoes the last stroke.
+  /// \return false if there is no stroke to undo.
   bool undo();
 
  private:
-  /// The weights before a step: for each vertex that the step changed, its row of α.
+  /// The weights before a stroke: for each vertex that the stroke changed, its row of `alpha_`.
   using Step = std::map<std::uint32_t, Eigen::RowVectorXd>;
 
   MirrorPlane mirror_;

@@ -63,12 +63,13 @@ const Terms& terms() {
 
 using UsedCells = std::bitset<kReliefCells>;
 
-/// A fit over the selected cells. The relief of the mean face is the last term, so the last row of
-/// the Cholesky factor of the normal matrix yields the variance that only this term explains.
+/// A least-squares fit over the used cells. The mean face is the last term, so the square of the
+/// last entry of `explained` is the part of the depths' sum of squares that only the mean face
+/// explains.
 struct CellFit {
   ReliefFit fit;
-  Products factor = Products::Zero();  ///< lower triangle
-  Coefficients explained = Coefficients::Zero();
+  Products factor = Products::Zero();  ///< Cholesky factor of the normal matrix, lower triangle
+  Coefficients explained = Coefficients::Zero();  ///< Cholesky factor⁻¹ · (terms · depths)
 
   CellFit(const ReliefDepths& depths, const UsedCells& used) {
     constexpr double kMin = 0.72 * kReliefCells, kFlatMm = 0.05;
@@ -120,8 +121,8 @@ ReliefFit fit_relief(ReliefDepths depths) {
     used[c] = depths[c] > -kDeepestMm;
   }
   CellFit of_cells(depths, used);
-  // An open mouth and the openings of the eyes lie behind the face. Exclude cells that are too
-  // deep, in two rounds.
+  // An open mouth and the openings of the eyes lie behind the fitted model. At most twice, exclude
+  // the cells that lie more than kHoleMm behind the model, and fit again.
   for (int round = 0; round < 2 && of_cells.fit.correlation > kPromising; ++round) {
     const Coefficients by = of_cells.coefficients();
     const UsedCells before = used;

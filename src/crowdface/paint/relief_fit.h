@@ -35,18 +35,21 @@ double depth_of_mean_face_mm(int cell);
 
 /// Depth of a cell without a surface.
 inline constexpr double kNoDepth = -std::numeric_limits<double>::infinity();
+/// The depth of a surface in each cell of the grid, row by row.
 using ReliefDepths = std::array<double, kReliefCells>;
 
 /// Result of comparing the depths of a surface with the mean face.
 struct ReliefFit {
   double correlation = -1;  ///< see ReliefMatch::correlation
-  double amplitude = 0;     ///< amplitude of the relief, 1 for the mean face
-  double offset = 0;        ///< depth between the eyes minus the depth of the fitted relief there
-  /// vertical slope in the fitted model (depth per length upwards), in addition to the mean face
+  double amplitude = 0;     ///< coefficient of the mean face in the fitted model
+  /// depth of the fitted model between the eyes, without the term of the mean face
+  double offset = 0;
+  /// vertical slope (depth per length upwards) of the fitted model at the middle height of the
+  /// grid, without the term of the mean face
   double slope_up = 0;
 };
 
-/// Fits a model to the depths by least squares. The model is a weighted sum of an offset, slopes,
+/// Fits a model to the depths by least squares. The model is a weighted sum of a constant, slopes,
 /// curvatures and the depths of the mean face.
 /// \param depths  in mm, scaled to a face of average size; kNoDepth in cells without a surface
 ReliefFit fit_relief(ReliefDepths depths);

@@ -17,10 +17,10 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Returns the distance of c from the source of a wave. `from_a` and `from_b` are the distances of
-/// a and b from this source. Unfolds the triangle into a plane that contains the source. If the
-/// straight path from the source to c does not cross the edge ab, the result is the length of the
-/// shorter path to c through a or b.
+/// The update step of fast marching in a triangle abc: returns the distance of c from a source.
+/// `from_a` and `from_b` are the distances of a and b from this source. Unfolds the triangle into a
+/// plane that contains the source. If the straight path from the source to c does not cross the
+/// edge ab, the result is the length of the shorter path to c through a or b.
 double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                          const Eigen::Vector3d& c, double from_a, double from_b) {
   const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());
@@ -37,7 +37,7 @@ double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   return std::sqrt((c_x - x) * (c_x - x) + (c_y + y) * (c_y + y));
 }
 
-/// Links boundary vertices that coincide but belong to different components, in cyclic lists.
+/// Computes SurfaceDistance::next_twins_.
 std::vector<std::uint32_t> find_twins(const Adjacency& adjacency, const Positions& positions) {
   std::vector<std::uint32_t> twins(static_cast<std::size_t>(positions.rows()));
   std::iota(twins.begin(), twins.end(), 0U);

@@ -10,16 +10,16 @@
 
 namespace crowdface {
 
-/// Distances along the surface of a mesh, not through the air: the path from lip to lip leads
-/// around the corner of the mouth. Components whose boundaries coincide vertex by vertex count as
-/// one surface, because a face and the back of its head may be separate components. Coinciding
-/// boundary vertices of the same component stay separate.
+/// Geodesic distances on a mesh: the path from lip to lip leads around the corner of the mouth.
+/// Components whose boundaries coincide vertex by vertex count as one surface, because a face and
+/// the back of its head may be separate components. Coinciding boundary vertices of the same
+/// component stay separate.
 class SurfaceDistance {
  public:
   /// \param positions  #V by 3. Topology and positions must outlive this object.
   SurfaceDistance(const Topology& topology, const Positions& positions);
 
-  /// A vertex and its distance along the surface.
+  /// A vertex and its distance along the surface from the nearest start point.
   struct ReachedVertex {
     std::uint32_t vertex;
     double distance;
@@ -43,8 +43,9 @@ class SurfaceDistance {
   const Positions& positions_;
   Adjacency adjacency_;
   VertexFaces faces_;
-  /// #V: twins are boundary vertices of different components at the same position. Entry v is the
-  /// next vertex in the cyclic list of v and its twins; v itself if v has no twin.
+  /// #V. Twins are boundary vertices of different components at the same position. A vertex and its
+  /// twins form a cyclic list; entry v is the vertex after v in this list, or v itself if v has no
+  /// twin.
   std::vector<std::uint32_t> next_twins_;
   PointGrid grid_;
 };

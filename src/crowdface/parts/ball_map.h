@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// The radius of an eyeball, including the cornea, for each direction around its front. A grid over
-/// the stereographic plane stores the radii, so that a table look-up, without a search, gives the
-/// gap between eyeball and lid.
+/// the stereographic plane stores the radii, so that a table look-up gives the gap between eyeball
+/// and lid without a search.
 class BallRadii {
  public:
   BallRadii() = default;

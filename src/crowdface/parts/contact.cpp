@@ -19,23 +19,24 @@ namespace {
 constexpr std::size_t kMaxVertices = 2500;
 /// Largest number of pairs in a cluster.
 constexpr std::size_t kClusterPairs = 16;
-/// Cluster::slack is the largest height difference within the cluster on any head, times this
-/// factor, because the difference may be larger on a new face.
+/// Safety factor of Cluster::slack: on a new face, the height differences within a cluster may be
+/// larger than on any head.
 constexpr double kSlackFactor = 1.5;
-/// Fractions of the reach (about 4 mm). kNear: a vertex's exact height (distance from the skin) is
-/// measured if its approximate height is at most kNear. kFree: smallest height of vertices that
-/// count as outside the skin.
+/// Heights (signed distances from the skin), as fractions of the reach (about 4 mm). kNear: the
+/// exact height is measured only for vertices whose approximate height is less than kNear. kFree:
+/// vertices above this height count as outside the skin.
 constexpr double kNear = 0.5, kFree = -0.005;
-/// Fractions of the reach. kFar: later steps ignore vertices that are farther from the skin than
-/// this. kDone: largest violation in the result.
+/// Fractions of the reach. kFar: all later steps ignore vertices above this height. kDone: the
+/// iteration ends when no height is below its lower bound by more than this.
 constexpr double kFar = 0.15, kDone = 0.002;
 /// Costs of a rotation (kHoldTurn) and of a change of size (kHoldSize), relative to a translation
 /// that moves the vertices by the same distance.
 constexpr double kHoldTurn = 1, kHoldSize = 2;
+/// Largest decrease (kSmaller) and increase (kLarger) of a part's size, as fractions of the size.
 constexpr double kSmaller = 0.06, kLarger = 0.01;
-/// Penalty factors for violations of an optimisation step, in units of the reach. kOutsidePenalty:
-/// for vertices that are outside the skin in all heads; these vertices have priority.
-/// kInsidePenalty: for all other vertices.
+/// Penalties for violated constraints, as multiples of the reach. kOutsidePenalty: for vertices
+/// that are outside the skin in all heads; these vertices have priority. kInsidePenalty: for all
+/// other vertices.
 constexpr double kOutsidePenalty = 1000, kInsidePenalty = 1;
 
 /// Index of the first unknown of each kind in an optimisation step of a part: translation (3
@@ -109,8 +110,8 @@ void PartContact::find_search_starts(const Positions& positions,
       nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
-  // For each pair, keep at most kMaxSearchStarts of these skin vertices as starts of the search for
-  // the nearest skin. Omit a vertex that is closer than `apart` to another start of the pair.
+  // For each pair, keep at most kMaxSearchStarts of the skin vertices found as start vertices. Omit
+  // a vertex that is closer than `apart` to another start vertex of the pair.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     SearchStarts& starts = pairs_[i].search_starts;
     std::size_t count = 1;

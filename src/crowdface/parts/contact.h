@@ -29,11 +29,15 @@ class PartContact {
               const PointGrid& grid, std::span<const std::uint32_t> skin,
               std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
 
-  /// Signed distance of a pair's vertex from the skin of a head; negative: inside the skin.
+  /// Where a vertex of the part lies relative to the skin of a head.
   struct Height {
-    double height = 0;
+    double height = 0;        ///< signed distance from the skin; negative: inside
     Eigen::Vector3d outward;  ///< outward unit normal of the skin
   };
+  /// Returns the height of a point of the part above the nearest skin.
+  ///
+  /// \param pair   Index of the pair whose vertex is at `point`.
+  /// \param skin   Positions of the head with this skin, #V by 3.
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
   /// Returns the motion that keeps the part out of the skin and is nearest to `motion`. After this
@@ -56,8 +60,9 @@ class PartContact {
   static constexpr std::size_t kMaxSearchStarts = 3;
   using SearchStarts = std::array<std::uint32_t, kMaxSearchStarts>;
   struct Pair {
-    std::uint32_t vertex;
-    Triangle corners;
+    std::uint32_t vertex;  ///< vertex of the part
+    Triangle corners;      ///< triangle of the skin
+    /// point of the triangle that is nearest to the vertex on the head where the pair was found
     std::array<double, 3> barycentric;
     /// Vertices at which the search for the nearest skin starts. If both lips are near, some of
     /// these vertices lie on each lip.
@@ -68,14 +73,16 @@ class PartContact {
   /// for the heights of all pairs of the cluster.
   struct Cluster {
     std::size_t begin, end;  ///< range of `pairs_`
-    double slack;
+    double slack;            ///< estimated limit of the height differences
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
   void find_search_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                           const std::vector<Head>& heads);
   void find_clusters(const Positions& positions, const std::vector<Head>& heads);
+  /// Returns the height of `point` above the plane of the pair's triangle.
   double approximate_height(const Pair& pair, const Eigen::Vector3d& point,
                             const Positions& skin) const;
+  /// Returns the outward normal of the skin at a surface point, interpolated from the corners.
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   /// Improves `motion` by one step of the optimisation.
   ///
@@ -86,7 +93,7 @@ class PartContact {
 
   const Topology* topology_ = nullptr;
   const VertexFaces* faces_ = nullptr;
-  double reach_ = 0;
+  double reach_ = 0;        ///< `reach` of the constructor
   double normal_sign_ = 1;  ///< −1 if the skin's normals point away from the part, else 1
   double radius_ = 0;       ///< root mean square distance of the part's vertices from its middle
   /// middle of the part on the head where the pairs were found

@@ -66,7 +66,8 @@ double GapSection::gap(const Positions& positions) const {
 std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double spacing) {
   std::vector<double> nearest(group.size(), std::numeric_limits<double>::max());
   std::vector<GapSection> sections;
-  // `next` is the pair that is farthest from all sections chosen so far
+  // Each round places a section at pair `next`, the pair that is farthest from all earlier
+  // sections.
   for (std::size_t next = 0; nearest[next] >= spacing;) {
     const Eigen::Vector3d middle = group[next].middle;
     Eigen::Vector3d up = Eigen::Vector3d::Zero();

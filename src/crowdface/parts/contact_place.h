@@ -33,7 +33,8 @@ struct GapSection {
   /// Returns the height of the lowest point of the high profile above the highest point of the low
   /// profile; negative if they overlap.
   double gap(const Positions& positions) const;
-  /// Returns the unit vector into the contact: in the cutting plane, perpendicular to `up`.
+  /// Returns the unit vector that lies in the cutting plane and is perpendicular to `up`. Depths
+  /// are measured along this vector.
   Eigen::Vector3d inward() const { return plane_normal.cross(up); }
 };
 
@@ -71,8 +72,9 @@ class Clearance {
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
-    /// indices of the two neighbouring points of the low and of the high profile (see GapSection);
-    /// the points of the low profile have the lower indices
+    /// `low`: indices of two neighbouring points of the low profile (see GapSection). `high`:
+    /// indices of two neighbouring points of the high profile. Indices count the points of the low
+    /// profile first.
     std::array<std::uint32_t, 2> low, high;
     std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 
@@ -83,10 +85,10 @@ class Clearance {
              low_weights[0] * heights[low[0]] - low_weights[1] * heights[low[1]];
     }
   };
-  /// For each profile point with a segment of the other profile at the same depth, returns this
-  /// point and the opposite point on that segment. Segments are straight, so the gap is smallest at
-  /// one of these pairs. If no segments overlap in depth, returns the two points that are nearest
-  /// in depth.
+  /// Returns pairs of opposite points: each profile point, and the point at the same depth on each
+  /// segment of the opposite profile that covers this depth. Segments are straight, so the gap is
+  /// smallest at one of these pairs. If no segments overlap in depth, returns the two points that
+  /// are nearest in depth.
   ///
   /// \param depths  Depths of all points.
   std::vector<OppositePoints> opposite_points(std::span<const double> depths) const;
@@ -102,6 +104,7 @@ class Clearance {
   }
   /// Returns the smallest gap of the given pairs of points; negative if the profiles intersect.
   static double gap(std::span<const OppositePoints> opposites, std::span<const double> heights);
+  /// Returns the smallest gap of the section on a head.
   double gap(const Positions& positions) const;
 
  private:
@@ -112,8 +115,8 @@ class Clearance {
   std::vector<double> coordinates(const Eigen::Vector3d& direction,
                                   const Positions& positions) const;
 
-  std::vector<EdgePoint> points_;  ///< points of the low profile, then of the high profile
-  std::vector<Segment> low_, high_;
+  std::vector<EdgePoint> points_;    ///< points of the low profile, then of the high profile
+  std::vector<Segment> low_, high_;  ///< segments of the two profiles, as indices into `points_`
   Eigen::Vector3d up_, inward_;
 };
 

@@ -18,6 +18,7 @@ namespace {
 constexpr double kLidReach = 0.3;
 // smallest cosine between a rim vertex's direction and the front
 constexpr double kMinFront = 0.35;
+/// Number of sectors around the axis of the eye; the rim has at most one vertex in each sector.
 constexpr std::size_t kDirections = 60;
 /// Largest number of lid vertices that are used; more vertices are subsampled evenly.
 constexpr std::size_t kMaxLids = 2500;
@@ -29,7 +30,8 @@ constexpr double kMeanGapWeight = 20, kMeanGapTolerance = 0.004;
 /// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the cost of
 /// errors of the gaps.
 constexpr double kHold = 0.02, kHoldBallSize = 0.2;
-/// Largest decrease and increase of the eyeball's size.
+/// Largest decrease (kSmallerBall) and increase (kLargerBall) of an eyeball's size, as fractions of
+/// the size.
 constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
 /// Gap that is kept at lid vertices that are outside the eyeball in all heads, as a fraction of the
 /// radius; about 0.025 mm.
@@ -49,7 +51,7 @@ constexpr double kDoneShift = 1e-3;
 /// eyeball in some head is deeper inside than in any head.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
-/// Unknowns of an optimisation step of an eyeball. All of them are lengths.
+/// Unknowns of an optimisation step of an eyeball. All unknowns are lengths.
 enum BallUnknown : std::size_t {
   kBallShift = 0,
   kBallSize = 3,
@@ -164,7 +166,8 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
                             std::vector<LidPoint>& lids) const {
   const BallRadii& map = ball_radii_[target];
   const double radius = motion.scale * map.radius();
-  // A gap is measured along the normal of the eyeball, so the gap is a little smaller than the
+  // Lid vertices outside this radius are farther from the eyeball than `far`. The factor 1.5 allows
+  // for gaps, which are measured along the normal of the eyeball and are a little smaller than the
   // distance along the ray from the centre.
   const double outside = motion.scale * map.max_radius() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
@@ -220,10 +223,11 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
     program.add_lower_bound(of.a, missing - kMeanGapTolerance * radius);
     program.add_lower_bound(less, -missing - kMeanGapTolerance * radius);
   }
+  // Keep the total shift small.
   for (std::size_t i = 0; i < 3; ++i) {
     program.add_target(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
   }
-  // Keep the total shift and change of size small.
+  // Keep the total change of size small.
   program.add_target(kBallSize, size_mode == SizeMode::kFree ? -grown : 0, kHoldBallSize);
   if (size_mode == SizeMode::kFree) {
     program.add_bounds(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);

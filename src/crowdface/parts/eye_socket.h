@@ -53,7 +53,8 @@ class EyeSocket {
   /// \param face         The face, with the moved skin.
   /// \return             Motion of the eyeball from the head to the face.
   RigidMotion fit(std::size_t target, const RigidMotion& skin_motion, const Positions& face) const;
-  /// Fits an eyeball of given size: improves the translation of a motion, and keeps its scale.
+  /// Improves the translation of an eyeball whose size is given: the scale of the motion does not
+  /// change.
   ///
   /// \param scaled_motion  Result of `fit`, scaled to the wanted size.
   RigidMotion fit_translation(std::size_t target, const RigidMotion& skin_motion,
@@ -61,16 +62,18 @@ class EyeSocket {
   Eigen::Vector3d centre(std::size_t target) const { return ball_radii_[target].centre(); }
 
  private:
+  /// Whether the optimisation may change the size of the eyeball.
   enum class SizeMode { kFree, kKept };
   struct LidPoint {
-    Eigen::Vector3d point;
-    std::uint32_t index;
+    Eigen::Vector3d point;  ///< position on the face
+    std::uint32_t index;    ///< index into `Lids::vertices`
   };
   /// Returns `motion` improved by one step of the optimisation.
   /// \param far  The function removes lid points whose distance from the eyeball is larger than
   ///             this fraction of the radius.
   RigidMotion step(std::size_t target, const RigidMotion& skin_motion, const RigidMotion& motion,
                    double far, SizeMode size_mode, std::vector<LidPoint>& lids) const;
+  /// Repeats `step` until the eyeball hardly moves; starts from `motion`.
   RigidMotion iterate_steps(std::size_t target, const RigidMotion& skin_motion, RigidMotion motion,
                             SizeMode size_mode, const Positions& face) const;
 

@@ -26,7 +26,8 @@ std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge
   return std::nullopt;
 }
 
-/// Visits the two polygons that contain two corresponding directed edges.
+/// Visits two mirrored polygons: the polygon with the directed edge `here`, and the polygon with
+/// the corresponding edge `there`.
 /// \return false if only one of the edges has a polygon.
 bool MirroredWalk::visit_faces(DirectedEdge here, DirectedEdge there) {
   const auto face = face_along(here);

@@ -49,17 +49,24 @@ class MirroredWalk {
     std::uint32_t face;
     std::size_t corner;
   };
+  /// Corresponding edges of two mirrored polygons: `here` on the first side, `there` on the second
+  /// side.
   struct FacePair {
     FaceEdge here, there;
   };
 
+  /// Returns the polygon that contains the directed edge, if there is one.
   std::optional<FaceEdge> face_along(DirectedEdge edge) const;
   bool visit_faces(DirectedEdge here, DirectedEdge there);
   bool add_pair(MirroredPair pair);
+  /// Pairs the corners of two mirrored polygons. Returns false if the polygons do not match, or if
+  /// `may_continue` returns false.
   bool pair_corners(const FacePair& faces,
                     const std::function<bool(const MirroredPair&)>& may_continue);
+  /// Fills `pairs_` as walk_from describes; returns false if the walk fails.
   bool walk(DirectedEdge edge, DirectedEdge other,
             const std::function<bool(const MirroredPair&)>& may_continue);
+  /// Clears the results of the walk.
   void reset();
 
   const Topology& topology_;
@@ -67,11 +74,12 @@ class MirroredWalk {
   /// for each vertex of the first side: the mirror partner that the current walk found on the
   /// second side; kNoIndex if none
   std::vector<std::uint32_t> partner_of_vertex_;
-  std::vector<std::uint32_t> vertex_of_partner_;  ///< the inverse of partner_of_vertex_
+  /// for each vertex of the second side: its mirror partner on the first side; kNoIndex if none
+  std::vector<std::uint32_t> vertex_of_partner_;
   /// for each polygon of the first side: whether the walk has visited the polygon
   std::vector<bool> is_visited_;
-  std::vector<FacePair> faces_;  ///< visited pairs of polygons, in the order of visits
-  std::vector<MirroredPair> pairs_;
+  std::vector<FacePair> faces_;      ///< visited pairs of polygons, in the order of visits
+  std::vector<MirroredPair> pairs_;  ///< the vertex pairs found so far
 };
 
 }  // namespace crowdface

@@ -30,8 +30,8 @@ constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 constexpr double kOverlap = 0.0005;
 constexpr double kAside = 0.0035;  // the test of kSideways replaces smaller gaps by this gap
 constexpr double kMinAway = 0.02;  // smallest distance along the surface
-// pairs whose midpoints are at most this far apart belong to the same group; a coarse mesh has a
-// larger limit
+// pairs whose midpoints are at most this far apart belong to the same group; kEdgesTogether is the
+// limit for a coarse mesh
 constexpr double kTogether = 0.015;
 // smallest distance of a pair's vertices along the surface, as a multiple of their distance in
 // space
@@ -39,6 +39,8 @@ constexpr double kTimesAway = 3;
 constexpr double kOpposed = -0.3;       // largest cosine between the normals
 constexpr double kEdgesTogether = 2.5;  // the limit kTogether in a coarse mesh, in edge lengths
 constexpr double kSideways = 0.75;      // largest sideways offset, as a fraction of the gap
+/// kBlock: smallest number of vertices in a parallel block. kSearches: largest number of blocks
+/// that search along the surface.
 constexpr Index kBlock = 1024, kSearches = 16;
 
 /// Returns the vertex with the lowest index in each cell of a grid; the result is in ascending
@@ -49,7 +51,7 @@ std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const s
   const auto mixed = [](const Cell& cell) {
     std::uint64_t bits = 0;
     for (const double at : cell) {
-      // Adding zero turns −0 into +0. Both compare equal, so both need the same hash.
+      // Adding zero turns −0 into +0: the two compare equal, so they need the same hash.
       bits = (bits ^ std::bit_cast<std::uint64_t>(at + 0.0)) * 0x9e3779b97f4a7c15ULL;
       bits ^= bits >> 32U;
     }
@@ -132,6 +134,7 @@ double mean_edge(const Adjacency& adjacency, const Positions& positions, const F
   return count > 0 ? sum / count : 0;
 }
 
+/// Groups the pairs: pairs whose midpoints are at most `reach` apart are in the same group.
 std::vector<FacingGroup> compressed_rows(const FacingGroup& pairs, double reach) {
   if (pairs.empty()) return {};
   Positions middles(static_cast<Index>(pairs.size()), 3);
@@ -166,7 +169,7 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   const PointGrid grid(positions, some);
   std::vector<std::vector<Candidate>> candidates(some.size());
   parallel_for_each(some.size(), kBlock, [&](std::size_t i) {
-    // Candidates are near in space, with opposite normals.
+    // Find candidates that are near in space and have opposite normals.
     candidates[i] = opposite(positions, normals, side, grid, some[i], extent);
   });
 

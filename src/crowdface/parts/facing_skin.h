@@ -18,7 +18,8 @@ struct FacingPair {
   Eigen::Vector3d up;      ///< unit vector from the low side to the high side
 };
 
-/// Pairs that are near each other. The low vertices of all pairs lie on the same side of the gap.
+/// Facing pairs of one gap, such as the pairs of a closed mouth. The low vertices of all pairs lie
+/// on the same side of the gap.
 using FacingGroup = std::vector<FacingPair>;
 
 /// Finds where skin nearly touches skin. The two vertices of a pair are nearer to each other than

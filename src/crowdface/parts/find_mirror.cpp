@@ -21,14 +21,15 @@ namespace {
 /// A coordinate plane is preferred if its error is at most this factor times the error of the best
 /// plane.
 constexpr double kAsGood = 1.05;
-/// Largest number of seeds. A seed is a vertex of a component. A walk over the polygons of the
-/// component and of its mirror image starts there.
+/// Largest number of seeds of a component. A seed is a vertex at which a walk over the polygons of
+/// the component and of the mirrored component starts.
 constexpr std::size_t kMaxMirrorSeeds = 24;
 /// A walk with an error below this fraction of the component's extent is accepted without further
 /// walks. On a sphere, many walks are about equally good.
 constexpr double kAcceptedError = 0.01;
 // Lengths are fractions of the skin's extent, about 43 cm.
-// largest distance of a partner from the vertex's mirror image
+
+// largest distance of a vertex's partner from the mirror image of the vertex
 constexpr double kMatchReach = 0.01;
 /// A walk (see MirroredWalk) pairs the vertices of two components. Its error is the root mean
 /// square distance of the pairs after mirroring. The error may be at most the larger of two limits:
@@ -130,7 +131,8 @@ class PlaceFinder {
         const auto corner = std::ranges::find(face, seed.vertex);
         const std::uint32_t to = corner + 1 == face.end() ? face.front() : *(corner + 1);
         const std::uint32_t partner_of_to = grid.nearest(image(to)).vertex;
-        // A walk that is worse than the best so far ends early.
+        // The walk ends as soon as the sum of its squared distances shows that an earlier walk is
+        // better.
         const double most =
             kRoundingFactor * best_rms * best_rms * static_cast<double>(here.size());
         double squares = 0;
@@ -151,7 +153,8 @@ class PlaceFinder {
     return best;
   }
 
-  /// Matches each vertex separately with the point nearest to its mirror image.
+  /// Matches each vertex of `here` separately with the point of `there` that is nearest to the
+  /// vertex's mirror image.
   void by_nearness(const Vertices& here, const Vertices& there, FoundMirror& found) const {
     const PointGrid grid_there(mean_, there), grid_here(mean_, here);
     const double reach = kMatchReach * extent_;
@@ -244,9 +247,10 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
   return as_good ? map.plane : fitted;
 }
 
-/// Computes offsets for vertices without partner, so that mirroring keeps the mean head's shape
-/// there. An offset points from the vertex's mirror image to the vertex. Its length is the distance
-/// between the two minus `reach`, but not less than zero. So the surface has no step.
+/// Computes the offsets of the vertices without partner, so that mirroring nearly keeps the shape
+/// of the mean head at these vertices. Mirroring alone would move such a vertex of the mean head by
+/// a distance d. The offset moves the vertex back by d − `reach`, or by 0 if d < `reach`; so the
+/// surface has no step where vertices with and without partner meet.
 void keep_form(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
   map.unpaired_offsets.resize(static_cast<Index>(map.unpaired_vertices.size()), 3);

@@ -27,9 +27,10 @@ struct FoundMirror {
 ///
 /// Components are matched by position: the left eye with the right eye. If the polygons of two
 /// matched components mirror each other, a walk over the polygons gives the partners, however
-/// asymmetric the mean head is. Otherwise, two vertices are partners if each of the two is the
-/// vertex nearest to the mirror image of the other vertex, and is close to this image. Every other
-/// vertex gets the point on the surface that is nearest to its mirror image.
+/// asymmetric the mean head is. Otherwise, vertices v and w are partners if w is the vertex nearest
+/// to the mirror image of v and close to this image, and v is the vertex nearest to the mirror
+/// image of w. The partner of every other vertex is the point of the surface that is nearest to the
+/// mirror image of the vertex.
 ///
 /// \param mean  #V by 3.
 /// \param side  Unit vector along the axis from the head's right to its left, in either direction.

@@ -72,8 +72,8 @@ struct SkinOfMean {
 /// Returns the skin around a rigid part. The reach doubles until there is enough skin, so that a
 /// part far from the skin follows the nearest skin.
 Socket socket_of(const Part& part, double reach, const SkinOfMean& skin) {
-  // The distance between skin and part may be imprecise by the spacing of the part's vertices, so a
-  // subset of these vertices is enough.
+  // A subset of the part's vertices is enough: the distance between skin and part may be imprecise
+  // by the spacing of the vertices.
   const PointGrid rough_grid(skin.mean, evenly_spaced_items(part.vertices, kMaxSocketVertices));
   Socket socket;
   for (int tries = 0; tries < 8 && socket.vertices.size() < 12; ++tries, reach *= 2) {

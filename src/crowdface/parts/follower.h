@@ -11,8 +11,7 @@
 namespace crowdface {
 
 /// Moves the parts of a head with its skin after blending. The constructor determines on the mean
-/// head how parts are bound to the skin, and measures their positions on each head (docs/parts.md
-/// has costs).
+/// head how parts are bound to the skin, and measures the positions of the parts on each head.
 ///
 /// - A rigid part moves by the rotation, translation and uniform scale that best fits the motion of
 ///   the surrounding skin from the target to the face. Then eyeballs are shifted and rescaled until

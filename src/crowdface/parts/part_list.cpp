@@ -117,7 +117,7 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
   }
 }
 
-/// Joins components with vertices at most `reach` apart, except eyeballs.
+/// Joins rigid components, except eyeballs, whose vertices are at most `reach` apart.
 void join_touching(const Positions& positions, const Components& components,
                    const std::vector<std::vector<std::uint32_t>>& members,
                    const std::vector<std::uint32_t>& rigid, const std::vector<bool>& eyeball,
@@ -133,7 +133,7 @@ void join_touching(const Positions& positions, const Components& components,
   }
 }
 
-/// Splits groups of teeth into jaws.
+/// Splits each group that contains two rows of teeth into one group per jaw.
 void split_jaws(const Positions& positions, const std::vector<std::vector<std::uint32_t>>& members,
                 const HeadAxes& axes, const std::vector<std::uint32_t>& rigid,
                 const std::vector<bool>& eyeball, DisjointSets& grouping) {
@@ -186,7 +186,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     eyeball[c] = is_eyeball(list.shapes[c], extent);
     if (!by_hand[c]) rigid.push_back(c);
   }
-  // Join the other rigid components by position.
+  // Join the rigid components that the user did not assign, by position.
   join_inside(list, rigid, eyeball, grouping);
   join_touching(positions, components, members, rigid, eyeball, kTouch * extent, grouping);
   split_jaws(positions, members, axes, rigid, eyeball, grouping);

@@ -37,21 +37,21 @@ struct PartList {
   std::vector<Part> parts;
 };
 
-/// Assignments of components to classes and parts that the user has made.
+/// The user's assignments of components to classes and parts.
 struct PartOverrides {
-  std::vector<std::optional<PartClass>> classes;              ///< one per component; or empty
+  std::vector<std::optional<PartClass>> classes;              ///< one per component, or empty
   std::vector<std::vector<std::uint32_t>> joined_components;  ///< components of each part
 };
 
 /// Classifies the components of a mesh by their shapes and joins them into parts:
 ///
-/// - skin: the largest component, components longer than half of its extent, and vertices without
-/// polygons;
+/// - skin: the largest component, every component with more than half of the largest component's
+///   extent, and vertices without polygons;
 /// - bound: open strips and shells near the skin;
 /// - rigid: all other components. Round components as large as an eye are eyeballs; a component
-///   whose centre is inside an eyeball belongs to this eyeball. Other components that nearly touch
-///   form one part. But if they form two rows, one above the other, the teeth of each jaw are one
-///   part.
+///   whose centre is inside an eyeball joins the eyeball's part. Other components that nearly touch
+///   form one part. Two rows of such components, one above the other, are the teeth of two jaws;
+///   each row is a separate part.
 ///
 /// \param positions  #V by 3, any unit; preferably the mean head.
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,

@@ -31,6 +31,7 @@ class ProximityJoiner {
   void join_near(const Eigen::Vector3d& place, double reach, std::uint32_t component);
 
  private:
+  /// Returns the rows of the points of a node.
   std::span<const std::uint32_t> rows_of(std::size_t node) const;
   void join_near(std::size_t node, const Eigen::Vector3d& place, double reach,
                  std::uint32_t component);
@@ -41,8 +42,8 @@ class ProximityJoiner {
   DisjointSets& groups_;
   MedianSplitTree tree_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
-  /// for each node: the index of one component of the group to which all points of the node belong;
-  /// kNoIndex if no single group is known
+  /// for each node: if all points of the node are known to belong to one group, a component of this
+  /// group; otherwise kNoIndex
   std::vector<std::uint32_t> groups_of_nodes_;
 };
 

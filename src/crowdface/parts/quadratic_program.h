@@ -45,12 +45,13 @@ class QuadraticProgram {
   Vector solve(double tolerance) const;
 
  private:
+  /// The constraint a·x ≥ lower.
   struct Bound {
     Vector a;
     double lower;
   };
   std::size_t unknowns_;
-  std::array<Vector, kMaxUnknowns> quadratic_ = {};
+  std::array<Vector, kMaxUnknowns> quadratic_ = {};  ///< Q of the objective ½ xᵀ Q x − linear·x
   Vector linear_ = {};
   std::vector<Bound> bounds_;
 };

@@ -26,8 +26,8 @@ constexpr double kMinWeight = 1e-3;  // vertices with smaller weights do not mov
 constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices per parallel block
 // profile points per parallel block: their derivatives fit into a core's L1 cache
 constexpr std::size_t kPointsPerBlock = 256;
-constexpr int kSweeps = 200;
-constexpr int kRounds = 3;
+constexpr int kSweeps = 200;  // largest number of Gauss-Seidel sweeps in a round
+constexpr int kRounds = 3;    // largest number of rounds of fit_gaps
 /// Regularisation: the gap of a section may miss its range by this fraction of the section's
 /// amplitude (the size of its correction), so that neighbouring sections get similar amplitudes.
 constexpr double kEvenness = 0.001;
@@ -35,8 +35,8 @@ constexpr double kEvenness = 0.001;
 /// largest deviation of any gap from its range before the correction.
 constexpr double kMaxCorrection = 4;
 
-/// Smooth kernel, 1 at 0, and 0 from 1 on (Wendland 1995, C² in three dimensions). The kernel is
-/// positive definite, so amplitudes exist for any wanted gaps.
+/// Smooth kernel: 1 at distance 0, and 0 at distances of 1 or more (Wendland 1995, C² in three
+/// dimensions). The kernel is positive definite, so amplitudes exist for any wanted gaps.
 double bump(double distance) {
   if (distance >= 1) return 0;
   const double rest = 1 - distance;
@@ -295,7 +295,8 @@ void SkinContacts::move(const SectionGroup& section_group, std::span<const doubl
   });
 }
 
-/// Repeats the correction, because other points lie opposite each other after points have moved.
+/// Solves for the amplitudes in up to kRounds rounds. The solution of a round changes the depths of
+/// the profile points, so the next round determines again which points lie opposite each other.
 void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions) const {
   for (const SectionGroup& section_group : section_groups_) {
     Profiles profiles;
@@ -308,7 +309,7 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
     std::vector<AmplitudeChange> changes;
     double max_amplitude = 0;
     for (int round = 0; round < kRounds; ++round) {
-      // Update the depths, and find the facing points again.
+      // Update the depths, and find the opposite points again.
       move_depths(section_group, changes, profiles.depths);
       double largest_deviation = 0;
       profiles.opposites.clear();
@@ -323,7 +324,7 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
       if (largest_deviation <= tolerance_) break;
       // The first round sets the limit for all rounds.
       if (round == 0) max_amplitude = kMaxCorrection * largest_deviation;
-      // Solve for the amplitudes with these facing points.
+      // Solve for the amplitudes with these opposite points.
       changes = find_kernel_amplitudes(section_group, ranges, max_amplitude, profiles, amplitudes);
     }
     if (max_amplitude > 0) move(section_group, amplitudes, positions);

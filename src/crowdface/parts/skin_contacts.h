@@ -32,8 +32,8 @@ class SkinContacts {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
 
-  /// Compares the gap at each section with the widest gap that any head has there. Returns the
-  /// largest excess; 0 if no gap is wider than in the heads.
+  /// Compares the gap at each section with the widest gap of any head at the same section. Returns
+  /// the largest excess; 0 if no gap is wider than in the heads.
   double max_gap_excess(const Positions& positions) const;
 
   /// Returns the vertices that fit_gaps may move.
@@ -80,9 +80,11 @@ class SkinContacts {
     /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposites;
 
+    /// Returns the smallest gap of a section; `section` counts within the group.
     double gap(std::size_t section) const;
   };
 
+  /// Places sections along the gap of one group of facing pairs.
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
   /// Sets the vertices that a group's corrections move, and the kernel values (see KernelValue) at
@@ -96,7 +98,7 @@ class SkinContacts {
   void compute_kernels(const Positions& mean_head, std::span<const std::uint32_t> near_skin,
                        const std::vector<double>& side_weights, double skin_extent,
                        SectionGroup& section_group) const;
-  /// Sets the point motions of a group, from its kernels.
+  /// Sets the point motions of a group, from the kernels of the group.
   void compute_point_motions(SectionGroup& section_group) const;
   /// A change of a section's amplitude. Each section displaces the skin by its amplitude times its
   /// kernel.
@@ -110,17 +112,20 @@ class SkinContacts {
   ///
   /// \param max_amplitude  Limit for the absolute value of each amplitude.
   /// \param amplitudes  Amplitudes of the group's sections; updated.
-  /// \return       The changes in order. The depths of `profiles` are not updated.
+  /// \return       All changes of amplitudes, in the order in which they were made; move_depths
+  ///               updates the depths of `profiles` from this list.
   std::vector<AmplitudeChange> find_kernel_amplitudes(const SectionGroup& section_group,
                                                       std::span<const Range> ranges,
                                                       double max_amplitude, Profiles& profiles,
                                                       std::vector<double>& amplitudes) const;
+  /// Updates the depths of all profile points of a group after changes of amplitudes.
   static void move_depths(const SectionGroup& section_group,
                           std::span<const AmplitudeChange> changes, std::vector<double>& depths);
+  /// Displaces the skin by the kernels of the group, times the amplitudes.
   void move(const SectionGroup& section_group, std::span<const double> amplitudes,
             Positions& positions) const;
 
-  double tolerance_ = 0;
+  double tolerance_ = 0;  ///< tolerance of a gap, in the heads' unit
   std::vector<GapSection> sections_;
   std::vector<Clearance> clearances_;  ///< one per section
   std::vector<SectionGroup> section_groups_;

@@ -28,7 +28,7 @@ constexpr double kFoundErrorMm = 5;
 /// Finds landmarks on a scan. Returns the scan vertex of each landmark, by name; empty if the mesh
 /// is not usable as a head (for example too small).
 /// \param in_mm  the positions of the scan in millimetres.
-/// \param axes  the axes of the head in `in_mm`.
+/// \param axes   the axes of the head in `in_mm`.
 std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
                                                 const HeadAxes& axes,
                                                 const std::optional<ReliefMatch>& face = {}) {
@@ -79,9 +79,9 @@ std::vector<WrapLandmark> find_landmarks(
     face->eye_midpoint /= pose.scale;
     face->scale /= pose.scale;
   }
-  // Search in two orientations, and keep the result with more landmarks. The axes of the hint are
-  // inexact for rotated scans. The fitted pose is tilted for scans that differ much from the
-  // template.
+  // Search with two sets of head axes, and keep the result with more landmarks. The axes of the
+  // hint are inexact if the scan is rotated. The axes of the fitted pose are tilted if the scan
+  // differs much from the template.
   const std::array ways = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
       propose_on(scan, placed, wrap_template.axes)};

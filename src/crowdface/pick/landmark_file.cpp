@@ -149,7 +149,7 @@ std::string_view header_comments(std::string_view text) {
 }
 
 bool has_comments_after_header(std::string_view text) {
-  // A " #" inside a quoted name also counts as a comment. The user then gets a needless warning.
+  // A " #" inside a quoted name counts as a comment, too. This only causes a needless warning.
   text.remove_prefix(header_comments(text).size());
   return text.find(" #") != std::string_view::npos || text.find("\n#") != std::string_view::npos ||
          text.starts_with('#');

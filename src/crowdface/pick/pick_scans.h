@@ -19,7 +19,7 @@ struct ShownMesh {
   std::string bytes;
 };
 
-/// A scan that the page currently shows.
+/// The scan that is open on the page, its session, and the meshes that the page shows.
 struct OpenScan {
   explicit OpenScan(PickInputs inputs) : session(std::move(inputs)) {}
   PickSession session;

@@ -66,12 +66,13 @@ class PickSession {
   void save(const std::vector<PickedLandmark>& landmarks);
 
  private:
+  /// The content of the landmark file now; empty if there is no file.
   std::string text_on_disk() const;
 
   PickInputs inputs_;
   PickableMesh template_, scan_;
   MirrorPlane symmetry_plane_;
-  std::map<std::string, std::uint32_t> proposed_vertices_;
+  std::map<std::string, std::uint32_t> proposed_vertices_;  ///< result of propose_landmarks
   PoseHint scan_orientation_;
   /// Guards the members below.
   mutable std::mutex mutex_;

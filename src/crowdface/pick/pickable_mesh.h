@@ -86,7 +86,7 @@ class PickableMesh {
   std::vector<Quad> quads_;
   Positions normals_;
   Eigen::AlignedBox3d box_;  ///< bounding box of the skin
-  Eigen::Vector3d middle_;
+  Eigen::Vector3d middle_;   ///< centre of `box_`, the origin of coordinates in single precision
   RayDevice device_;
   RayScene scene_;
   SurfaceTree tree_;

@@ -69,8 +69,9 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   return residuals;
 }
 
-/// Returns the index of the pair whose residual is far larger than the other pairs' residuals, or
-/// residuals.size() if there is no such pair.
+/// Returns the index of the pair whose residual is far larger than the residuals of the other used
+/// pairs. Returns residuals.size() if there is no such pair, or if there are fewer than five used
+/// pairs.
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
   // An outlier has a residual above both kMinMm and kTimes times the median residual. Without
   // errors, corresponding points of two faces differ by about 5 mm after a fit.
@@ -90,7 +91,8 @@ std::size_t farthest_outlier(const std::vector<double>& residuals, const std::ve
 }
 
 /// Gaussian-weighted average of the fit's residual vectors near `place`. The average corrects for
-/// local differences between faces.
+/// local differences between faces. A constant in the divisor (kHeld) lets the correction fade to
+/// zero far from all pairs.
 Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& pose,
                            const Eigen::Vector3d& place) {
   constexpr double kReachMm = 25, kHeld = 0.5;

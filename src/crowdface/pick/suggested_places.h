@@ -18,8 +18,8 @@ struct LandmarkPose {
   Similarity pose;  ///< maps the template (mm) to the scan, in the unit of the scan
   struct Residual {
     /// Distance in mm between the pair's template landmark, transformed by a fit, and the pair's
-    /// scan landmark. The fit uses all other pairs; if there are only three pairs, it uses all
-    /// three.
+    /// scan landmark. This fit leaves out the pair itself and all outliers. If the remaining pairs
+    /// are too few or almost on a line, the fit is `pose`.
     double distance_mm = 0;
     /// Whether the distance is far larger than the distances of the other pairs, probably because a
     /// landmark was misplaced. The fit of `pose` ignores outliers.

@@ -20,9 +20,9 @@ namespace {
 /// show the shoulders.
 constexpr double kCutBelow = 0.22;
 
-/// Estimates, for framing the images, the extreme points of the attachments on all heads. Maps a
-/// sample of each attachment's vertices from the bounding box of the head for which the attachment
-/// was made to the bounding boxes of the other heads.
+/// Estimates the extreme points of the attachments on all heads, so that images can leave room for
+/// these points. Maps the extreme vertices of each attachment from the bounding box of the head for
+/// which the attachment was made to the bounding box of every head.
 std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& head_set) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {
@@ -52,8 +52,8 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
   return reach;
 }
 
-/// For each vertex, the displacement of the blend shape that moves the vertex farthest down. The
-/// images must leave room for an open jaw, which reaches below the neutral head.
+/// Returns, for each vertex, the displacement of the blend shape that moves the vertex farthest
+/// down. Images must leave room for an open jaw, which reaches below the neutral head.
 Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {

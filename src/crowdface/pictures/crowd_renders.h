@@ -38,11 +38,11 @@ struct PicturedCrowd {
 /// Rendered images of one face, as the bytes of files.
 struct FacePictures {
   std::string png;
-  std::optional<std::string> gallery_script;  ///< script with the mesh, if there is a gallery
+  std::optional<std::string> gallery_script;  ///< see GalleryMeshes; empty without a gallery
 };
 
-/// Renders the faces of a crowd. There is one camera per view, fitted to the input heads, so that
-/// sizes are comparable. Thread-safe, except add_gallery.
+/// Renders the faces of a crowd. Each view has one camera for all faces, fitted to the input heads,
+/// so that images show faces at the same scale. Thread-safe, except add_gallery.
 class CrowdRenders {
  public:
   /// \param inputs    must outlive this object.
@@ -75,7 +75,7 @@ class CrowdRenders {
                             const std::vector<PlacedAttachment>& placed = {},
                             const ColourRows& colours = {},
                             const BlendedPicture* body = nullptr) const;
-  /// The JavaScript file that gives the gallery page the data of a head.
+  /// Returns the content of a head's script for the gallery page, see GalleryMeshes::face_script.
   std::string gallery_script_of_head(Index head, std::span<const Displacements> moves) const;
 
   /// Textures of a head; nothing if the head has no textures or if textures are not shown.
@@ -83,10 +83,10 @@ class CrowdRenders {
   /// Vertex colours of a head; nothing if the head has no vertex colours or if textures replace
   /// them.
   std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
-  /// Returns a texture set without textures, to which the caller adds the face's own textures.
-  /// Returns nothing if faces have no own textures or if textures are not shown.
+  /// Returns an empty texture set, to which the caller adds the face's own textures. Returns
+  /// nothing if faces have no own textures or if textures are not shown.
   std::optional<FaceTextureSet> face_texture_set(Index target) const;
-  /// Returns a texture set that contains the face's own textures.
+  /// Blends the face's own textures and returns them as a texture set.
   std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,
                                                  const Recipe& recipe) const;
 

@@ -24,11 +24,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Largest number of faces in the gallery's plane view if the recipes are split into several
-/// scripts.
+/// Largest number of faces that the gallery's view "Plane" shows if the recipes are split into
+/// several scripts. This view shows the positions of faces on the weight plane.
 constexpr std::size_t kMaxOnPlane = 2000;
 
-/// The first part of the crowd's script: all data that do not belong to a single face.
+/// Returns the data of the crowd's script that do not belong to a single face.
 Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
                     const std::vector<std::vector<double>>& head_traits, bool has_textures) {
   const PlanNames names = config.plan_names();
@@ -101,8 +101,8 @@ Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
   return json;
 }
 
-/// The data for filtering, for sorting and for the grid. Each kind of data is one column with one
-/// value per face.
+/// Returns JSON with the data by which the gallery filters, sorts and lists faces. Each key holds a
+/// column: one value per face.
 std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
                     const Likeness& likeness) {
   std::string text;
@@ -160,8 +160,8 @@ std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
                        ",\n\"note\":", notes.dump(), '}');
 }
 
-/// A script with the recipes of the faces [begin, end) and, for each of these faces, its most
-/// similar faces.
+/// Returns a script with the recipes of the faces [begin, end) and with the most similar faces of
+/// each of these faces.
 std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, std::size_t end,
                         std::size_t page, const PlanNames& names, const Digest& settings,
                         const Likeness& likeness) {
@@ -174,8 +174,8 @@ std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, s
                 ");\n");
 }
 
-/// Every k-th face of the crowd, for the plane view, with the smallest k that gives at most
-/// kMaxOnPlane faces.
+/// Returns the regions of every k-th face of the crowd, for the gallery's view "Plane". Uses the
+/// smallest k that gives at most kMaxOnPlane faces.
 Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const Digest& settings) {
   Json json = Json::object();
   const std::size_t step = (crowd.size() + kMaxOnPlane - 1) / kMaxOnPlane;

@@ -11,11 +11,12 @@
 
 namespace crowdface {
 
-/// A face of the crowd, and the distance of each vertex to the same vertex of another mesh, after
-/// the other mesh was fitted rigidly to the face. All distances are 0 if there is no other mesh.
+/// A face of the crowd, compared with a second mesh that is first fitted rigidly to the face. The
+/// distance at a vertex is the distance between both meshes' positions of the vertex. All distances
+/// are 0 if there is no second mesh.
 struct ComparedFace {
   Positions mesh;
-  Eigen::VectorXd mm;  ///< #V distances
+  Eigen::VectorXd mm;  ///< #V: distance at each vertex, in millimetres
 };
 
 /// Compares the faces of a crowd with other meshes, as the contact sheet's key `compare` specifies.
@@ -37,14 +38,14 @@ class FaceComparison {
   const PicturedCrowd& crowd_;
   const Config::MeshComparison& comparison_;
   CrowdDirectory other_crowd_;  ///< the crowd that `comparison` names, if any
-  Positions reference_mesh_;    ///< the mesh to compare all faces with, or empty
+  Positions reference_mesh_;    ///< the mesh with which all faces are compared; may have no rows
 };
 
-/// Checks the config's mesh file for comparison, if there is one, and adds errors to `problems`.
+/// Checks the mesh file that the config names for comparison, if any. Adds errors to `problems`.
 void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems);
 
-/// Checks, before the run makes any face, that the crowd to compare with has a mesh for every face
-/// of this crowd.
+/// Checks that the crowd that the config names for comparison, if any, has a mesh for every face of
+/// this crowd. Called before the run makes any face.
 /// \throws MissingInput if a mesh is missing.
 void check_compared_crowd(const Config& config, const std::vector<FacePlan>& crowd);
 

@@ -31,11 +31,11 @@ constexpr std::size_t kMaxTriangles = 24'000;
 /// Largest number of hidden triangles, such as triangles behind closed lips. Hidden triangles have
 /// their own limit, because teeth and mouth cavity have finer meshes than the skin.
 constexpr std::size_t kMaxHidden = 2'000;
-/// Largest width and height of a face's textures in texels; half of this if there are more than two
-/// textures.
+/// Largest width and height of a face's textures, in texels. With more than two textures, the limit
+/// is half of this value.
 constexpr int kMaxTexels = 1024;
 constexpr double kMinMoveMm = 0.02;  ///< shorter displacements of shapes are omitted
-constexpr float kMinLight = 0.004F;  ///< lower bound of `sky_visibility_` if there are shapes
+constexpr float kMinLight = 0.004F;  ///< smallest value in `sky_visibility_` if there are shapes
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 
 /// Returns the visible fraction of the sky at the vertices of `triangles`, which are part of a
@@ -92,8 +92,8 @@ std::vector<const Positions*> positions_of(const HeadSet& head_set) {
   return heads;
 }
 
-/// The coordinate frame for packing positions: a box that encloses all heads and attachments,
-/// because long hair reaches outside the bounding box of the heads.
+/// Returns the coordinate frame for packing positions: a box that encloses all heads, the body and
+/// all attachments, because long hair reaches outside the bounding box of the heads.
 PackingFrame frame_of(const Inputs& inputs, const Positions& body) {
   std::vector<const Positions*> all = positions_of(inputs.head_set);
   if (body.rows() > 0) all.push_back(&body);
@@ -163,7 +163,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
                         static_cast<std::size_t>(inputs.head_set.topology.face_count()));
   const SplitMesh split = split_mesh(topology, surfaces.uvs, labels);
   const Positions split_mean = split.corner_positions(mean);
-  // Reduce the mesh to twice the limit, and find which of the remaining triangles are hidden.
+  // Reduce the mesh to 2 · kMaxTriangles, and find out which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
       reduce_triangles(split.triangles, split_mean, 2 * kMaxTriangles);
   const std::vector<float> open =
@@ -174,7 +174,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
       return open[split.corners[corner].vertex] > kUnseen;
     }));
   }
-  // Reduce the mesh to the limit, and the hidden triangles to a smaller limit.
+  // Reduce the visible triangles to kMaxTriangles, and the hidden triangles to kMaxHidden.
   triangles = reduce_hidden(triangles, split_mean, hidden, kMaxTriangles, kMaxHidden);
   mesh_ = preview_from_split_mesh(split, triangles, surfaces.uvs);
   draft_triangles_ = draft_triangles(mesh_, mean, kMaxDraftTriangles);

@@ -27,10 +27,10 @@ class GalleryMeshes {
   /// \param inputs, pictured_mesh  must outlive this object.
   GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& pictured_mesh);
 
-  /// The file data/mesh.js: triangles, colours, texture coordinates and the coordinate frame of
-  /// packed positions.
+  /// Returns the content of data/mesh.js: triangles, colours, texture coordinates, and the
+  /// coordinate frame of packed positions.
   std::string shared_script() const;
-  /// The file data/faces/NAME.js or data/heads/NAME.js.
+  /// Returns the content of data/faces/NAME.js or data/heads/NAME.js: the data of one face or head.
   /// \param moves    displacements of each shape of the face.
   /// \param texture_set  textures of the face; if null, the face shows its vertex colours or the
   ///                     colours that all faces share.
@@ -42,21 +42,21 @@ class GalleryMeshes {
                           const VertexColours* colours,
                           const std::vector<PlacedAttachment>& placed = {},
                           const BlendedPicture* body = nullptr) const;
-  /// The file data/attachments/NAME.js.
+  /// Returns the content of data/attachments/NAME.js: the triangles and materials of an attachment.
   std::string attachment_script(const ColouredAttachment& look,
                                 const AttachmentSurfaces& surfaces) const;
 
  private:
-  /// The vertex colours as three sRGB bytes per vertex, darkened at vertices from which little of
-  /// the sky is visible.
+  /// Returns the vertex colours as three sRGB bytes per vertex.
   std::string pack_vertex_colours(const VertexColours& colours) const;
   /// Returns JSON with the textures of a layer and, for each material of the reduced mesh, the
   /// index of its texture.
   /// \param picture_of  encodes a texture as a data URL
   std::string textures_as_json(const TextureLayer& layer,
                                std::string (*picture_of)(const Texture&, int max_px)) const;
-  /// The roughness of each vertex, one byte per vertex; empty if the set has no roughness maps.
+  /// Returns the roughness as one byte per vertex; empty if the set has no roughness maps.
   std::string pack_roughness(const TextureSet& texture_set) const;
+  /// Returns the length below which displacements of shapes are omitted, in the unit of the mesh.
   double min_displacement() const;
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
   std::string pack_shapes(std::span<const Displacements> shape_moves) const;
@@ -65,7 +65,7 @@ class GalleryMeshes {
   const Inputs& inputs_;
   const PicturedMesh& pictured_mesh_;  ///< the mesh before reduction
   PreviewMesh mesh_;
-  /// triangles of a coarser mesh with vertices of `mesh_`, see draft_triangles
+  /// triangles of a coarser mesh, which uses the vertices of `mesh_`; see draft_triangles
   std::vector<std::uint32_t> draft_triangles_;
   VertexFaces vertex_faces_;
   PackingFrame packing_frame_;
@@ -74,19 +74,20 @@ class GalleryMeshes {
   VertexColours colours_;
   /// visible fraction of the sky at the vertices of the reduced mesh, on the mean head
   std::vector<float> sky_visibility_;
-  /// one entry per vertex of the reduced mesh; empty if there are no textures
+  /// for each vertex of the reduced mesh: the vertex's position in the face's textures; empty if
+  /// there are no textures
   std::vector<TexturePlace> texture_places_;
   Eigen::Vector3d box_min_, box_max_;  ///< bounding box of all heads and the shoulders of the body
 
   /// The vertices of the gallery's reduced mesh that a blend shape visibly moves.
   struct ShownShape {
-    std::vector<std::uint32_t> rows;      ///< rows of the shape's displacements
-    std::vector<std::uint32_t> vertices;  ///< vertices of the reduced mesh
+    std::vector<std::uint32_t> rows;      ///< rows of the vertices in the shape's displacements
+    std::vector<std::uint32_t> vertices;  ///< the moved vertices of the reduced mesh
   };
   std::vector<ShownShape> shown_shapes_;  ///< one entry per blend shape
   /// index of the shape that moves most, such as an open jaw
   std::size_t shape_with_largest_motion_ = 0;
-  /// like `sky_visibility_`, but in the shape `shape_with_largest_motion_`
+  /// visible fraction of the sky at the same vertices, in the shape `shape_with_largest_motion_`
   std::vector<float> sky_visibility_in_shape_with_largest_motion_;
 };
 

@@ -18,8 +18,8 @@ namespace {
 /// height of the heads.
 constexpr double kChest = 0.85;
 
-/// For each vertex of the body, its signed distance from the cut at the chest; images do not show
-/// vertices with negative distances.
+/// Returns, for each vertex of the body, the signed distance from the cut at the chest. Images do
+/// not show vertices with negative distances.
 std::vector<double> above_chest(const Config& config, const Inputs& inputs, const Positions& body) {
   const Eigen::VectorXd heights = inputs.mean_head * unit_vector(config.faces.up);
   const Eigen::RowVector3d middle = inputs.heads_on_body->seam.positions.colwise().mean();
@@ -29,7 +29,7 @@ std::vector<double> above_chest(const Config& config, const Inputs& inputs, cons
   return above;
 }
 
-/// For each polygon corner at a vertex of the neck's rim, the corner's position in the texture.
+/// Returns, for each polygon corner at a vertex of the neck ring, the corner's texture position.
 std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& head_set) {
   std::vector<TexturePlace> places;
   const VertexFaces around(head_set.topology);

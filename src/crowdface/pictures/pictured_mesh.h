@@ -36,28 +36,33 @@ class PicturedMesh {
   /// The vertex positions of the body; no rows if the body is not shown.
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }
 
-  /// The lowest point of the body that images of faces must show. Requires has_body().
+  /// Returns the lowest point of the body that must lie inside every image of a face.
+  /// \pre has_body()
   Eigen::Vector3d lowest_shown_point() const;
 
-  /// Adds the body to a face. Requires has_body().
+  // The following functions require has_body().
+  /// Returns the vertices of the face, then those of the body.
   Positions add_body(const Positions& face) const;
   /// Adds the body's texture to the face's textures. The body gets the mean roughness of the face
   /// at the neck ring.
   /// \param body    texture of the body, or null
   /// \param max_px  maximum side length of the body's texture, in texels
   TextureSet add_body(TextureSet textures, const BlendedPicture* body, int max_px) const;
+  /// Adds the colours of the body's vertices, taken from the body's texture `body`, to the colours
+  /// of the face's vertices. If `body` is null, the body is grey.
   VertexColours add_body(const VertexColours& face, const BlendedPicture* body) const;
 
  private:
   struct Body {
-    Topology topology;       ///< face and body
-    TextureCoordinates uvs;  ///< face and body
-    /// positions of the vertices of the body, except the vertices of its rim
+    Topology topology;       ///< polygons of the face, then polygons of the body
+    TextureCoordinates uvs;  ///< texture coordinates of the face, then those of the body
+    /// positions of the body's vertices, except those of the neck ring, which are the face's
+    /// vertices
     Positions points;
-    /// for each vertex in `points`: the row in `uvs` of one of the vertex's texture coordinates, or
-    /// kNoIndex
+    /// for each vertex in `points`: a row of `uvs`, the texture coordinates of one polygon corner
+    /// at this vertex; kNoIndex if the body has no texture
     std::vector<std::uint32_t> uv_rows;
-    /// the vertices of the neck ring, as places in the face's textures
+    /// positions of the neck ring's polygon corners in the face's textures
     std::vector<TexturePlace> ring_places;
   };
   const Config& config_;

@@ -62,8 +62,8 @@ class CrowdSheets {
     return cell;
   }
 
-  /// The file name without extension, such as "sheet_001", with its subfolder if there is one.
-  /// Creates the subfolder.
+  /// Returns the file name of a page without extension, such as "sheet_001", preceded by the name
+  /// of its subfolder, if any. Creates the subfolder.
   std::string stem_of_page(std::size_t page) const {
     const std::filesystem::path path = crowd_.directory.sheet(page);
     make_directories(path.parent_path());
@@ -141,7 +141,7 @@ class CrowdSheets {
                    });
   }
 
-  /// Each family has its own sheet: first its parents or its founder (the face from which its
+  /// Writes one sheet per family: the family's ancestors or founder (the face from which the
   /// members are derived), then the members.
   void write_families() {
     std::map<std::string, std::vector<std::size_t>> families;
@@ -200,7 +200,7 @@ class CrowdSheets {
     while (cells.size() % static_cast<std::size_t>(sheet_.columns) != 0) cells.emplace_back();
   }
 
-  /// The face with this id; null if the crowd has no such face or if a head has this name.
+  /// Returns the face with the id `name`; null if a head has this name or no face has this id.
   const FacePlan* face_called(const std::string& name) const {
     if (contains(crowd_.config.faces.names, name)) return nullptr;
     const auto found = std::ranges::find(crowd_.faces, name, &FacePlan::id);
@@ -224,8 +224,8 @@ class CrowdSheets {
     return inheritance_label(face, crowd_.config.plan_names());
   }
 
-  /// The image file of a family's founder; nothing if there is no such file or if its size differs
-  /// from the members' images.
+  /// Returns the image file of a family's founder; nothing if the file is missing, or if the image
+  /// has another size than the images of the members.
   std::optional<std::filesystem::path> founder_of(const std::string& family,
                                                   std::size_t member) const {
     const std::filesystem::path path = crowd_.directory.founder_render(family);

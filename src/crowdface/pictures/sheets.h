@@ -18,13 +18,13 @@ struct WrittenSheets {
 /// an index. Removes outdated sheets of earlier runs.
 WrittenSheets write_sheets(const PicturedCrowd& crowd);
 
-/// Adds pages `shapes_001` … with one row per face: the neutral face, then each blend shape, all
-/// seen from the front. The first row shows the template.
-/// \param crowd  the pages show the first faces of the crowd, as many as the config requests. Reads
-///               the meshes of these faces from the crowd's folder.
+/// Adds the pages `shapes_001` … with one row per face: the neutral face, then each blend shape,
+/// all seen from the front. The first row shows the template. The following rows show the first
+/// faces of the crowd, as many as the config requests. Reads the meshes of these faces from the
+/// crowd's folder.
 void add_shape_pages(const PicturedCrowd& crowd, SheetWriter& pages);
 
-/// Number of pages with faces in a crowd's contact sheets.
+/// Returns the number of contact-sheet pages that `faces` faces fill.
 std::size_t sheet_page_count(const Config::ContactSheet& sheet, std::size_t faces);
 
 }  // namespace crowdface

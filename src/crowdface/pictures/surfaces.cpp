@@ -114,8 +114,8 @@ Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
     surfaces.kinds.push_back(kinds[material]);
     if (any_paint) surfaces.polygon_colours.push_back(paints[material]);
   }
-  // Polygons of a component with the form of an eyeball are eyes, even if the name of their
-  // material does not say so.
+  // Find eyeballs also by form: if a connected component has the form of an eyeball, its polygons
+  // are eyes, whatever the name of their material is.
   std::vector<bool> eyeball(static_cast<std::size_t>(inputs.components.count()), false);
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t c : part.components) eyeball[c] = part.is_eyeball;

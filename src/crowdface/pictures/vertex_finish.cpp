@@ -6,7 +6,7 @@
 namespace crowdface {
 namespace {
 
-/// The texture of `layer` that covers the vertex at `place`; null if none covers the vertex.
+/// Returns the texture of `layer` that covers `place`; null if no texture covers `place`.
 const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
   if (place.face < 0 || layer.texture_of_face.empty()) return nullptr;
   const std::uint32_t picture = layer.texture_of_face[static_cast<std::size_t>(place.face)];

@@ -10,9 +10,9 @@
 
 namespace crowdface {
 
-/// The position of a reduced mesh's vertex in the textures of the full mesh.
+/// A position in the textures of the full mesh, such as the position of a reduced mesh's vertex.
 struct TexturePlace {
-  Index face = -1;  ///< polygon of the full mesh at the vertex; −1: no texture
+  Index face = -1;  ///< polygon of the full mesh, which selects the texture; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 

@@ -17,8 +17,8 @@ struct PackingFrame {
   Eigen::Vector3d low_corner = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates
   double step = 1;
 
-  /// Returns a cube around all heads. The cube has a margin on each side, a quarter of the heads'
-  /// largest extent, because faces may extend beyond the heads.
+  /// Returns a cube around all heads. On each side, the cube has a margin of a quarter of the
+  /// heads' largest extent, because faces may extend beyond the heads.
   /// \param heads  positions of each head; all heads together must have at least one vertex.
   static PackingFrame enclosing(std::span<const Positions* const> heads);
 };
@@ -28,8 +28,8 @@ struct PackingFrame {
 /// unit normals follow: two numbers per vertex, the octahedral encoding (Meyer et al. 2010, "On
 /// floating-point normal vectors") with −1 … 1 mapped to 0 … 65,535.
 /// \param vertices      the vertices to pack, as row indices of `positions`.
-/// \param vertex_faces  the polygons around each vertex of the whole mesh. The normals of the
-///                      whole mesh give a reduced preview the shading of the whole mesh.
+/// \param vertex_faces  the polygons around each vertex of the whole mesh. With the normals of the
+///                      whole mesh, a reduced preview has the shading of the whole mesh.
 std::string pack_face(const Topology& topology, std::span<const std::uint32_t> vertices,
                       const VertexFaces& vertex_faces, const PackingFrame& frame,
                       const Positions& positions);

@@ -33,7 +33,7 @@ PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle
   const auto material_of_triangle = [&](const Triangle& t) { return split.corners[t[0]].material; };
   PreviewMesh mesh;
   std::vector<std::uint32_t> number(split.corners.size(), kNoIndex);
-  // Maps each vertex of the whole mesh to the first index in `mesh.vertices` at which it occurs.
+  // Maps each vertex of the whole mesh to the first preview vertex that is a copy of this vertex.
   std::map<std::uint32_t, std::uint32_t> first;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     if (t == 0 || material_of_triangle(triangles[t]) != material_of_triangle(triangles[t - 1])) {

@@ -11,7 +11,9 @@
 namespace crowdface {
 namespace {
 
-/// Simplifies a mesh, given as index triples, to at most `max_triangles` triangles.
+/// Collapses edges of a mesh, given as index triples, until at most `max_triangles` triangles are
+/// left or no further edge can collapse.
+///
 /// \param options  flags of meshopt_simplify.
 void reduce(std::vector<unsigned int>& triangles, const Positions& positions,
             std::size_t max_triangles, unsigned int options = 0) {

@@ -89,9 +89,10 @@ class Canvas {
     }
   }
 
-  /// Adjusts texels iteratively until samples at the given places match the given weights. Each
-  /// round distributes the error of every sample over the four texels of the sample.
-  /// \param weights  for each place, the weights that the sample there should have.
+  /// Adjusts texels iteratively until the samples match the given weights. Each round distributes
+  /// the error of every sample over the four texels of the sample.
+  /// \param places   the texels of each sample.
+  /// \param weights  the region weights that each sample should have.
   void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
     std::vector<float> sum(value_.size()), share(count());
     for (const Texels& place : places) {
@@ -219,7 +220,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;
-    // First paint the polygons that have priority, then the other polygons.
+    // First paint the polygons whose first corner has priority, then the other polygons.
     for (const bool turn : {true, false}) {
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);
@@ -238,8 +239,9 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       throw_if_interrupted();
       canvas.bleed();
     }
-    // Collect the texture lookups of the vertices that have priority in this tile. A lookup interpolates
-    // the texels in `texels_of_samples` and should return the vertex weights in `weights`.
+    // Collect the samples of all vertices with priority whose texture coordinates lie in this tile.
+    // A sample interpolates four texels (`texels_of_samples`). The result should equal the weights
+    // of the vertex (`weights`).
     std::vector<Texels> texels_of_samples;
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {

@@ -25,7 +25,9 @@ struct PaintedMasks {
   /// the images of each tile, by the tile's UDIM number (kFirstTile for an untiled texture)
   std::map<int, std::vector<ImageBytes>> images_by_tile;
 
-  bool is_tiled() const;  ///< whether the file names need <UDIM>
+  /// Whether the file names need <UDIM>: whether there are several tiles, or one tile that is not
+  /// kFirstTile.
+  bool is_tiled() const;
   std::size_t image_count() const {
     return images_by_tile.empty() ? 0 : images_by_tile.begin()->second.size();
   }
@@ -50,16 +52,16 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
                          int size);
 
 struct MaskFiles {
-  /// Path of each mask image, as it stands in a config; contains <UDIM> if there are several tiles.
+  /// Path of each mask image, as it stands in a config; contains <UDIM> if the masks are tiled.
   std::vector<std::filesystem::path> mask_paths;
   /// Path and content of each PNG file.
   std::vector<std::pair<std::filesystem::path, std::string>> png_files;
 };
 
 /// Encodes mask images as PNG.
-/// \param path  path of the first image; may contain <UDIM>. If there are several tiles and the
-///              path has no <UDIM>, the function adds <UDIM> before the extension. The names of
-///              further images have the numbers _2, _3, …, which stand before <UDIM>.
+/// \param path  path of the first image; may contain <UDIM>. If the masks are tiled and the path
+///              has no <UDIM>, the function adds <UDIM> before the extension. The names of further
+///              images have the numbers _2, _3, …, which stand before <UDIM>.
 MaskFiles encode_masks(const PaintedMasks& masks, const std::filesystem::path& path);
 
 }  // namespace crowdface

@@ -15,8 +15,8 @@ namespace crowdface {
 struct RegionWeights {
   using Alpha = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Alpha alpha;  ///< #V by #R, not negative, rows sum to one
-  /// Number of vertices that belong to a polygon but that no mask covers. They belong to the last
-  /// region.
+  /// Number of vertices that need masks (see `is_needed` of region_weights), but at which all masks
+  /// are zero. These vertices belong to the last region.
   Index uncovered_vertex_count = 0;
 };
 
@@ -31,18 +31,19 @@ RegionWeights whole_head_weights(const Topology& topology);
 /// - Channels with names that match region names (OpenEXR channels, or columns of a vertex weight
 ///   file) are assigned by name. If only the last region has no channel, this region gets 1 minus
 ///   the sum of all other regions.
-/// - If there are as many images as regions, each image is the mask of one region: its grey value,
-///   or its alpha if it is not grey. File names that match all regions determine the order.
+/// - If there are as many images as regions, each image is the mask of one region. The mask is the
+///   grey value of the image, or alpha if the image is not grey. If every region's name matches one
+///   file name, the file names assign the images to the regions.
 /// - If all colour channels are constant and alpha is not, alpha is the mask.
-/// - If there is one channel for two regions, the second region gets the remainder.
+/// - If there is one channel for two regions, the second region gets 1 minus the first region.
 ///
-/// Sampling is bilinear between texel centres, clamped at the image's edge, with the first row at v
-/// = 1. With UDIM tiles, a sample comes from the tile that contains the texture coordinate. If the
-/// coordinate lies on a tile border, the mean coordinate of the corner's polygon selects the tile.
-/// A single image covers u and v in [0, 1]; coordinates outside this range are clamped. A vertex
-/// with several distinct texture coordinates gets the mean of the samples at these coordinates. The
-/// weights of a vertex are scaled to sum to one; if the sum is zero, or no polygon uses the vertex,
-/// the vertex belongs to the last region.
+/// Sampling is bilinear between texel centres and clamped at the image's edge. The first row of the
+/// image is at v = 1. With UDIM tiles, a sample comes from the tile that contains the texture
+/// coordinate. If the coordinate lies on a tile border, the mean coordinate of the corner's polygon
+/// selects the tile. A single image covers u and v in [0, 1]; coordinates outside this range are
+/// clamped. A vertex with several distinct texture coordinates gets the mean of the samples at
+/// these coordinates. The weights of a vertex are scaled to sum to one; if the sum is zero, or no
+/// polygon uses the vertex, the vertex belongs to the last region.
 ///
 /// \param masks   may be empty if there is one region.
 /// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex needs

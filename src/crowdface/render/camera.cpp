@@ -56,8 +56,8 @@ Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
 /// the camera) is inside a wedge with slope s, centre c and distance d if d ≥ z + |x − c|/s.
 struct Wedge {
   double slope;
-  /// Maxima of z + x/slope and of z − x/slope over the points. Each maximum determines one of the
-  /// wedge's two boundary lines.
+  /// Maxima of z + x/slope and of z − x/slope over the added points. Each maximum determines one of
+  /// the two boundary lines of the wedge.
   double max_z_plus_x = -std::numeric_limits<double>::infinity();
   double max_z_minus_x = -std::numeric_limits<double>::infinity();
 
@@ -120,8 +120,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
   // chest of a bust may protrude farther than the nose.
   const auto nose = static_cast<std::size_t>(
       std::max_element(ahead.begin() + kLowestNose, ahead.end()) - ahead.begin());
-  // Find the left and right ends of the head above the underside of the nose's slice. Lower parts
-  // are left out, because shoulders are wider than the head.
+  // Find the left and right ends of the head. Use only the nose's slice and all slices above,
+  // because shoulders are wider than the head.
   double left = -kNone, right = kNone;
   for (Index i = 0; i < head.rows(); ++i) {
     if (slice_of(head.row(i).dot(up)) < nose) continue;

@@ -9,11 +9,10 @@
 
 namespace crowdface {
 
-/// Weighted numbers of shadow rays towards one light: rays that reached the light, and all traced
-/// rays.
+/// Weighted numbers of the shadow rays that were traced from a surface point towards one light.
 struct Visibility {
-  float unblocked_rays = 0;  ///< rays that reached the light
-  float traced_rays = 0;     ///< rays traced
+  float unblocked_rays = 0;  ///< number of rays that reached the light
+  float traced_rays = 0;     ///< number of all rays
 
   void add(const Visibility& other, float weight) {
     unblocked_rays += weight * other.unblocked_rays;

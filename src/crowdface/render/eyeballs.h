@@ -34,7 +34,8 @@ inline constexpr float kIrisSoftness = 0.025F;
 /// Position and size of an eyeball in one head.
 struct EyeballSphere {
   Eigen::Vector3f centre;
-  /// Half the larger of the two extents perpendicular to the gaze.
+  /// Half the extent of the eyeball's vertices perpendicular to the gaze, in the direction with the
+  /// larger extent.
   float radius = 0;
 };
 

@@ -44,7 +44,7 @@ struct Workspace {
 };
 
 /// Stores idle workspaces. One thread at a time uses a workspace. Every workspace builds its
-/// ray-tracing tree for the typical face, so that a face has the same pixels in every workspace.
+/// ray-tracing tree for the average face, so that a face has the same pixels in every workspace.
 class WorkspacePool {
  public:
   std::unique_ptr<Workspace> take() {
@@ -68,7 +68,8 @@ class WorkspacePool {
 struct Occluders {
   std::vector<std::uint32_t> vertices;  ///< vertices of the mesh; empty: all
   std::vector<Quad> quads;              ///< indices into `vertices`; empty: all quads of the mesh
-  /// Positions of the occluding vertices in the typical face; empty: each face gets a new scene.
+  /// x, y, z of each occluding vertex in the average face. Empty without an average face; then the
+  /// renderer builds a new scene for each face.
   std::vector<float> typical;
 };
 
@@ -113,7 +114,7 @@ struct FaceRenderer::Prepared {
   RayDevice device;
   Occluders occluders;
   WorkspacePool workspaces;
-  std::optional<float> winding;  ///< winding of the typical face, which all faces share
+  std::optional<float> winding;  ///< winding of the average face, which all faces share
 
   Prepared(const Topology& mesh, const RenderOptions& choice)
       : topology(mesh),
@@ -233,7 +234,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   to_camera_space(positions, camera, workspace->points);
   const Eigen::Vector3f gaze = to_camera_space(camera, prepared_->options.front);
   std::vector<EyeballSphere> eyes = eyeball_spheres(prepared_->eyeballs, workspace->points, gaze);
-  // If the constructor got a typical face, its winding holds for all faces.
+  // If the constructor got an average face, all faces have the winding of the average face.
   const float sign = prepared_->winding ? *prepared_->winding : winding_sign(topology, positions);
   workspace->normals.compute(topology, prepared_->fans, workspace->points, sign);
   const auto distance = static_cast<float>(1 / camera.tan_half_fov);

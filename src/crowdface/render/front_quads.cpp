@@ -158,9 +158,9 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   for (std::size_t i = 0; i < Boxes::kCount; i += hn::Lanes(lanes)) {
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
-    // The image has a rim of kRimWidth pixels. The origin of the boxes is the image's upper left
-    // corner; move the origin to the rim's upper left corner. Enlarge the boxes by kBlur, and clip
-    // them to the outer edge of the rim.
+    // Move the origin of the boxes from the upper left corner of the image to the upper left corner
+    // of the rim around the image. Enlarge the boxes by kBlur, and clip them to the outer edge of
+    // the rim.
     left = hn::Add(left, hn::Set(lanes, kRimWidth - kBlur));
     top = hn::Add(top, hn::Set(lanes, kRimWidth - kBlur));
     right = hn::Add(right, hn::Set(lanes, kRimWidth + kBlur));

@@ -42,7 +42,7 @@ struct HeadScene {
   const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& textured_quads;            ///< #quads, or empty
   const TextureSet* texture_set;                              ///< textures, or nullptr
-  std::vector<float> skin_lightness;  ///< lightness for each texture of `texture_set`
+  std::vector<float> skin_lightness;  ///< skin_lightness() of each colour texture of `texture_set`
   const Eyeballs& eyeballs;
   std::vector<EyeballSphere> eyes;
   Eigen::Vector3f gaze;

@@ -59,7 +59,7 @@ class ByteTable {
  private:
   static constexpr float kWhite = 1.5F;  ///< this value and all larger values map to 255
   static constexpr std::size_t kSteps = 6144;
-  std::array<float, 257> first_of_{};  ///< least value that maps to each byte
+  std::array<float, 257> first_of_{};  ///< for each byte: the smallest linear value that maps to it
   std::array<std::uint8_t, kSteps> at_step_{};
 };
 

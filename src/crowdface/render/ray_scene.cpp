@@ -137,7 +137,7 @@ std::vector<bool> occluded_of(std::span<const Ray> rays, RTCScene scene) {
 
 struct RayDevice::State {
   RTCDevice device;
-  bool takes_sixteen;  ///< whether packets of 16 rays are native
+  bool takes_sixteen;  ///< whether Embree traces packets of 16 rays with SIMD
 };
 
 RayDevice::RayDevice() : state_(std::make_unique<State>(State{rtcNewDevice(nullptr), false})) {
@@ -153,7 +153,7 @@ struct RayScene::State {
   RTCDevice device;
   bool takes_sixteen;
   std::vector<float> points;
-  std::vector<Triangle> triangles;  ///< the quads, split; used only with kMovable
+  std::vector<Triangle> triangles;  ///< triangles of the split quads; used only with kMovable
   RTCScene scene = nullptr;
   RTCGeometry geometry = nullptr;  ///< null if there are no quads
   Opacity opacity;                 ///< empty: opaque

@@ -39,7 +39,7 @@ struct Ray {
 };
 
 struct RayHit {
-  std::uint32_t primitive;  ///< row of the scene's quads
+  std::uint32_t primitive;  ///< index of the hit quad in the scene's list of quads
   float u, v;               ///< bilinear coordinates on a quad, barycentric on a triangle
   float distance;           ///< as a multiple of the length of the ray's direction
   Eigen::Vector3f normal;   ///< geometric normal by winding, any length

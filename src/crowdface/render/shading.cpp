@@ -93,8 +93,9 @@ struct Gloss {
   }
 };
 
-/// Shades one SIMD vector of points. \param points, lights  data of the first of these points, in a
-/// block of ShadeBatch's input and output
+/// Shades one SIMD vector of consecutive points of a block.
+/// \param points, lights  the fields and the radiances of the first point; ShadeBatch describes the
+///                        layout in memory
 HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* lights) {
   const auto field = [&](int f) {
     return hn::LoadU(Lanes(), points + static_cast<std::size_t>(f) * ShadeBatch::kBlockSize);

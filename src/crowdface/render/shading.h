@@ -43,8 +43,8 @@ class ShadeBatch {
     return {at[0], at[kBlockSize], at[2 * kBlockSize]};
   }
 
-  /// Fields of a point. Memory holds the blocks in order, each with kBlockSize values of every
-  /// field.
+  /// Numbers that describe a point. The points are stored in blocks of kBlockSize points. Within a
+  /// block, the values of each field are contiguous.
   enum Field {
     kNormal,
     kToViewer = kNormal + 3,

@@ -24,8 +24,9 @@ Texture shrunk_texture(int width, int height, int max_px,
     for (int y = 0; y < height; ++y) row(y, row_of(y));
     return small;
   }
-  // Divides a side of the source into blocks, and returns the first texel of each block, then the
-  // end. If `texels` is not a multiple of `blocks`, some blocks are one texel larger.
+  // Divides a side of the original texture into blocks. Returns the index of the first texel of
+  // each block, and `texels` as the last element. If `texels` is not a multiple of `blocks`, some
+  // blocks are one texel larger than the other blocks.
   const auto block_begins = [](int blocks, int texels) {
     std::vector<std::size_t> begins;
     for (int i = 0; i <= blocks; ++i) {

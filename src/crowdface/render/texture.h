@@ -59,7 +59,7 @@ struct TextureLayer {
 struct TextureSet : TextureLayer {
   /// Slopes of the surface along u and v, from tangent-space normal maps.
   TextureLayer slopes = {};
-  TextureLayer roughness = {};  ///< in the first channel
+  TextureLayer roughness = {};  ///< the roughness is the first channel of each texture
 };
 
 }  // namespace crowdface

@@ -21,7 +21,8 @@ using Vector = Eigen::Vector3f;
 
 // Lengths are in camera space: half the side of the image is 1.
 constexpr float kSkyReach = 0.55F;  // reach of ambient occlusion
-// Offset of ray origins. Softens shadow edges, as light that enters skin does.
+// Distance along the normal from CameraHit::ray_origin to the origin of the rays towards the key
+// light. This distance softens the edges of shadows, as light that enters skin does.
 constexpr float kThickness = 0.012F;
 // Fraction of the sky's light that even occluded hair receives, because hair scatters light.
 constexpr float kScattered = 0.2F;
@@ -61,7 +62,7 @@ class PointLists {
   std::vector<float> numbers_;
 };
 
-/// \param lists  PointLists or PixelVisibility
+/// Stores the visibility of a hit at index `at`. \param lists  a PointLists or a PixelVisibility
 template <class Lists>
 void put(const CameraHit& hit, std::size_t at, Lists& lists) {
   for (int c = 0; c < 3; ++c) {
@@ -115,8 +116,8 @@ TileMemory& tile_memory() {
   return memory;
 }
 
-/// One square of the image with a rim of two pixels. Pixels of the inner ring of the rim share
-/// their shadow rays with the square; the outer ring is used only to detect edges in the inner
+/// One square of the image with a rim of two pixels. The shadow rays of the rim's inner ring also
+/// count for the pixels of the square. The outer ring is used only to detect edges in the inner
 /// ring.
 class Tile {
  public:
@@ -140,7 +141,7 @@ class Tile {
   }
 
   void render(Rgb8Image& image) {
-    // Trace few samples in every pixel.
+    // Trace the same small number of samples in every pixel.
     const PixelSamples& first =
         scene_.attachments != nullptr ? sampling_.coarse_samples : sampling_.centre_sample;
     trace_camera_rays([&](const Pixel&) { return &first; });
@@ -159,17 +160,19 @@ class Tile {
     // Trace shadow rays.
     trace_key_rays();
     if (scene_.ambient_occlusion) trace_sky_rays();
-    // Average the results of the rays over neighbouring pixels, and shade.
+    // Compute the mean of each pixel's hits. Then shade the pixels, with shadow rays averaged over
+    // neighbouring pixels.
     summarize();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
   }
 
  private:
   struct Pixel {
-    std::uint32_t first = 0, end = 0;  ///< range in `camera_hits_`
+    std::uint32_t first = 0, end = 0;  ///< range of the pixel's hits in `camera_hits_`
     std::uint32_t missed = 0;          ///< number of samples without a hit
     PixelVariation change = PixelVariation::kNone;
-    LinearRgb backdrop = LinearRgb::Zero();  ///< sum over the samples without a hit
+    /// sum of the background colours at samples without a hit
+    LinearRgb backdrop = LinearRgb::Zero();
   };
 
   Pixel& pixel(int x, int y) { return pixels_[outer_.index(x, y)]; }
@@ -275,10 +278,10 @@ class Tile {
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
-  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, direction by direction, so
-  /// that consecutive rays are similar. A pixel without variation traces
-  /// `directions.rays_per_pixel()` rays, spread over its samples; a pixel with variation traces at
-  /// least one ray per sample.
+  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, where `disc` is a point of
+  /// the unit disc. Consecutive rays have the same `disc`, so that their directions are similar.
+  /// A pixel without variation traces `directions.rays_per_pixel()` rays, spread over the pixel's
+  /// hits. A pixel with variation traces at least one ray per hit.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
@@ -308,9 +311,11 @@ class Tile {
     }
   }
 
-  /// Traces the shadow rays towards a light and counts the results in `light` of each hit.
-  /// \param ray_of  ray from a hit in a direction; nothing if the light cannot reach the hit
-  /// \return whether each of `memory_.rays` is blocked
+  /// Traces the shadow rays from all hits towards a light, and stores the rays in `memory_.rays`.
+  /// \param light   member of CameraHit in which the function counts the rays of each hit
+  /// \param ray_of  returns the ray from a hit for a point of the unit disc; nothing if the light
+  ///                cannot reach the hit
+  /// \return for each ray: whether a surface blocks the ray
   template <class RayOf>
   std::vector<bool> trace_shadow_rays(const InterleavedDisc& directions,
                                       Visibility CameraHit::*light, const RayOf& ray_of) {
@@ -355,9 +360,9 @@ class Tile {
     add_light_through(memory_.rays, memory_.asking, blocked);
   }
 
-  /// Transmission through attachments, for example through thin hair that is lit from behind. If a
-  /// sky ray is blocked, traces the mirrored ray on the other side of the surface and adds part of
-  /// its light.
+  /// Adds the light of the sky that attachments transmit, for example thin hair that is lit from
+  /// behind. For each blocked sky ray from an attachment, traces the mirrored ray on the other side
+  /// of the surface. If the mirrored ray is not blocked, adds the fraction kThrough of a ray.
   void add_light_through(const std::vector<Ray>& rays, const std::vector<CameraHit*>& asking,
                          const std::vector<bool>& blocked) {
     std::vector<Ray> behind;
@@ -410,7 +415,8 @@ class Tile {
     }
   }
 
-  /// Computes the visible fraction of each light at some points, see filter_visibility.
+  /// Computes the visible fractions of the key light and of the sky at `count` points with
+  /// filter_visibility. \param x, y, consecutive  pixel of the points, see filter_visibility
   void share(const PointLists& points, std::size_t count, int x, int y, bool consecutive,
              Shares& shares) {
     shares.key.resize(count + kMaxLanes);

@@ -15,8 +15,8 @@
 namespace crowdface {
 
 /// The attachments of a crowd at one level of detail, converted for one file format.
-/// \tparam FormatData  the data of an attachment in this format that are equal for all faces. A
-///                     file combines these data with the attachment's positions on one face.
+/// \tparam FormatData  the part of an attachment's file that is equal for all faces. An encoded
+///                     file combines this part with the attachment's positions on one face.
 template <class FormatData>
 class AttachmentsInFormat {
  public:
@@ -75,8 +75,8 @@ class AttachmentsInFormat {
   std::map<const Attachment*, FormatData> data_of_attachment_;
 };
 
-/// The data of the mesh and of the attachments that are equal for all faces, converted for one file
-/// format.
+/// The mesh and the attachments of a crowd, converted for one file format. Holds only data that are
+/// equal for all faces.
 template <class Mesh, class Part>
 struct MeshWithAttachments {
   Mesh mesh;

@@ -19,6 +19,7 @@ struct CastingSpace {
   FaceSpace face_space;
   ProxySkin proxy_skin;
 };
+/// Computes the casting space of a config.
 /// \param cache  folder that caches the precomputed tables of the space; empty: no cache
 CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
                            const std::filesystem::path& cache);
@@ -34,6 +35,7 @@ struct CrowdDistances {
   /// for each region: distances between the faces, measured in this region only. Empty if there is
   /// only one region.
   std::vector<Quartiles> between_faces_by_region;
+  /// distances from each face to the nearest head, and to the nearest face that was cast earlier
   Quartiles to_nearest_head, to_nearest_face;
   /// median of `between_faces` divided by the median of `between_heads`; 0 if there are no heads to
   /// compare
@@ -44,7 +46,7 @@ struct CrowdDistances {
 struct FamilyReport {
   std::string name;
   std::uint64_t member_count = 0;
-  Quartiles member_distances;   ///< distances between members
+  Quartiles member_distances;   ///< distances between the members of the family
   Quartiles founder_distances;  ///< distances from the members to the founder
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_outsider_mm = 0;
@@ -57,9 +59,9 @@ struct FamilyReport {
 
 /// The result of casting: the faces of a crowd, and the heads' positions on the weight plane.
 struct CrowdPlan {
-  std::vector<PlanePoint> anchors;  ///< #heads
+  std::vector<PlanePoint> anchors;  ///< #heads: position of each head on the weight plane
   std::vector<FacePlan> crowd;      ///< the faces, with their nearest neighbours
-  std::vector<int> group_of_face;   ///< group of each sampled face; −1: none
+  std::vector<int> group_of_face;   ///< for each sampled face: index of its group, or −1
   Rejections rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;

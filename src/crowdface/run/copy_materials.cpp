@@ -32,8 +32,8 @@ class MaterialCopies {
   };
 
  public:
-  /// \param own  kinds of textures that are written for each face separately; if not empty, each
-  ///             face also has its own material file
+  /// \param own  the kinds of textures of which each face has its own files. If `own` is not empty,
+  ///             each face also has its own material file.
   MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, std::set<TextureKind> own)
       : directory_(directory), ledger_(ledger), own_(std::move(own)) {}
 
@@ -91,8 +91,9 @@ class MaterialCopies {
     }
   }
 
-  /// \param told  earlier warnings. The result omits these warnings, even if this object has found
-  ///              the same problem in additional heads.
+  /// Returns one warning per problem; each warning names the heads that have the problem.
+  /// \param told  earlier warnings. The result omits a problem that is in `told`, even if this
+  ///              object has found it in additional heads.
   std::vector<std::string> warnings(const std::vector<std::string>& told) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {

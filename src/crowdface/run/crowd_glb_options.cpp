@@ -66,9 +66,10 @@ std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& input
   return overlay;
 }
 
-/// Returns one value for each polygon: the index in `held` (the images of the GLB file) of the
-/// polygon's texture of this kind; kNoIndex if the polygon has none. Returns an empty list if no
-/// polygon has such a texture.
+/// Returns, for each polygon, which image is the polygon's texture of this kind: an index into
+/// `held`, or kNoIndex if the polygon has no texture of this kind. Returns an empty list if no
+/// polygon has a texture of this kind.
+/// \param held  the images of the GLB file
 std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const Inputs& inputs,
                                      TextureKind kind) {
   std::size_t first = 0;

@@ -63,8 +63,8 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
     hasher.add(name).add(digest);
   }
   hasher.add(config_text_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
-  // Hash the plan (with each face's notes) and the likeness data. This covers the reviews and the
-  // distance mask, which change the sheets only through the plan and the likeness data.
+  // Hash the plan (with each face's notes) and the content of likeness.json. The reviews and the
+  // distance mask need no hash of their own: they change the sheets only through these two files.
   try {
     add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
   } catch (const MissingInput& error) {  // another program has removed the plan

@@ -24,7 +24,8 @@ struct Rows {
   }
 };
 
-/// Spacing of the faces along an axis: 4/3 of the largest extent that any head has along this axis.
+/// Returns the spacing of the faces along an axis: 4/3 of the largest extent of a head along this
+/// axis.
 double face_spacing(const Inputs& inputs, Eigen::Index axis) {
   double most = 0;
   for (const Head& head : inputs.head_set.heads) {

@@ -233,7 +233,8 @@ std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
     const auto regions = static_cast<std::uint64_t>(inputs_.regions.alpha.cols());
     bytes_per_face += regions * vertices * (3 * sizeof(double) + 6 * sizeof(Row<double>));
   }
-  // number of meshes of a face in memory: the face, its mirror image, and the mesh between both
+  // number of meshes per face that are in memory while asymmetry is adjusted: the face, its mirror
+  // image, and the weighted mean of both
   constexpr std::uint64_t kMirrored = 3;
   if (inputs_.mirror_map != nullptr)
     bytes_per_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;

@@ -34,7 +34,7 @@ class FaceBuilder {
   /// The face that the previous call of `rebuild` built. The next call starts from this face.
   struct PreviousFace {
     std::optional<Recipe> recipe;
-    Positions blended;
+    Positions blended;  ///< #V by 3, before the steps of `finish`
   };
   /// Gives the same result as `build` for one recipe, but is faster if the recipe differs in only a
   /// few regions from the recipe of the previous call.
@@ -76,8 +76,9 @@ class FaceBuilder {
   void finish(const Recipe& recipe, Positions& face) const;
   /// The map that mirrors faces; computed in the first call. Thread-safe.
   const MirrorMap& mirror() const;
-  /// Returns, for each contact, the allowed range of the gap. The range extends from the gap of the
-  /// target head to the weighted mean of the gaps of the source heads.
+  /// Returns, for each contact, the allowed range of the gap: the smallest range that contains the
+  /// gap of the target head and, for each band, the weighted mean of the gaps of the source heads.
+  /// If the recipe changes the asymmetry, see also include_mirrored_gap_ranges.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   /// Extends the gap range of each contact to include the gap range of the mirrored contact.
   void include_mirrored_gap_ranges(std::vector<SkinContacts::Range>& ranges) const;
@@ -89,11 +90,12 @@ class FaceBuilder {
   mutable std::shared_ptr<const MirrorMap> mirror_;
   /// the region masks for blending
   RegionWeights regions_;
-  std::optional<CrowdBlender> blender_;             ///< empty with `levels: exact`
-  std::optional<FacePoses> poses_;                  ///< empty if all heads have one pose
-  std::optional<SkinContacts> contacts_;            ///< always set after construction
-  std::vector<std::vector<double>> contact_masks_;  ///< #contacts by #regions; rows sum to one
-  bool keeps_contacts_;
+  std::optional<CrowdBlender> blender_;   ///< empty with `levels: exact`
+  std::optional<FacePoses> poses_;        ///< empty if all heads have one pose
+  std::optional<SkinContacts> contacts_;  ///< always set after construction
+  /// #contacts by #regions: the region weights at each contact; each row sums to one
+  std::vector<std::vector<double>> contact_masks_;
+  bool keeps_contacts_;  ///< whether `correct_contacts` corrects gaps
   double mm_per_unit_;
   std::optional<PartFollower> follower_;  ///< empty if there are no parts besides the skin
 };

@@ -48,7 +48,7 @@ struct FinishedFace {
   std::optional<FacePictures> pictures;        ///< empty if the face is not rendered
 
   const FaceEncoders* encoders = nullptr;  ///< null if no mesh files are written
-  /// Data for the files; FaceEncoders::prepare computes it.
+  // FaceEncoders::prepare computes this member and the following members.
   Positions normals, points, joints;
   std::vector<std::string_view> images;
   std::vector<std::string> image_names;
@@ -78,9 +78,9 @@ class FaceEncoders {
   FaceEncoders(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
                std::span<const FacePlan> crowd, const std::string& shared = {});
 
-  /// Whether any file contains shapes. `holds_textures`: whether the faces' own textures are
-  /// written, in mesh files or next to them.
+  /// Whether any file contains blend shapes.
   bool holds_shapes() const;
+  /// Whether the faces' own textures are written, either inside mesh files or as separate files.
   bool holds_textures() const { return own_textures_ && !formats_.empty(); }
   const OwnTextures& textures() const { return *own_textures_; }
 
@@ -111,8 +111,8 @@ class FaceEncoders {
  private:
   /// Whether files of this format have vertex normals at this level of detail.
   bool needs_normals(MeshFormat format, std::size_t level, Index target) const;
-  /// Vertex normals of a face. At the ring of vertices at the neck, returns the normals that are
-  /// equal in the whole crowd.
+  /// Computes the vertex normals of a face. The vertices of the neck ring get fixed normals, which
+  /// are equal for all faces.
   Positions normals_of(const Positions& positions) const;
   FaceMesh mesh_at_level(std::size_t level, FinishedFace& face) const;
 
@@ -123,14 +123,15 @@ class FaceEncoders {
   std::map<MeshFormat, MeshEncoders> encoders_;
   /// one per level of detail; empty if attachments are not written to separate files
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
-  std::optional<OwnTextures> own_textures_;      ///< empty if faces have no textures of their own
-  std::optional<PointCarrier> points_, joints_;  ///< empty if there are no such points or joints
+  std::optional<OwnTextures> own_textures_;  ///< empty if faces have no textures of their own
+  /// `points_`: empty if the inputs have no named points. `joints_`: empty if no file has a rig.
+  std::optional<PointCarrier> points_, joints_;
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals
   std::optional<NormalFans> fans_;
 };
 
-/// The blend shapes for which an attachment has separate files. None if the attachment is rigid;
-/// otherwise the blend shapes for which faces have separate files.
+/// Returns the blend shapes for which an attachment has separate files: none if the attachment is
+/// rigid; otherwise the same blend shapes for which faces have separate files.
 std::span<const Shape> shapes_in_files(const Attachment& item, std::span<const MeshFormat> formats,
                                        const Inputs& inputs);
 

@@ -37,10 +37,10 @@ struct MeshFileOptions {
   const std::vector<MeshFormat>& formats;
   std::filesystem::path folder;  ///< folder of the meshes
   std::string stem;              ///< first part of the file names
-  /// false: only the whole mesh at rest; no levels of detail, shapes or points
+  /// whether the face has files for levels of detail, blend shapes and named points
   bool includes_all_variants = true;
 };
-/// All mesh files of a face, including its attachments, textures and material file.
+/// Lists the mesh files of a face, and the files of the face's attachments, textures and material.
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
                                  const MeshFileOptions& options);
 
@@ -53,9 +53,10 @@ class FaceFileLists {
   /// The arguments must outlive this object.
   FaceFileLists(const Config& config, const Inputs& inputs, const CrowdDirectory& directory);
 
-  /// All files of a face.
+  /// Lists all files of a face.
   std::vector<FaceFile> all_files(const FacePlan& face) const;
-  /// Only the files that `sheet` can make again: the face's image and its mesh in the gallery.
+  /// Lists the files that `crowdface sheet` can make again: the face's image, and the face's mesh
+  /// in the gallery.
   std::vector<FaceFile> shown_files(const FacePlan& face) const;
   /// Creates the folders for the files of these faces.
   void make_folders(std::span<const FacePlan* const> faces) const;
@@ -71,10 +72,10 @@ class FaceFileLists {
 /// The results for a face whose files have been written.
 struct FaceResult {
   std::vector<FileDigest> file_digests;  ///< one per file of FaceFileLists::all_files
-  /// defects of the skin compared with the target head; empty if not checked
+  /// defects that the face's skin has in comparison with the target head; empty if not checked
   std::optional<SkinDefects> skin_defects;
-  /// for each blend shape: number of skin triangles that intersect each other if the shape is
-  /// applied to the face, see FaceShapes::shapes_of_face; empty if there are no blend shapes
+  /// for each blend shape: number of skin triangles that intersect each other in this shape of the
+  /// face, see FaceShapes::shapes_of_face; empty if there are no blend shapes
   std::vector<Index> skin_intersections;
 };
 

@@ -26,6 +26,7 @@ struct FaceFinisher {
   void finish(FinishedFace& face, StageTimes& busy) const;
 
  private:
+  /// Computes the body's texture, and encodes it if mesh files are written.
   void paint_body(FinishedFace& face, StageTimes& busy) const;
   std::optional<FaceTextureSet> paint(const Recipe& recipe, OwnTextures::Encoded& files,
                                       StageTimes& busy) const;

@@ -60,8 +60,8 @@ Json to_json(const SkinDefects& skin) {
           {"exposed_mm2", skin.exposed_back_face_mm2}};
 }
 
-/// Parses the output of `to_json`. The caller has verified the checksum of the ledger line, so this
-/// function throws only if another version of the program wrote the line.
+/// Parses the output of `to_json`. The caller has verified the checksum of the ledger line, so an
+/// exception means that another version of the program wrote the line.
 SkinDefects noted_skin(const Json& json) {
   SkinDefects skin;
   skin.local.compared_triangle_count = json.at("compared").get<Index>();
@@ -73,8 +73,8 @@ SkinDefects noted_skin(const Json& json) {
   return skin;
 }
 
-/// The number of blend shapes transferred to each face: 0 unless a format or the gallery has
-/// shapes.
+/// Returns the number of blend shapes that are transferred to each face: 0 unless a mesh format or
+/// the gallery shows shapes.
 std::size_t carried_shapes(const Job& job) {
   const bool is_carried =
       has_gallery(job.config) || any_format(job.config.output.meshes, [](const auto& format) {

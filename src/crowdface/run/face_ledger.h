@@ -22,8 +22,8 @@ struct MadeFace {
 /// writes the same sheets and the same report.
 class FaceLedger {
  public:
-  /// The references must outlive this object. \param recorded  called from any thread after each
-  /// recorded face
+  /// All referenced objects must outlive this object.
+  /// \param recorded  called from any thread after each recorded face
   FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& lists,
              std::function<void()> recorded);
 

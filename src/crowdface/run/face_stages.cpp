@@ -89,8 +89,8 @@ std::uint64_t placement_memory_bytes(const Config& config, const Inputs& inputs,
                           " are allowed (--memory); fewer threads (--threads) need less"));
 }
 
-/// Maximum number of faces in memory at the same time: the faces of the group that is being
-/// blended, and, for each thread, a face of the previous group that the thread is finishing.
+/// Returns the maximum number of faces in memory at the same time: the faces of the group that is
+/// being blended and, for each thread, one face of the previous group that the thread is finishing.
 std::uint64_t faces_held(std::uint64_t at_once) {
   return at_once + std::min(at_once, static_cast<std::uint64_t>(thread_count()));
 }
@@ -192,7 +192,7 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                               placement_memory_bytes(config, inputs, crowd);
   std::uint64_t of_thread =
       encoders_.encoding_memory_bytes() + attachments.placement_memory_bytes();
-  // Vertex colours: the face's own colours, and the colours for rendering.
+  // Each thread holds the vertex colours of a face twice: as bytes, and as floats for rendering.
   if (!inputs.vertex_colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.has_textures()) {
     fixed_bytes += textures_.memory_bytes();
@@ -216,7 +216,8 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   fixed_bytes += of_threads + 2 * max_waiting_bytes_;
   const std::uint64_t one_face = builder.memory_bytes(1);
   faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory_bytes);
-  // If memory is left, enlarge the queue: a long queue keeps the disk busy while faces are blended.
+  // If memory is left, enlarge the queue of encoded files: a long queue keeps the disk busy while
+  // faces are blended.
   const std::uint64_t room = memory_bytes - fixed_bytes - faces_held(faces_per_group_) * one_face;
   max_waiting_bytes_ = std::clamp(max_waiting_bytes_ + room / 2, max_waiting_bytes_,
                                   std::max(max_waiting_bytes_, FaceWriter::kMaxWaitingBytes));

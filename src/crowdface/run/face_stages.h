@@ -21,8 +21,8 @@
 
 namespace crowdface {
 
-/// Rejects a job that cannot fit into memory. For an early check, before heads are prepared and
-/// faces are cast.
+/// Rejects a job that cannot fit into memory. Called early, before heads are prepared and faces are
+/// cast.
 /// \throws UsageError if inputs and renders alone need more than `memory_bytes` bytes.
 void refuse_too_little_memory(const Config& config, const Inputs& inputs,
                               std::uint64_t memory_bytes);
@@ -30,7 +30,7 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs,
 /// Makes faces: blends the faces, checks them for defects, renders them and writes their files.
 class FaceStages {
  public:
-  /// The references must outlive this object, except `crowd`.
+  /// All referenced objects except `crowd` must outlive this object.
   /// \param crowd   all faces that may be made
   /// \param memory_bytes  maximum memory of the whole process, in bytes; determines how many faces
   ///                are blended in one batch

@@ -134,8 +134,8 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
                     });
 }
 
-/// Applies the steps of FaceBuilder to a few vertices only: blending and asymmetry, contacts, pose,
-/// mirroring, and the bend at the neck.
+/// Applies the steps of FaceBuilder to the vertices `samples_` only: blending and asymmetry,
+/// contacts, pose, mirroring, and the bend at the neck.
 Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
   Recipe plain = recipe;
   plain.mirrored = false;

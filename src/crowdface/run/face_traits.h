@@ -30,10 +30,11 @@ class FaceTraits {
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
-  /// The mesh to measure: the face as written, bent at the neck to fit the body (kBent), or the
-  /// face before this bend (kAsBlended). Casting uses kAsBlended, so that a body does not change
-  /// the recipes.
+  /// The mesh to measure. kBent: the face as written, moved onto the body and bent at the neck to
+  /// fit it. kAsBlended: the face before these steps. Casting uses kAsBlended, so that a body does
+  /// not change the recipes.
   enum class Neck { kBent, kAsBlended };
+  /// Computes the positions that the landmarks have on the selected mesh of the face.
   Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
   /// Replaces the positions of the vertices `landmark_vertices_` by their positions on the mirrored
   /// face.

@@ -84,9 +84,8 @@ struct PlannedJob {
   Lazy<FaceAttachments> attachments;
   Lazy<FaceShapes> shapes;
   CrowdPlan crowd_plan;
-  std::vector<std::string>
-      warnings;  ///< warnings of warnings_about_faces_near_heads; empty for a shard's faces
-  nlohmann::ordered_json casting;  ///< content of casting.json; null for a shard's faces
+  std::vector<std::string> warnings;  ///< warnings about the cast crowd; empty for a shard's faces
+  nlohmann::ordered_json casting;     ///< content of casting.json; null for a shard's faces
   /// The files from which `crowd_plan` was read; empty if this run cast the crowd. If a shard reads
   /// the plan, `crowd_plan` holds only the shard's faces.
   std::vector<LedgerEntry::File> plan_files;
@@ -120,8 +119,10 @@ std::vector<std::string> casting_warnings(const Job& job, const CrowdPlan& crowd
 }
 
 /// Reads the crowd, or a shard's faces, from the folder's plan.
-/// \return null if the folder has no complete plan of this job, but the run may cast the crowd.
-/// \throws MissingInput if the folder has no such plan, and the run must not cast the crowd.
+/// \return null if the folder has no complete plan of this job and `options.plan_source` allows
+///         casting.
+/// \throws MissingInput if the folder has no complete plan of this job and `options.plan_source`
+///         does not allow casting.
 std::unique_ptr<PlannedJob> planned_job(const Job& job, const GenerateOptions& options,
                                         StageSeconds& stages) {
   const CrowdDirectory directory = crowd_directory_of(job.config);

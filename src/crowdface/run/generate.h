@@ -11,10 +11,10 @@
 
 namespace crowdface {
 
-/// From where a shard gets the plan of its faces.
+/// Where a run gets the plan of its faces.
 enum class PlanSource {
-  kFolderOrCasting,  ///< the folder's plan if it belongs to this job; otherwise the crowd is cast
-  kFolder,           ///< only the folder's plan; without one, the shard is rejected
+  kFolderOrCasting,  ///< the folder's plan; the run casts if the folder has no plan of this job
+  kFolder,           ///< the folder's plan; the run fails if the folder has no plan of this job
 };
 
 struct GenerateOptions {

@@ -31,7 +31,7 @@ std::uint8_t byte_at(const Image& image, int x, int y, int channel) {
   return static_cast<std::uint8_t>(std::lround(255.0F * value));
 }
 
-/// The unchanged bytes of an image file; nothing if glTF does not support the format.
+/// Returns the unchanged bytes of an image file; nothing if glTF does not support the format.
 std::optional<GlbImage> supported_image(const fs::path& file) {
   std::string bytes = read_file(file);
   if (bytes.starts_with("\x89PNG")) return GlbImage{std::move(bytes), "image/png"};

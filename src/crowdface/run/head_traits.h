@@ -15,14 +15,15 @@ namespace crowdface {
 
 /// The landmarks of a config's heads: points on the common mesh topology of all heads and faces.
 struct HeadLandmarks {
-  std::vector<std::optional<SurfacePoint>> surface_points;  ///< #trait_landmarks
-  /// for each landmark: the reason why the landmark has no point; empty if the landmark has a point
+  /// for each of trait_landmarks(): the landmark's point; empty if the point is unknown
+  std::vector<std::optional<SurfacePoint>> surface_points;
+  /// for each of trait_landmarks(): why the point is unknown; empty if the point is known
   std::vector<std::string> missing_reasons;
 
   /// Returns whether the positions of all landmarks of a measurement are known.
   bool can_measure(const Measurement& measurement) const;
-  /// Returns why a measurement is not available, for example "no hairline (…)". \pre `can_measure`
-  /// is false.
+  /// Returns why a measurement is not available, for example "no hairline (…)".
+  /// \pre can_measure(measurement) is false.
   std::string missing_landmark_reason(const Measurement& measurement) const;
   /// The positions of the landmarks on a mesh, #landmarks by 3, in millimetres. A landmark whose
   /// position is unknown has a zero row.

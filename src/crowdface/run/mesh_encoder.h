@@ -37,14 +37,14 @@ struct FaceMesh {
   std::span<const Displacements> moves = {};   ///< one per shape, or none
   std::span<const PlacedAttachment> placed_attachments = {};  ///< the face's attachments
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
-  /// positions of the named points (PointCarrier) on this face; no rows at levels of detail
+  /// positions of the named points (PointCarrier) on this face; no rows in a reduced mesh
   const Positions* points = &kNoPositions;
   const Positions* joints = &kNoPositions;  ///< positions of the rig's joints
-  /// the content of the image files of the face's own textures; may be empty
+  /// content of each image file of the face's own textures; empty if there are no own textures
   std::span<const std::string_view> images = {};
   std::span<const std::string> image_names = {};  ///< paths of the images, relative to the mesh
   std::string material_file = {};  ///< the face's own material file; empty: the target head's file
-  /// name of an attachment's colour, from colour_label; empty: no tint
+  /// for an attachment: name of its colour, from colour_label; empty: the attachment has no tint
   std::string colour_label = {};
 };
 
@@ -79,15 +79,17 @@ struct MeshEncoder {
 /// One encoder for each level of detail for which files of the format are written.
 using MeshEncoders = std::vector<MeshEncoder>;
 
-/// Makes an encoder from the data of a mesh, in one file format, that are equal for all faces.
-/// \param encode  called with `format_data` and a face
+/// Makes an encoder.
+/// \param format_data  the part of a file that is equal for all faces, converted for one format
+/// \param encode       returns the encoded file, given `format_data` and a face
 template <class FormatData, class Encode>
 MeshEncoder make_encoder(std::shared_ptr<const FormatData> format_data, const Encode& encode) {
   return {[=](const FaceMesh& face) { return encode(*format_data, face); },
           format_data->memory_bytes(), format_data->encoding_memory_bytes()};
 }
 
-/// \throws InvalidInput if the format cannot store the mesh of the source.
+/// Makes the encoders of a format.
+/// \throws InvalidInput if the format cannot store the mesh of `source`.
 MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source);
 
 /// Additional files of one format, shared by all faces of a crowd.
@@ -122,7 +124,7 @@ struct MeshSize {
 /// Approximate total size, in bytes, of a face's files in these formats.
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshFormat> formats);
 
-/// The functions that make the encoders of each format, for the table in mesh_encoder.cpp.
+// One function per format, called by make_mesh_encoders. Each makes the encoders of its format.
 MeshEncoders obj_encoders(const MeshSource& source);
 MeshEncoders ply_encoders(const MeshSource& source);
 MeshEncoders glb_encoders(const MeshSource& source);

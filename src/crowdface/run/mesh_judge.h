@@ -32,9 +32,9 @@ bool casting_builds_candidate_meshes(const Config& config);
 MeshDefectFinder mesh_defect_finder(const Config& config, const Inputs& inputs,
                                     const FaceBuilder& builder);
 
-/// Warns about faces whose whole mesh exceeds a limit of believability, although the sampled
-/// vertices that casting checks stay below this limit. \return one warning that names the faces;
-/// empty if there is no such face.
+/// Warns about faces whose whole mesh exceeds one of `limits`. Casting accepted these faces because
+/// casting checks only sampled vertices.
+/// \return one warning, which names the faces; empty if no face exceeds a limit
 std::vector<std::string> mesh_warnings(const BelievabilityOptions& limits,
                                        const std::vector<FacePlan>& crowd,
                                        const std::vector<FaceResult>& results);

@@ -27,7 +27,7 @@ struct MeshLevel {
   /// the reduced form of each attachment that any face wears, and of the body; empty for the whole
   /// mesh
   std::map<const Attachment*, DetailLevel> attachments;
-  const Attachment* body = nullptr;  ///< the body in the files; null: none
+  const Attachment* body = nullptr;  ///< the body; null if files do not contain the body
 
   bool is_whole_mesh() const { return face_level == nullptr; }
   const Topology& topology(const Inputs& inputs) const {
@@ -51,17 +51,17 @@ inline std::string level_suffix(std::size_t level, std::string_view separator) {
   return level == 0 ? std::string() : concat(separator, "LOD", level);
 }
 
-/// Selects, from the values of the whole mesh, the values for the polygons or vertices of a reduced
-/// level.
-/// \param rows  index into `whole` for each polygon or vertex of the level
+/// Selects the values of a reduced mesh from the values of the whole mesh.
+/// \param whole  one value for each polygon or vertex of the whole mesh
+/// \param rows   for each polygon or vertex of the reduced mesh: an index into `whole`
 template <class T>
 std::vector<T> select_rows(const std::vector<T>& whole, std::span<const std::uint32_t> rows) {
   std::vector<T> selected;
   for (const std::uint32_t row : rows) selected.push_back(whole[row]);
   return selected;
 }
-/// Selects rows of `whole`; each row holds several values. Returns an empty result if `whole` is
-/// empty.
+/// Like the function above, with several values for each polygon or vertex. Returns an empty result
+/// if `whole` is empty.
 template <class T>
 CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
   CompressedRows<T> selected;
@@ -77,9 +77,9 @@ CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const st
 std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePlan> crowd,
                                    bool with_body = false);
 
-/// The normals at the ring of vertices at the neck, which are equal for the body and all faces.
-/// Empty if `item` is not the body.
-/// \param level  the level of detail of the body; null: whole
+/// Returns the vertex normals of the body at the neck ring. All faces have the same normals there.
+/// Returns an empty result if `item` is not the body.
+/// \param level  the level of detail of the body; null: the whole body
 GivenNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
                              const DetailLevel* level);
 

@@ -75,9 +75,9 @@ std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   return lines;
 }
 
-/// Returns `usemtl` lines by target head, to be written after the `mtllib` line. Contains the
-/// target heads whose first polygons have no material although their material files define exactly
-/// one material. Without this line, programs ignore the material.
+/// Returns the `usemtl` line to write after the `mtllib` line, by target head. Contains only target
+/// heads whose first polygons have no material although the material files define exactly one
+/// material. Programs ignore this material if there is no `usemtl` line.
 std::map<Index, std::string> material_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.target_heads) {
@@ -121,7 +121,7 @@ MeshEncoder whole_encoder(const MeshSource& source) {
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct LevelTemplates {
     std::vector<PlainObjTemplate> obj;
-    std::map<Index, std::size_t> of_target;  ///< index into `obj` for each target
+    std::map<Index, std::size_t> of_target;  ///< for each target head: index into `obj`
   };
   const Inputs& inputs = source.inputs;
   const auto templates = std::make_shared<LevelTemplates>();

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 void refuse_to_write_over_inputs(const Config& config, const CrowdDirectory& directory) {
   const auto& sheet = config.output.contact_sheet;
   for (const fs::path& input : input_files(config)) {
-    // the sheets may compare faces with a mesh of this crowd
+    // The mesh with which the sheets compare faces may be a file of this crowd.
     if (sheet && input == sheet->compare.file) continue;
     for (const fs::path& folder : {directory.meshes(), directory.renders(), directory.sheets()}) {
       if (!is_inside_folder(input, folder)) continue;

@@ -6,9 +6,9 @@
 
 namespace crowdface {
 
-/// Rejects an output folder that cannot be written. Also rejects an output folder in which the
-/// crowd would overwrite the job's inputs, or files that could not be made again. \throws
-/// UsageError, CannotCreate.
+/// Rejects an output folder that cannot be written. Also rejects an output folder in which the run
+/// would overwrite the job's inputs, or a crowd that cannot be made again.
+/// \throws UsageError, CannotCreate.
 void check_output(const Job& job, Replace replace);
 
 /// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
@@ -16,10 +16,10 @@ void check_output(const Job& job, Replace replace);
 /// \throws UsageError, CannotCreate, IoError.
 void open_output(const Job& job, Replace replace);
 
-/// Refuses to replace a crowd that was cast from other heads, because that crowd could not be made
-/// again.
-/// \throws UsageError in this case.
-/// \param settings  hash of the present heads, see settings_digest
+/// Refuses to replace a crowd that was cast from other heads or masks than this job's, because the
+/// run could not make that crowd again.
+/// \throws UsageError if the folder holds such a crowd and `replace` is not kForce.
+/// \param settings  this job's settings_digest
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
 
 /// Compares the inputs with the report in the folder.

@@ -76,8 +76,8 @@ class OverriddenPlan {
     return worn;
   }
 
-  /// Finds attachments that fewer sampled faces wear than a quota requests. A face that lacks an
-  /// attachment because of a change does not count as missing.
+  /// Finds attachments that fewer sampled faces wear than a quota requests. A changed face counts
+  /// as if it wears the attachment.
   void find_missed_quotas() {
     constexpr double kRounding = 1e-9;
     for (const auto& [word, share] : config_.attachments.quotas) {
@@ -107,7 +107,8 @@ class OverriddenPlan {
   /// Finds hair colours that fewer faces have than the config requests. Does not count changed
   /// faces.
   void find_missed_hair() {
-    // key "": faces without a group, and faces whose group has no hair colours of its own
+    // by name of the group; the key "" stands for faces without a group and for faces whose group
+    // has no hair colours of its own
     std::map<std::string, std::vector<const FacePlan*>> groups;
     const auto own = [&](const std::string& name) {
       return std::ranges::find_if(config_.groups, [&](const Group& group) {
@@ -172,8 +173,8 @@ class OverriddenPlan {
     not_in_group_.add(face.id, concat(target, ", ", *face.group));
   }
 
-  /// Finds keys to which the config's `changes` and a later review give different values for the
-  /// same face.
+  /// Finds faces for which the review change `later` and the config's `changes` set the same key to
+  /// different values.
   void find_replaced(const FaceChange& later) {
     for (const FaceChange& change : config_.changes) {
       if (change.id != later.id) continue;

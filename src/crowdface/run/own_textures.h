@@ -22,8 +22,8 @@ struct OwnTextureFile {
   std::string name;  ///< path relative to the folder of the face's meshes
   std::size_t picture_index = 0, format_index = 0;  ///< indices into OwnTextures::Encoded
 };
-/// The texture files that belong to the face with this id alone; empty if faces have no textures of
-/// their own.
+/// Lists the texture files of the face `id`. Returns an empty list if faces use the textures of
+/// their target heads and have none of their own.
 std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
                                               const std::string& id);
 
@@ -33,6 +33,7 @@ struct GlbPicture {
   std::size_t picture_index = 0;  ///< index into face_picture_names
   TextureFormat format = TextureFormat::kPng;
 };
+/// Lists the images that each GLB file contains, in the order of face_picture_names.
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
 
 /// For each image of glb_pictures: the path relative to a face's mesh, such as "./blended/ID.png".
@@ -71,10 +72,10 @@ class OwnTextures {
   std::uint64_t encoding_memory_bytes() const;
 
  private:
-  /// The materials of a target head. Also, for each texture kind and material name, the image
-  /// (index into face_picture_names).
+  /// The materials of a target head.
   struct Materials {
     MergedMaterials merged_materials;
+    /// for each texture kind and material name: index of the image in face_picture_names
     std::map<TextureKind, std::map<std::string, std::size_t>> picture_indices;
   };
 

@@ -18,7 +18,8 @@
 namespace crowdface {
 namespace {
 
-/// Converts one end of the range of a smoothness distribution to a number of smoothing iterations.
+/// Converts `value`, one end of a smoothness distribution's range, to a number of smoothing
+/// iterations.
 double level_of(double value, SmoothnessDistribution::Unit unit, const SmoothingLevelScale& scale) {
   switch (unit) {
     case SmoothnessDistribution::Unit::kFraction:
@@ -33,7 +34,8 @@ double level_of(double value, SmoothnessDistribution::Unit unit, const Smoothing
   return value;
 }
 
-/// Adds a problem if a smoothness exceeds L_max, which is known only after the heads are read.
+/// Adds a problem if a smoothness exceeds `inputs.max_level` (L_max), the maximum number of
+/// smoothing iterations. This maximum is known only after the heads are read.
 void check_smoothness(const SmoothnessDistribution& distribution, const std::string& where,
                       const Config& config, const Inputs& inputs, Problems& problems) {
   const SmoothingLevelScale scale = level_scale(config, inputs);
@@ -167,8 +169,8 @@ void continue_crowd(Config& config, bool replaced) {
 
 using ReadConfig = std::function<ConfigReading(const ConfigOverrides&, Problems&)>;
 
-/// Reads the config. Includes the reviews in the crowd's folder if the folder holds the crowd of
-/// this config, or if `overrides` asks for these reviews.
+/// Reads the config. Also reads the review files that the crowd's folder keeps, if the folder holds
+/// the crowd of this config or if `overrides` asks for these review files.
 ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides overrides,
                                      Problems& problems) {
   ConfigReading reading = read(overrides, problems);

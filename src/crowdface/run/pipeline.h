@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-/// A config and all inputs that the config names. All are already read and checked.
+/// A config and all inputs that the config names, already read and checked.
 struct Job {
   Config config;
   Inputs inputs;
@@ -29,7 +29,7 @@ struct Job {
 std::optional<Job> load_job(const std::filesystem::path& config_file,
                             const ConfigOverrides& overrides, const CacheFolder& cache,
                             Problems& problems);
-/// Reads the config, heads and masks. \throws Error with all problems, if there are any.
+/// Reads the config, heads and masks. \throws Error that lists all problems that were found.
 Job load_job(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
              const CacheFolder& cache = {});
 
@@ -41,12 +41,13 @@ Job load_job(const Config& config, const CacheFolder& cache = {},
 /// The number of faces that the config asks for.
 std::uint64_t face_count(const Config& config);
 
-/// The paths in the output folder of the config.
+/// Returns the paths of the files in the config's output folder.
 CrowdDirectory crowd_directory_of(const Config& config);
 
-/// The text of config.yaml in the crowd's folder. This config names the copies of the reviews in
-/// the folder.
+/// Returns the text of the config.yaml that a run writes into the crowd's folder. In this text, the
+/// paths of the review files are the paths of their copies in the crowd's folder.
 std::string config_text_in_folder(Config config, const CrowdDirectory& directory);
+/// Returns the config for comparison with the config.yaml that is already in the crowd's folder.
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
 /// The scale that converts a smoothness into a number of smoothing iterations on these heads.

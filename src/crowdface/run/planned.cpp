@@ -26,7 +26,7 @@ Digest key_of(const Job& job, const CrowdDirectory& directory) {
       .add(kCastVersion)
       .add(plan_settings_yaml(job.config, directory.root))
       .add(job.settings);
-  // The placement on the body changes measurements.
+  // The placement of heads on the body changes measurements, which the plan contains.
   if (job.inputs.heads_on_body) hasher.add(kNeckVersion).add(job.inputs.heads_on_body->digest);
   hasher.add_array(std::span(job.inputs.distance_weights));
   for (const std::string& review : job.config.review.texts) hasher.add(review);

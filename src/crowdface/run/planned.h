@@ -23,8 +23,9 @@ using WriteFile = std::function<FileDigest(const std::filesystem::path& path, co
 /// The tags of heads and the kinds of attachments, for the table crowd.csv.
 HeadTagsAndAttachmentKinds head_tags_and_attachment_kinds(const Config& config);
 
-/// Writes the plan of a cast crowd, the table, and the other files that casting produces. Then
-/// writes a marker file, which shows that the plan is complete and to which job the plan belongs.
+/// Writes the plan of a cast crowd, the table crowd.csv, the founders, the rejected faces and
+/// casting.json. Then writes a marker file, which shows that the plan is complete, and to which job
+/// the plan belongs. The marker file lists the other files (except crowd.csv) and their hashes.
 /// \param casting  content of casting.json
 /// \param neck_colours  see table_text
 void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,
@@ -34,22 +35,25 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
 /// The faces of a shard, or of the whole crowd, as read from the plan in the folder.
 struct PlannedFaces {
   std::vector<FacePlan> faces;           ///< the shard's faces, in the plan's order
-  std::vector<LedgerEntry::File> files;  ///< the plan and the files written with it
+  std::vector<LedgerEntry::File> files;  ///< the files that the marker file lists, see write_plan
 };
 
+/// Reads the faces of a shard from the plan.
 /// \return nothing if there is no plan, if the plan changed since `write_plan`, or if the plan
-///         belongs to another job. For the whole crowd: also nothing if one of the other files from
-///         `write_plan` changed.
+///         belongs to another job. For the whole crowd, also nothing if any other file that the
+///         marker file lists has changed.
 /// \throws InvalidInput if a line is not a valid plan entry.
 std::optional<PlannedFaces> read_planned_faces(const Job& job, const CrowdDirectory& directory,
                                                const Shard& shard);
 
-/// The founders of families (hidden faces from which the members are made) that the folder records;
-/// empty if the folder has no file of founders.
+/// Reads the founders of families from the crowd's folder. A founder is a hidden face from which
+/// the members of a family are derived. Returns an empty list if the folder has no file of
+/// founders.
 std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& directory);
 
-/// Restores the result of casting from a plan. The result has everything that later stages need. It
-/// lacks the distances, rejections and family reports, which casting.json stores.
+/// Restores the result of casting from a plan, as far as later stages need it. The result lacks the
+/// distances, the rejections, and the reports on families and measurements, which casting.json
+/// stores.
 /// \param cache  see casting_space
 CrowdPlan restore_crowd_plan(const Job& job, const CrowdDirectory& directory,
                              const Prepared& prepared, std::vector<FacePlan> crowd,

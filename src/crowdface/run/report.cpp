@@ -55,7 +55,7 @@ Json topology_to_json(const Inputs& inputs) {
           {"digest", inputs.topology_digest.hex()}};
 }
 
-/// The errors of each head's fitted levels, measured during fitting.
+/// Returns the approximation errors of each head's fitted smoothing levels.
 Json levels_to_json(const Job& job, const Prepared& prepared) {
   const double mm = mm_per(job.config.faces.units);
   const auto fine = [](double value) { return std::round(value * 1e7) / 1e7; };
@@ -71,8 +71,8 @@ Json levels_to_json(const Job& job, const Prepared& prepared) {
   return {{"tolerance_mm", job.config.smoothing.tolerance_mm}, {"heads", std::move(heads)}};
 }
 
-/// For each band of detail: the smallest and the largest wavelength in mm at which the band begins,
-/// over all regions and faces.
+/// Returns, for each band of detail, the smallest and the largest wavelength at which the band
+/// begins, in mm, over all regions and faces.
 Json bands_to_json(const Job& job, const std::vector<FacePlan>& crowd) {
   const auto size = [&](std::uint64_t level) {
     return rounded(
@@ -159,8 +159,9 @@ Json face_to_json(const std::string& id, const std::vector<FaceFile>& files,
   return face;
 }
 
-/// For each blend shape: the number of skin triangles that intersect each other if this shape is
-/// applied. Does not count intersections that already exist in the template or in the face at rest.
+/// Returns, for each blend shape, the number of faces in which the shape makes skin triangles
+/// intersect, and the largest number of such triangles in one face. Does not count intersections
+/// that already exist in the template or in the face at rest.
 Json shapes_to_json(const ShapeSet& set, const std::vector<FaceResult>& results) {
   Json shapes = Json::object();
   for (std::size_t s = 0; s < set.shapes.size(); ++s) {

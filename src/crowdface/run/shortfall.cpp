@@ -81,8 +81,8 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy,
   return advice;
 }
 
-/// A line of advice for a group with so few heads that the group's faces resemble these heads;
-/// otherwise empty.
+/// Returns a line of advice if a group has so few heads that the faces of the group resemble these
+/// heads too much; otherwise an empty text.
 std::string few_heads(const Config& config, const Group& group) {
   constexpr std::size_t kFew = 3;
   const std::vector<Eigen::Index>& sources = group.sampling.sources;

@@ -29,6 +29,7 @@ class ScarcityWarning {
   bool has_logged_scarcity_ = false;
 };
 
+/// Reports that a crowd cannot be cast.
 /// \throws Unsatisfiable; the message names the constraint that prevented more faces, the number of
 ///     faces that were cast, and a change that would help.
 /// \param trait_advice_lines  if limits on measurements prevented more faces: a line for each

@@ -37,24 +37,25 @@ std::string_view name_of(Engine engine);
 
 /// Options for the render farm's job engine; some engines use only part of them.
 struct JobEngineOptions {
-  std::string partition, time_limit;  ///< only for Slurm; empty: the site's default
+  std::string partition, time_limit;  ///< only for Slurm; empty: the default of the Slurm site
   std::uint64_t grace_seconds = 60;   ///< time between the termination signal and the time limit
   std::vector<std::string> hosts;     ///< only for GNU parallel: ssh hosts; empty: this machine
   std::vector<std::string> extra_arguments;  ///< further arguments for the engine, passed unchanged
 };
 
-/// Return a suitable number of tasks, estimated from measured times (docs/farm.md). A task that
-/// makes faces (shard) should take about ten minutes; a task that prepares heads should take about
-/// one minute.
+/// Returns the number of tasks (shards) into which to split the making of faces, so that each task
+/// takes about ten minutes. The estimate is based on measured times (docs/farm.md).
 /// \param faces  number of faces in the crowd
 std::uint64_t suitable_shard_count(const Config& config, const Inputs& inputs, std::uint64_t faces,
                                    std::uint64_t processor_count);
+/// Returns the number of tasks into which to split the preparation of heads, so that each task
+/// takes about one minute.
 std::uint64_t suitable_prepare_task_count(const Inputs& inputs, std::uint64_t processor_count);
 
-/// Writes `submit/` in the crowd's folder: `task.sh STAGE NUMBER` runs one task on the machine that
-/// starts the script; `submit.sh` submits all tasks to the job engine.
-/// \return `submit.sh`, a bash script. With Slurm the script only submits the tasks; with GNU
-/// parallel the script runs all tasks to completion.
+/// Writes two bash scripts into `submit/` in the crowd's folder. `task.sh STAGE NUMBER` runs one
+/// task on the machine that starts the script. `submit.sh` submits all tasks to Slurm, or runs all
+/// tasks to completion with GNU parallel.
+/// \return the path of `submit.sh`.
 std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
                                          const JobEngineOptions& options);
 

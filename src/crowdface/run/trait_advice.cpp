@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::uint32_t kSampledForAdvice = 400;
 
-/// The names of at most three heads: if `upwards`, the heads with the largest values, otherwise the
-/// heads with the smallest values.
+/// Returns the names and values of the three heads with the largest values (if `upwards`) or with
+/// the smallest values.
 std::string farthest_heads(const Config& config, const std::vector<double>& of_heads,
                            const Measurement& measurement, bool upwards) {
   constexpr std::size_t kMost = 3;

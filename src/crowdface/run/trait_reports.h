@@ -16,17 +16,18 @@ namespace crowdface {
 struct TraitReport {
   std::size_t trait_index = 0;
   Quartiles head_values, crowd_values;
-  /// Only for a measurement with a requested distribution. `max_difference`: the largest difference
-  /// between the requested cumulative distribution and the cumulative distribution of the sampled
-  /// faces (Kolmogorov and Smirnov). `fraction_below`, `fraction_above`: the fractions of the
-  /// requested distribution that lie below and above the values of all random faces.
+  /// Compares the sampled faces with the distribution that the config requests.
   struct TargetComparison {
-    TraitTarget target;
+    TraitTarget target;                       ///< the requested distribution
     double mean = 0, standard_deviation = 0;  ///< mean and standard deviation of the sampled faces
+    /// `max_difference`: see kolmogorov_smirnov_distance. `fraction_below`, `fraction_above`: the
+    /// fractions of the requested distribution below the smallest and above the largest value of
+    /// random faces, which need not satisfy the limits.
     double max_difference = 0, fraction_below = 0, fraction_above = 0;
   };
-  std::optional<TargetComparison> comparison;
+  std::optional<TargetComparison> comparison;  ///< empty if the config requests no distribution
 };
+/// Computes the statistics of each measurement that the config names.
 /// \param crowd  measured faces, see measure_faces
 std::vector<TraitReport> report_traits(const CastingOptions& casting, const FaceTraits& traits,
                                        const std::vector<FacePlan>& crowd);

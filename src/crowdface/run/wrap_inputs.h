@@ -25,7 +25,7 @@ struct WrapOptions {
   std::string scan;           ///< a scan; `out` is then the head to write
   std::string batch;          ///< a folder of scans; `out` is then a folder
   std::string out, landmarks, template_landmarks, model;
-  std::string ignored_area_mask;  ///< mask of the areas that are not fitted to the scan
+  std::string ignored_area_mask;  ///< mask of the template's areas that the fit ignores
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string texture_size;  ///< side length of the textures to bake, in texels
   bool no_pictures = false, force = false, dry_run = false, estimate = false;
@@ -34,8 +34,7 @@ struct WrapOptions {
   Shard shard;                   ///< the part of the batch to wrap
 };
 
-/// The value of `--landmarks` with which the program neither reads landmarks from files nor detects
-/// them.
+/// A value of `--landmarks`: the program neither reads landmarks from files nor detects landmarks.
 inline constexpr const char* kNoLandmarks = "none";
 
 /// The inputs of a run that are equal for all scans.
@@ -49,10 +48,11 @@ struct WrapInputs {
   std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology
   std::size_t model_head_count = 0;  ///< number of heads of the shape model
   LandmarkFile landmarks;
-  std::map<std::string, std::uint32_t> detected_landmarks;  ///< by name: template vertex
-  std::vector<FaceFeature> features;                        ///< features of the template's face
-  int texture_size = 0;  ///< texels per side of baked textures; 0: none
-  Digest digest;         ///< digest of all inputs in this struct
+  /// for the name of each landmark that the program can detect on a scan: the template's vertex
+  std::map<std::string, std::uint32_t> detected_landmarks;
+  std::vector<FaceFeature> features;  ///< features of the template's face
+  int texture_size = 0;               ///< texels per side of baked textures; 0: none
+  Digest digest;                      ///< hash of all inputs in this struct
 };
 
 /// \throws Error that names the faulty file or option.

@@ -26,7 +26,7 @@ constexpr std::string_view kPageHead = R"(<!doctype html>
 <h1>Wrapped scans, the most doubtful first</h1>
 )";
 
-/// The content of the table row for one scan on the page.
+/// The content of one scan's section on the page.
 struct ScanRow {
   std::string name, picture;
   std::string worst;       ///< the face feature that agrees least with the scan

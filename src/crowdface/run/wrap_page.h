@@ -12,10 +12,10 @@ struct WrappedScan {
   std::filesystem::path scan_file, report_file, picture_file;
 };
 
-/// An HTML page that summarises the reports of a batch; the caller writes the page into the folder
-/// of the reports. The page has a row for each scan, with the scan's image and warnings. The most
-/// doubtful scans come first: scans without a resulting head, then scans whose worst-fitting face
-/// feature agrees least with the wrapped head.
+/// Returns an HTML page that summarises the reports of a batch. The caller writes the page into the
+/// folder of the reports. The page has a section for each scan, with the scan's image and warnings.
+/// Scans without a resulting head come first. The other scans are sorted by the agreement between
+/// scan and head at the face feature that agrees least; the smallest agreement comes first.
 std::string wrap_page(const std::vector<WrappedScan>& scans);
 
 }  // namespace crowdface

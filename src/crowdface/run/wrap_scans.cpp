@@ -37,7 +37,7 @@ namespace fs = std::filesystem;
 /// A scan and its output files.
 struct Task {
   fs::path scan, own_landmarks, head, report, picture;
-  TextureFiles textures = {};  ///< no files without --texture
+  TextureFiles textures = {};  ///< empty without --texture
 };
 
 Task make_task(const fs::path& scan, const fs::path& head, const fs::path& reports) {
@@ -307,7 +307,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
                       : concat("; wrong and not used: ", join(result.dropped_landmarks))));
 }
 
-/// Writes the page over all scans of the batch, including the scans of other shards.
+/// Writes the HTML page about all scans of the batch, including the scans of other shards.
 void write_page(const WrapOptions& options, const std::vector<Task>& tasks) {
   std::vector<WrappedScan> scans;
   for (const Task& task : tasks) scans.push_back({task.scan, task.report, task.picture});

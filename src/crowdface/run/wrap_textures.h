@@ -21,7 +21,7 @@ struct TextureFiles {
   /// masks of the texels that the scan does not show, in the folder of the report
   std::vector<std::filesystem::path> mask_files;
 
-  /// The paths of all these files; empty if the template has no images.
+  /// Returns the paths of the material file, maps and masks; empty if the template has no images.
   std::vector<std::filesystem::path> all_paths() const;
 };
 
@@ -31,7 +31,9 @@ class WrapTextures {
   /// \param inputs  must outlive this object.
   WrapTextures(const WrapOptions& options, const WrapInputs& inputs);
 
-  /// \param reports  folder for the head's report, which also receives the masks.
+  /// Returns the paths of the texture files of a head.
+  /// \param head     the head's OBJ file
+  /// \param reports  folder for the masks and the head's report
   TextureFiles files_of(const std::filesystem::path& head,
                         const std::filesystem::path& reports) const;
 
@@ -40,7 +42,9 @@ class WrapTextures {
   double write(const WrapResult& result, const Scan& scan, const ScanColours& colours,
                const TextureFiles& files) const;
 
-  /// Returns the head's OBJ file with a line that names the material file.
+  /// Adds the `mtllib` line, which names the head's material file, to the head's OBJ file. Also
+  /// adds a `usemtl` line if the template's skin has no material.
+  /// \param plain  the OBJ file as exported without baked textures
   EncodedFile head_file(EncodedFile plain, const TextureFiles& files) const;
 
  private:
@@ -52,7 +56,7 @@ class WrapTextures {
   BakeTemplate target_;
 };
 
-/// Hashes the material files and textures that an OBJ scan names.
+/// Adds the hashes of the material files and textures that an OBJ scan names to `hasher`.
 void add_texture_files(const std::filesystem::path& scan, Hasher& hasher);
 
 }  // namespace crowdface

@@ -16,8 +16,8 @@
 namespace crowdface {
 namespace {
 
-/// Triangles that are at most kSheetRings edges apart belong to the same sheet of surface. A sheet
-/// counts as folded if the cosine between any two of its normals is below kAlike.
+/// Two triangles that are at most kSheetRings edges apart are tested for intersection only if the
+/// cosine between their normals is at most kAlike, because only folded surface intersects itself.
 constexpr int kSheetRings = 3;
 constexpr float kAlike = 0.998F;
 

@@ -40,24 +40,24 @@ class FrameField {
   /// A vertex of the skin around a node.
   struct Sample {
     std::uint32_t vertex;
-    Eigen::Vector3d weight_vector;  ///< w in the map of the node
+    Eigen::Vector3d weight_vector;  ///< w in the formula of Node
   };
   /// The map of a node is the matrix Σ d·wᵀ + R·W:
   ///
   /// - Σ d·wᵀ, a sum over the samples, is the fit to the skin around the node: d is the sample's
-  ///   position on the face, relative to the node's vertex.
+  ///   position on the face, relative to the node's vertex; w is Sample::weight_vector.
   /// - R is the rotation and scale of the whole skin. R·W determines the map in directions in which
   ///   the samples do not extend.
   struct Node {
     Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// W, the weight of the whole skin's similarity transform
+    /// W, the weight of R in the formula above
     Eigen::Matrix3d similarity_weight_matrix;
   };
   struct NodeWeight {
     std::uint32_t node;
-    double weight;  ///< weights of a vertex sum to one
+    double weight;  ///< the weights of all nodes for one vertex sum to one
   };
 
   static Node node_at(const Positions& neutral, std::span<const std::uint32_t> patch, double radius,

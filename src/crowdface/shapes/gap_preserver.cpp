@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// A shape leaves a gap nearly the same if it changes the gap by at most this length, as a fraction
-/// of the skin's extent: 0.4 mm on a head.
+/// A gap counts as nearly unchanged by a shape (GapSelection::kNearlyUnchanged) up to this change
+/// of width: a fraction of the skin's extent, 0.4 mm on a head.
 constexpr double kMaxChange = 1e-3;
 
 }  // namespace

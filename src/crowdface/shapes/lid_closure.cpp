@@ -159,8 +159,8 @@ void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency
     const double at = low + (high - low) * (static_cast<double>(k) + 0.5) / kSections;
     const Eigen::Vector3d middle =
         (rim_at(eye, closed, true, at, along) + rim_at(eye, closed, false, at, along)) / 2;
-    // Cut both lids across the opening, on the template with the blend shape applied. Keep the
-    // section if the shape closes the lids enough.
+    // Cut both lids with a plane across the eye's opening, on the template with the blend shape
+    // applied. Keep this section if the blend shape closes the lids enough there.
     GapSection cut{middle + (at - middle.dot(along)) * along, axes.up, along, {}, {}};
     cut_profiles(adjacency, closed, eye.skin_vertices, side, kProfile * radius_, cut);
     if (cut.low_profile.empty() || cut.high_profile.empty()) continue;

@@ -27,8 +27,8 @@ struct TemplateEye {
 struct FaceEye {
   const BallRadii* ball;
   RigidMotion motion;
-  std::vector<double> rest_gaps =
-      {};  ///< distances of the TemplateEye's skin_vertices from the eyeball
+  /// distance of each of TemplateEye::skin_vertices from the eyeball on the face at rest
+  std::vector<double> rest_gaps = {};
 
   BallRadii::Gap gap_at(const Eigen::Vector3d& point) const;
 };
@@ -69,8 +69,8 @@ class LidClosure {
   /// are known, and divided by the mesh's scale relative to the template.
   struct LidTargets {
     std::vector<Gap> gaps;  ///< #sections
-    /// One entry per lid vertex. `ball_distances`: distance from the eyeball in the shape.
-    /// `distance_changes`: this distance minus the distance at rest.
+    /// One entry per lid vertex. `ball_distances`: distance from the eyeball with the shape
+    /// applied. `distance_changes`: the distance with the shape applied minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;
   };
   /// Measures the targets on a mesh with known displacements.
@@ -137,7 +137,9 @@ class LidClosure {
     std::uint32_t skin_index;  ///< index in the list of skin vertices around the eye
     /// how strongly closing moves this vertex: 1 near the eye, less farther away
     double closing_weight;
-    double eyeball_weight;  ///< how strongly the vertex is kept off the eyeball: 1 near its surface
+    /// how strongly the vertex is kept outside the eyeball: 1 near the eyeball's surface, 0 far
+    /// away
+    double eyeball_weight;
   };
 
   void add_sections(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
@@ -153,16 +155,25 @@ class LidClosure {
   /// \param gains    relative increase of the vertical movement at each section.
   void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
                  std::span<const double> gains, Positions& moves) const;
-  /// Returns the smallest allowed distance of a lid vertex from the eyeball (negative: depth): the
-  /// smallest of its distance at rest, its distance in the shape, and a small margin.
+  /// Returns the smallest allowed distance of a lid vertex from the eyeball; negative inside. This
+  /// is the smallest of three distances: the vertex's distance at rest, the vertex's target
+  /// distance (at a limited depth), and a small margin.
+  /// \param rest_distance  the vertex's distance on the face at rest.
+  /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
                            const LidTargets& targets) const;
+  /// Moves each of the first `count` lid vertices along the eyeball's normal, to the larger of two
+  /// distances: the distance at rest plus the target change, and min_ball_distance. Multiplies the
+  /// movement by `eyeball_weight`.
   void keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
                      const LidTargets& targets, Positions& moves) const;
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
+  /// Returns the highest point of a lower lid's profile (`sign` = 1), or the lowest point of an
+  /// upper lid's profile (`sign` = −1), after the displacements `moves`.
   static RimPoint rim_point(const std::vector<ProfilePoint>& points, double sign,
                             const EyeAxes& axes, const Positions& face, const Positions& moves);
-  /// Returns one value for each section: the current gap minus the target gap.
+  /// Returns one value for each section: the larger excess of the section's two gaps over their
+  /// targets. A negative target of Gap::vertical_gap counts as 0.
   static std::vector<double> gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
                                           double scale);
   std::vector<Gap> measure_gaps(const EyeAxes& axes, const Positions& face,
@@ -172,7 +183,8 @@ class LidClosure {
   double radius_ = 0;
   std::vector<LidSection> sections_;
   std::vector<LidVertex> lid_vertices_;
-  std::size_t profile_vertex_count_ = 0;  ///< number of lid vertices in profiles; they come first
+  /// number of lid vertices that belong to profiles; these come first in lid_vertices_
+  std::size_t profile_vertex_count_ = 0;
   /// #lid_vertices_ by #sections_: weights with which each lid vertex follows the sections. The
   /// vertical movement of the vertex grows by the weighted sum of the sections' gains.
   std::vector<double> section_weights_;

@@ -15,7 +15,7 @@ namespace crowdface {
 /// A rigid part of the template: an eyeball, or the teeth of a jaw.
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> fitted_vertices;  ///< the subset of `vertices` that determines motions
+  std::vector<std::uint32_t> fitted_vertices;  ///< vertices to which motions are fitted
   /// all 1, one per fitted vertex; for fit_rigid_motion
   std::vector<double> equal_weights;
   /// centre of rotation: the centre of an eyeball, or the mean of the teeth
@@ -23,8 +23,8 @@ struct RigidPart {
 };
 
 /// The motion of a rigid part in a shape, independent of the mesh on which the motion was measured.
-/// find_part_motion removes this mesh's local rotation and stretch relative to the template; transfer_part_motion
-/// applies the rotation and stretch of another face.
+/// find_part_motion removes this mesh's local rotation and stretch relative to the template;
+/// transfer_part_motion applies the rotation and stretch of another face.
 struct PartMotion {
   /// unit quaternion (w, x, y, z) of the rotation about the centre
   std::array<double, 4> quaternion = {1, 0, 0, 0};

@@ -41,7 +41,7 @@ struct PartMove {
 /// How a shape moves the lids of one eye.
 struct LidMove {
   LidClosure lids;
-  std::vector<LidClosure::LidTargets> targets;  ///< #sets
+  std::vector<LidClosure::LidTargets> targets;  ///< one entry per set of shapes
 };
 
 /// A vertex of a lash, or of another part that is bound to the skin of a lid. When LidClosure
@@ -69,8 +69,8 @@ std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape
 
 /// One shape: the vertices and parts that it moves, and the data for its corrections on a face.
 struct PreparedShape {
-  /// only for a corrective shape: the shape with which it is always applied. Lips and intersections
-  /// are repaired after both shapes have been added.
+  /// only for a corrective shape: index of its prerequisite, see find_prerequisites. Lips and
+  /// intersections are repaired after both shapes have been added.
   std::optional<std::size_t> prerequisite;
   std::vector<std::uint32_t>
       vertex_indices;  ///< for each row: index into PreparedShapes::moved_vertices
@@ -83,7 +83,8 @@ struct PreparedShape {
   SkinOverParts skin_over_parts;
   SkinCrossings::SearchedSkin searched_skin;
   bool moves_contacts = false;
-  /// #sets by #gaps: change of each gap between lips; empty if no gap changes
+  /// #sets by #gaps: how much the shape widens each gap between lips, divided by the scale of the
+  /// mesh relative to the template; empty unless `moves_contacts`
   std::vector<std::vector<double>> gap_changes;
 };
 
@@ -107,12 +108,12 @@ struct PreparedShapes {
   std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
   /// #moved_vertices by #regions: region weights of the skin nearest to each vertex
   RegionWeights::Alpha vertex_region_weights;
-  GapPreserver contacts;  ///< preserves the gaps where skin touches skin, as between the lips
-  RegionWeights::Alpha contact_region_weights;  ///< #contacts by #regions
+  GapPreserver contacts;  ///< preserves gaps between skin surfaces that touch, such as the lips
+  RegionWeights::Alpha contact_region_weights;  ///< #gaps by #regions
   FrameField frame_field;
-  double extent = 0;  ///< diagonal of the template's skin's bounding box
-  std::vector<std::uint32_t>
-      inner_vertices;  ///< vertices of parts away from the eyes: gums and teeth
+  double extent = 0;  ///< diagonal of the bounding box of the template's skin
+  /// vertices of gums and teeth: of all parts except eyeballs, without the vertices near an eye
+  std::vector<std::uint32_t> inner_vertices;
   SkinCrossings crossings;
   /// Finds intersections on the face at rest, in the skin that at least one shape may bring into
   /// contact.
@@ -123,14 +124,14 @@ struct PreparedShapes {
   struct FaceFrames {
     const Positions& mesh;
     FrameField::Frames frames;
-    std::vector<Eigen::Matrix3d> maps;  ///< linear map at each of `moved_vertices`
-    std::vector<double> gaps;           ///< #contacts
+    std::vector<Eigen::Matrix3d> maps;  ///< linear map at each of PreparedShapes::moved_vertices
+    std::vector<double> gaps;           ///< width of each gap on the face, see `contacts`
     /// whether each vertex belongs to a triangle that intersects another triangle on the face at
     /// rest
     std::vector<bool> crosses_at_rest;
   };
   FaceFrames make_face_frames(const Positions& face) const;
-  /// Returns the mean of `maps` over the vertices of a part that the shape moves.
+  /// Returns the mean of `maps` over `part.moved_vertices`.
   /// \param maps  FaceFrames::maps of a face.
   Eigen::Matrix3d mean_map_of_part(const PartMove& part, const PreparedShape& prepared,
                                    std::span<const Eigen::Matrix3d> maps) const;
@@ -144,7 +145,7 @@ struct PreparedShapes {
                      PreparedShape& prepared) const;
   void prepare_lids(const Displacements& moves, const Adjacency& adjacency,
                     PreparedShape& prepared) const;
-  /// Returns the skin in which each face is searched for intersections that the shape causes.
+  /// Returns the skin in which to search for the intersections that the shape causes on faces.
   SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
                                                  const PreparedShape& prepared) const;
   void add_sets();
@@ -156,6 +157,8 @@ struct PreparedShapes {
   void add_data_of_set(const FaceFrames& face_frames, const Positions& rest,
                        const Displacements& shape, std::span<const FaceEye> face_eyes,
                        PreparedShape& prepared) const;
+  /// Returns a head's displacements without the head's local rotation and stretch, relative to the
+  /// mean head.
   FloatPositions normalised_moves(const FaceFrames& face_frames, const PreparedShape& prepared,
                                   const Positions& moves) const;
 };

@@ -269,8 +269,8 @@ bool CarriedShape::keep_lids_out() {
   return are_out;
 }
 
-/// Moves lashes by the corrections of the lid skin to which they are bound.
-/// \param carried  displacements of this skin before the corrections, from skin_of_followers.
+/// Moves each lash by the correction of the lid skin to which the lash is bound.
+/// \param carried  displacements of the lid skin before the correction, from skin_of_followers.
 void CarriedShape::follow_lids(const Positions& carried) {
   Index next = 0;
   for (const LidFollower& follower : shape_.lid_followers) {

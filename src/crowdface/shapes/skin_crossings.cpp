@@ -212,9 +212,9 @@ class SkinCrossings::Repair {
     }
   }
 
-  /// Gives the skin near the intersections the relative positions that it has on the template with
-  /// the blend shape applied. Averages the difference between face and template over skin that is
-  /// close together on this template.
+  /// Arranges the skin near the intersections as on the template with the blend shape applied.
+  /// Averages the difference between face and template over skin that is close together on the
+  /// template with the blend shape applied.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kSameLayoutFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, searched_skin_.search);
@@ -342,8 +342,6 @@ SkinCrossings::SearchedSkin SkinCrossings::find_searched_skin(const Positions& n
   return searched_skin;
 }
 
-/// Sets `may_intersect` for every triangle that shares a vertex with an intersecting triangle, as
-/// NewIntersections does.
 void SkinCrossings::allow_intersections_of(const Positions& mesh,
                                            SearchedSkin& searched_skin) const {
   const CrossingSearch& search = searched_skin.search;

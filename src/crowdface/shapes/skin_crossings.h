@@ -31,8 +31,9 @@ class SkinCrossings {
   /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
   struct SearchedSkin {
     CrossingSearch search;
-    /// for each triangle of `search`: whether the triangle may intersect other such triangles on a
-    /// face, because it is part of an intersection on the template
+    /// for each triangle of `search`: whether the triangle is at an intersection that the template,
+    /// or a head, already has in this shape. Intersections between two of these triangles are
+    /// ignored on faces.
     std::vector<bool> may_intersect;
     /// For each vertex: 1 for the upper lid and −1 for the lower lid if the shape closes this eye,
     /// 0 for other skin. Empty if the shape closes no eye.
@@ -49,8 +50,8 @@ class SkinCrossings {
   /// \param lid_sides     See SearchedSkin::lid_sides.
   SearchedSkin find_searched_skin(const Positions& neutral, const Displacements& shape,
                                   std::vector<signed char> lid_sides) const;
-  /// Finds the triangles that intersect other triangles in `mesh` and sets their `may_intersect`.
-  /// Their intersections on faces are then ignored.
+  /// Sets `may_intersect` for every triangle that intersects another triangle of `mesh`, or that
+  /// shares a vertex with an intersecting triangle. NewIntersections ignores the same triangles.
   void allow_intersections_of(const Positions& mesh, SearchedSkin& searched_skin) const;
 
   /// Returns one search over all triangles of the given searches.
@@ -64,14 +65,14 @@ class SkinCrossings {
 
   struct Face {
     const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
-    /// from crossing_at_rest: whether each vertex belongs to an intersection that the shape did not
-    /// cause
+    /// for each vertex: whether the vertex belongs to an intersecting triangle of the face at rest,
+    /// see crossing_at_rest
     const std::vector<bool>& crosses_at_rest;
     const RigidMotion& face_motion;  ///< motion from the template to the face
   };
   /// Returns the number of intersecting triangles in a shape of a face.
   ///
-  /// \param mesh  The face at rest; modified during the call and restored.
+  /// \param mesh  Equal to `face.rest`; modified during the call and restored.
   Index count_intersecting(const Face& face, const SearchedSkin& searched_skin,
                            const Displacements& shape, Positions& mesh) const;
 
@@ -80,7 +81,7 @@ class SkinCrossings {
   /// over skin that is close together at rest, so that the skin keeps its front-to-back order.
   /// Eyelids are pushed apart, or get the front-to-back order of the template's lids.
   ///
-  /// \param mesh   The face at rest; modified during the call and restored.
+  /// \param mesh   Equal to `face.rest`; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
   /// \param extra_cost  Cost of displacements in addition to intersections, in units of one
   ///                    intersecting triangle. The round with the lowest total cost is kept.

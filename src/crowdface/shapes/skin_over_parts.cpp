@@ -31,7 +31,8 @@ constexpr double kFrontCell = 0.0025;
 // skin is pushed only if its distance from the vertex is less than this fraction of the wanted
 // depth
 constexpr double kTooNear = 0.25;
-// smallest cosine between the skin's normal and the front; excludes the rims of the lips
+// Only skin that faces the front covers vertices: smallest cosine between the skin's normal and the
+// head's front axis. Excludes the rims of the lips.
 constexpr double kFacesFront = 0.5;
 /// On a face, the triangle in front of a vertex may differ from the template's covering triangle.
 /// Candidates are the covering triangle and several rings of triangles around it. The number of

@@ -30,6 +30,7 @@ class SmoothedVectors {
     std::uint32_t index;  ///< identifies the sample in the result
     Eigen::Vector3d position, value;
   };
+  /// The vector to add to a sample's value.
   struct Change {
     std::uint32_t index;
     Eigen::Vector3d displacement;
@@ -40,6 +41,7 @@ class SmoothedVectors {
   std::vector<Change> changes(std::span<const Sample> samples) const;
 
  private:
+  /// Returns whether a centre may be nearer than `reach`; a fast conservative test.
   bool may_reach(const Eigen::Vector3d& position, double reach) const;
   double distance_to_centre(const Eigen::Vector3d& position) const;
 

@@ -12,13 +12,13 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. kMeetingReach: skin that is at most
-// this far apart in the template's shape may touch on a narrower face.
+// Lengths are fractions of the skin's extent, about 430 mm. Skin at two vertices may touch on a
+// face only if their distance, on the template with the shape applied, is at most the larger of two
+// limits: kMeetingReach, and kMeetingReachEdges times the longest edge at the vertex.
 constexpr double kMeetingReach = 0.02;
-constexpr double kMeetingReachEdges = 1.6;  // the same limit in edge lengths
-/// Skin at two vertices may touch if the distance between the vertices in the shape is at most
-/// kOfMove · a + kOfDifference · b. Here a is the length of the larger displacement, and b is the
-/// length of the difference of both displacements.
+constexpr double kMeetingReachEdges = 1.6;
+/// The distance must also be at most kOfMove · a + kOfDifference · b. Here a is the length of the
+/// larger displacement, and b is the length of the difference between both displacements.
 constexpr double kOfMove = 4, kOfDifference = 10;
 // the skin folds at an edge if the displacements of the edge's ends differ by more than this
 // fraction of the edge's length

@@ -12,9 +12,9 @@ namespace crowdface {
 namespace {
 
 /// kTileRows is the number of rows per tile. kStepsPerTurn is the number of recurrence steps per
-/// round; after each round, tiles exchange the rows at their borders. Measurements determined both
-/// values: a tile's two vectors and its part of the sums stay in a core's own cache
-/// (docs/benchmarks.md).
+/// round; after each round, tiles exchange the rows at their borders. Both values come from
+/// measurements (docs/benchmarks.md). With these values, a tile's two vectors and its part of the
+/// sums fit into the cache of one core.
 constexpr Index kTileRows = 6144;
 constexpr int kStepsPerTurn = 8;
 
@@ -128,8 +128,8 @@ class Recurrence {
   Index terms_ = 1;
 };
 
-/// Knows which probes (vertices to record) lie in each tile, and copies the terms T_k(W) x at the
-/// probes.
+/// Stores which probes (vertices to record) lie in each tile, and copies the terms T_k(W) x at the
+/// probes into RecordedTerms.
 class ProbeRows {
  public:
   ProbeRows(const Tiling& tiling, RecordedTerms& probes)

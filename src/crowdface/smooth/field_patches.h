@@ -93,11 +93,12 @@ class FieldPatches {
   const PatchArrays& arrays() const { return arrays_; }
 
  private:
+  /// The number of fields of a patch, and where the patch's data begins in the lists of `arrays_`.
   struct Patch {
     std::size_t field_count, first_field, first_value, first_weight;
   };
   PatchArrays arrays_;
-  std::size_t heads_ = 0;
+  std::size_t heads_ = 0;  ///< number of heads
   std::vector<Patch> patches_;
 };
 

@@ -195,7 +195,7 @@ class TileFitter {
   double tolerance_;
   std::vector<float> functions_;  ///< #levels by #directions
   std::vector<double> peaks_;     ///< largest |φ_p| over the tested levels
-  std::vector<float> combining_;
+  std::vector<float> combining_;  ///< #nodes by #directions: field_coefficients
 };
 
 /// The exact displacements at the probes, #levels by 3·#probes.

@@ -60,8 +60,8 @@ struct QuantizedTiles {
   void add(std::span<const float> values, std::size_t count);
 };
 
-/// The smallest power of two that can be the quantization step, so that the quantized values fit
-/// into 16 bits. Zero if all values are below 10⁻³⁰ in magnitude.
+/// The smallest power of two for which all values, divided by it and rounded, fit into 16 bits.
+/// Zero if all values are below 10⁻³⁰ in magnitude.
 float quantization_step(std::span<const float> values);
 
 /// Quantizes values to 16 bits.

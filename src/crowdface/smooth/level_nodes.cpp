@@ -26,9 +26,9 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// The levels that may become nodes. For a small max_level these are all levels. Otherwise they are
-/// levels that are dense near 0, together with the successor of each level, so that even and odd
-/// levels occur.
+/// The levels that may become nodes. If max_level is small, these are all levels. Otherwise they
+/// are the levels up to 64, and further levels that are dense near 0, each with its successor, so
+/// that even and odd levels occur.
 std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
   constexpr std::uint64_t kAll = 1024;
   constexpr int kSteps = 768;

@@ -35,11 +35,12 @@ class LevelNodes {
 
  private:
   using Spectrum = std::vector<double>;  ///< values of a function of λ at the grid points
+  /// The displacement λ^L − 1 after L = `level` iterations, times the grid point's weight.
   Spectrum displacement(std::uint64_t level) const;
   void choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual);
 
   std::uint64_t max_level_;
-  std::vector<double> eigenvalues_, grid_weights_;
+  std::vector<double> eigenvalues_, grid_weights_;  ///< λ at each grid point, and its weight
   std::vector<std::uint64_t> levels_;
   /// Gram-Schmidt basis of the nodes' displacements. Element q belongs to the node that was chosen
   /// as number q. Element q is the component of this node's displacement that is orthogonal to

@@ -76,9 +76,10 @@ Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
 PrincipalDirections weighted_directions(const TestedLevels& tested,
                                         const Eigen::VectorXd& importance,
                                         const Eigen::MatrixXd& moments) {
-  // Let Q·T be the QR factorization of the weighted functions, and C the displacements at the
-  // nodes. With Z = T·C the trajectories are Q·Z. Their principal directions are the eigenvectors U
-  // of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and Q·Z = (Q·U)·(Uᵀ·T·C).
+  // Let Q·T be the QR factorization of the node weights at the tested levels, scaled by
+  // `importance`. Let C be the displacements at the nodes. With Z = T·C the trajectories are Q·Z.
+  // Their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and
+  // Q·Z = (Q·U)·(Uᵀ·T·C).
   const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.node_weights);
   const Eigen::MatrixXd u =
       symmetric_eigen(product(product(t, moments), t.transpose())).eigenvectors;

@@ -14,6 +14,7 @@ enum class Boundary {
   kFree,   ///< boundary vertices are averaged like all other vertices
 };
 
+/// The linear map that one smoothing iteration applies.
 enum class OperatorKind {
   kUmbrella,  ///< W replaces each vertex by the mean of its edge-neighbours (Eq. 1)
   kLazy,      ///< (x + W x)/2, which removes checkerboard modes on quad meshes

@@ -15,8 +15,8 @@ struct alignas(4 * sizeof(T)) Row {
   T value[4];
 };
 
-/// An array of rows with uninitialised memory. As a result, the thread that computes a row is the
-/// first to touch the row's memory page.
+/// An array of rows with uninitialised memory. The first access to each memory page is therefore by
+/// the thread that computes the rows in this page.
 template <class T>
 class RowArray {
  public:

@@ -8,12 +8,12 @@
 
 namespace crowdface {
 
-/// The input of paint_picture for one texture image of one face: at each vertex that the image
-/// covers, a base value per channel and a factor for each head's map. Values are interpolated
-/// linearly within triangles.
+/// The input of paint_picture for one texture image of one face. Each vertex in the image has a
+/// base value per channel, and a factor by which the map of each head is multiplied. Base values
+/// and factors are interpolated linearly within triangles.
 struct PictureFields {
   std::size_t channels = 3;
-  std::vector<std::size_t> heads;  ///< heads with a non-zero factor, ascending
+  std::vector<std::size_t> heads;  ///< heads whose maps contribute to the image, ascending
   /// for each vertex: a base value per channel, then a factor per head
   std::vector<float> values;
   std::size_t values_per_vertex() const { return channels + heads.size(); }

@@ -39,9 +39,10 @@ Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
   return numbers;
 }
 
-/// Calls `put(vertex, sample)` for every step-th covered texel of every step-th row, with the
-/// nearest vertex of the covering triangle. Then samples, for each vertex without a sample, one
-/// texel of an adjacent triangle, if there is one.
+/// Samples every covered texel whose row and column are multiples of `step`. Then, for each vertex
+/// without a sample, samples one texel of an adjacent triangle, if such a texel is covered.
+/// \param put  put(vertex, sample): receives each sample, with the nearest vertex of the covering
+///             triangle or with the vertex that had no sample.
 template <class Put>
 void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_t vertex_count,
                      const Put& put) {
@@ -159,14 +160,14 @@ Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, s
   return {mean[0], mean[1], mean[2], 1};
 }
 
-/// For each vertex and each pair of heads, computes the mean product of both heads' details, not
-/// yet smoothed; NaN where one of the heads has no map.
+/// For each vertex and each pair of heads, computes the mean product of both heads' details,
+/// without smoothing. The result is NaN at vertices where one of the two heads has no map.
 void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& maps,
                       SurfaceStatistics& statistics) {
   const std::size_t heads = statistics.coarse_values.size(), pairs = statistics.pair_count;
   parallel_blocks(static_cast<Index>(samples.group_count()), kBlock, [&](Index begin, Index end) {
-    // For each head: the differences between the map and `coarse_values` in three channels, and 1
-    // if the head has a map.
+    // Four values for each head: the differences between the map and `coarse_values` in three
+    // channels, then 1 if the head has a map and 0 otherwise.
     std::array<std::vector<float>, 4> detail;
     detail.fill(std::vector<float>(heads));
     std::vector<float> sums(pairs), counts(pairs);
@@ -203,9 +204,9 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
   });
 }
 
-/// Divides the pairs of heads into groups of one to three consecutive pairs. The products of the
-/// pairs in a group are known at the same vertices, so that they can be smoothed as one row: for
-/// each texture image, either all pairs of the group have the maps of both heads, or no pair has.
+/// Divides the pairs of heads into groups of one to three consecutive pairs, so that the products
+/// of a group can be smoothed as one row. All pairs of a group have products at the same vertices:
+/// for each texture image, either every pair of the group has the maps of both heads, or none has.
 /// \return for each group: the index of its first pair, and the index after its last pair.
 std::vector<std::pair<std::size_t, std::size_t>> group_pairs(const HeadMaps& maps) {
   std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map

@@ -26,7 +26,7 @@ struct SurfaceStatistics {
     return a < b ? pair_index(b, a) : a * (a + 1) / 2 + b;
   }
 
-  std::size_t pair_count = 0;      ///< unordered pairs of heads, with the pairs (a, a)
+  std::size_t pair_count = 0;  ///< number of unordered pairs of heads, including the pairs (a, a)
   std::vector<float> covariances;  ///< #V by #pairs
 };
 

@@ -37,7 +37,7 @@ HeadWeights mean_of(const HeadWeights& a, const HeadWeights& b) {
   return mean;
 }
 
-/// The weights W of TextureBlender: half the target's weights plus half the area-weighted mean of
+/// The weights W_h of TextureBlender: half the target's weights plus half the area-weighted mean of
 /// the regions' weights.
 HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWeights>& regions,
                              const std::vector<double>& region_area_fractions) {
@@ -70,8 +70,8 @@ HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> ch
 /// The heads' weights in one texture image of one face.
 struct FaceWeights {
   HeadWeights of_target;               ///< for vertices that get only the target's colour
-  HeadWeights of_face;                 ///< W of TextureBlender
-  std::vector<HeadWeights> of_region;  ///< v_h at vertices of one region only
+  HeadWeights of_face;                 ///< the weights W_h of TextureBlender
+  std::vector<HeadWeights> of_region;  ///< for each region: v_h at vertices of this region alone
 };
 
 FaceWeights face_weights(const Recipe& recipe,
@@ -89,8 +89,9 @@ FaceWeights face_weights(const Recipe& recipe,
   return weights;
 }
 
-/// The gain g of TextureBlender, which restores the contrast of blended detail. It is limited to
-/// the range from 1 to 1/√(Σ v_h²), where v_h are the `weights`.
+/// The gain g of TextureBlender, which restores the contrast of blended detail. The gain is limited
+/// to the range from 1 to 1/√(Σ v_h²).
+/// \param weights  v_h for each of the `heads`.
 double gain_at(const SurfaceStatistics& statistics, std::size_t vertex,
                const std::vector<std::size_t>& heads, const std::vector<double>& weights) {
   double wanted = 0, left = 0, squares = 0;
@@ -139,7 +140,7 @@ std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_
   std::vector<std::vector<double>> weights;
   if (!recipe.colours.empty()) return {recipe.regions.size(), of_target};
   for (const RegionRecipe& region : recipe.regions) {
-    // The colour weights of a region are those of its finest wavelength band.
+    // A region without its own colour weights has the weights of its finest band.
     const BandRecipe& finest = band_of(region, band_count(region) - 1);
     std::vector<double> of_region(heads, 0.0);
     double sum = 0;
@@ -209,7 +210,7 @@ PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& 
   PictureFields fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
-    // Keep the head only if it has a positive weight at one vertex or more.
+    // Keep the head only if its weight is positive in at least one region or in the target colours.
     double most = options_.uses_target_colours_only.empty() ? 0.0 : weights.of_target[h];
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
     if (most > 0) fields.heads.push_back(h);

@@ -28,15 +28,15 @@ struct TextureBlendOptions {
 ///
 ///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
 ///
-/// - W_h, the weight of the coarse part, is the same at all points of a face. It is the mean of two
-///   weights of head h: its weight in the target's colours, and the area-weighted mean of its
-///   weights in all regions (see colour_weights).
-/// - v_h, the weight of the detail, varies over the face. It is the mean of W_h and the weight of
+/// - W_h, the weight of the coarse part, is the same at all points of a face. W_h is the mean of
+///   two weights of head h: the head's weight in the target's colours, and the area-weighted mean
+///   of the head's weights in all regions (see colour_weights).
+/// - v_h, the weight of the detail, varies over the face. v_h is the mean of W_h and the weight of
 ///   head h in the region at the point.
 /// - The gain g restores the contrast of detail that averaging removes:
-///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. g is 1 if the details of
-///   the heads agree and at most 1/√Σ v_h², the value for uncorrelated details (after Heitz &
-///   Neyret 2018).
+///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. If the details of all
+///   heads agree, g is 1. The largest value of g is 1/√Σ v_h², the gain for uncorrelated details
+///   (after Heitz & Neyret 2018).
 ///
 /// If a head has no texture, the weight of this head goes to the heads that have textures. Results
 /// are bit-identical on any number of threads.
@@ -84,17 +84,19 @@ class TextureBlender {
 std::vector<double> region_area_fractions(const RegionWeights& regions,
                                           const std::vector<double>& vertex_areas);
 
-/// Colour weights of the heads, #heads, each list summing to one. The skin has the weights W of
-/// TextureBlender. Eyes and teeth have the heads' weights in the target's colours.
+/// Colour weights of the heads in one face. Each list has #heads weights, which sum to one. The
+/// weights for skin are the weights W_h of TextureBlender. The weights for eyes and teeth are the
+/// heads' weights in the target's colours.
 struct FaceColourWeights {
   std::vector<double> weights_for_skin, weights_for_eyes_and_teeth;
 };
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
                                       const std::vector<double>& region_area_fractions);
 
-/// Colour weights of the heads in each region: the recipe's colour weights, if the recipe has
-/// colour weights. Otherwise the weights of the region's finest band; if these sum to less than one
-/// (Normalization::kPrinted), the target gets the remaining weight.
+/// Colour weights of the heads in each region. If the recipe has colour weights, all regions have
+/// the recipe's colour weights. Otherwise, a region has its own colour weights or, without these,
+/// the weights of its finest band. If the weights sum to less than one (Normalization::kPrinted),
+/// the target gets the remaining weight.
 /// \return #regions by #heads, rows summing to one.
 std::vector<std::vector<double>> colour_weights(const Recipe& recipe, std::size_t heads);
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr Index kColouredPerBlock = 4096;
 
-/// Normalizes the weights over the heads that have colours; equal weights if all are zero.
+/// Normalizes the weights over the heads that have colours. If all these weights are zero, the
+/// heads with colours get equal weights.
 std::vector<double> normalized_over_coloured(std::vector<double> weights,
                                              const std::vector<ColourRows>& heads) {
   double sum = 0, count = 0;

@@ -13,7 +13,7 @@ namespace crowdface {
 std::vector<TrianglePair> near_pairs(const std::vector<Triangle>& triangles,
                                      const Positions& positions, double margin);
 
-/// Returns those of the given pairs whose two triangles intersect each other; see
+/// Returns the entries of `pairs` whose two triangles intersect each other; see
 /// triangles_intersect.
 std::vector<TrianglePair> intersecting_pairs(const std::vector<Triangle>& triangles,
                                              const Positions& positions,
@@ -21,8 +21,8 @@ std::vector<TrianglePair> intersecting_pairs(const std::vector<Triangle>& triang
 
 /// Counts the triangles of a face that take part in new intersections, which the target does not
 /// have. Where the target already intersects itself (for example at the corner of the mouth), the
-/// face's triangles next to this intersection may intersect too. Therefore a pair is ignored if
-/// each of its triangles shares a vertex with a triangle that intersects another triangle in the
+/// face's triangles next to this intersection may intersect too. Therefore a pair of triangles is
+/// ignored if both triangles share a vertex with triangles that intersect other triangles in the
 /// target.
 class NewIntersections {
  public:

@@ -179,8 +179,8 @@ HWY_EXPORT(met_boxes);
 HWY_EXPORT(overlapping_boxes);
 
 BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
-  // This number stands for 1/0. It is large but finite, so that its product with a distance of zero
-  // is not NaN.
+  // This number stands for 1/0: large but finite, so that the product with a distance of zero is
+  // not NaN.
   constexpr double kHuge = 1e300;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto axis = static_cast<Index>(c);

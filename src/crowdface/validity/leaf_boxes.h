@@ -11,7 +11,7 @@
 
 namespace crowdface {
 
-/// An axis-aligned box in single precision. Its coordinates are rounded outwards, so that it
+/// An axis-aligned box in single precision. The coordinates are rounded outwards, so that the box
 /// contains the exact box.
 struct Box {
   std::array<float, 3> low, high;

@@ -27,7 +27,7 @@ struct SkinDefects {
   /// any head at the same contact. SkinCheck does not set this value; callers that know the
   /// contacts set it.
   double gap_excess_mm = 0;
-  /// increase of the visible area of the skin's back faces, compared with the target
+  /// increase of the visible area of the skin's back side, compared with the target
   double exposed_back_face_mm2 = 0;
 };
 
@@ -42,12 +42,12 @@ class SkinCheck {
   SkinCheck(const Topology& topology, const Components& components, const std::vector<Head>& heads,
             const std::set<Index>& targets, ViewSetup view_setup);
 
-  /// Compares the positions of a face with one of the heads.
+  /// Compares a face with one of the heads.
   ///
   /// \param target  index of a head that was passed to the constructor as a target.
   SkinDefects compare(const Positions& positions, Index target) const;
-  /// Compares the positions of a face with the positions of any target, such as a mixture of heads.
-  /// Takes twice as long as a comparison with a target of the constructor.
+  /// Compares a face with any target, such as a mixture of heads. Takes twice as long as a
+  /// comparison with a target that was passed to the constructor.
   SkinDefects compare(const Positions& positions, const Positions& target) const;
 
   /// Returns the memory that this object uses, in bytes.
@@ -60,6 +60,7 @@ class SkinCheck {
   struct Target {
     TargetTriangles triangles;
     NewIntersections intersections;
+    /// visible area of the back side of the target's skin, in the square of the positions' unit
     double exposed_back_area;
   };
   Target prepared_target(const Positions& positions) const;

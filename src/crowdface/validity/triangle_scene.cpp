@@ -62,8 +62,10 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   }
 }
 
-/// Replaces a pair of nodes (at least one of which is not a leaf) by pairs of their children. Adds
-/// to `into` the pairs whose boxes overlap.
+/// Replaces the larger node of a pair by both children of this node or, if the pair consists of one
+/// node twice, both nodes by the children. Adds to `into` the resulting pairs whose boxes overlap.
+///
+/// \pre At least one node of the pair is not a leaf.
 void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) const {
   const TriangleTree::Node &a = tree_.nodes[pair.a], &b = tree_.nodes[pair.b];
   const auto add = [&](std::uint32_t first, std::uint32_t second) {
@@ -188,8 +190,8 @@ std::uint32_t TriangleScene::find_any_hit(const Eigen::Vector3d& origin,
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;
   const BoxRay box_ray(origin, direction);
-  // Size of the stack. It is sufficient for 2³² triangles, because each level of the tree halves
-  // the number of triangles in a node.
+  // Size of the stack; sufficient for 2³² triangles, because each level of the tree halves the
+  // number of triangles in a node.
   constexpr std::size_t kMaxStackDepth = 40;
   std::array<std::uint32_t, kMaxStackDepth> waiting;
   std::size_t count = 0;
@@ -199,8 +201,8 @@ std::uint32_t TriangleScene::find_any_hit(const Eigen::Vector3d& origin,
     if (!ray_hits_box(box_ray, boxes_[n])) continue;
     const TriangleTree::Node& node = tree_.nodes[n];
     if (!node.is_leaf()) {
-      // First visit the child that contains the guess. The guess blocked the previous ray, and
-      // triangles near it often block this ray too.
+      // First visit the child that contains the triangle `guess`, which blocked the previous ray.
+      // The triangles near `guess` often block this ray too.
       const bool right_first = guess != kNoIndex && guess >= tree_.nodes[node.second_child].begin;
       waiting[count++] = right_first ? n + 1 : node.second_child;
       waiting[count++] = right_first ? node.second_child : n + 1;

@@ -25,8 +25,8 @@ class TriangleScene {
                 const Positions& positions, double margin);
 
   /// Returns the pairs of triangles whose boxes overlap but which share no vertex, in ascending
-  /// order. The tree omits triangles at vertices with more than a thousand triangles, so the result
-  /// omits them too.
+  /// order. Omits triangles at vertices with more than a thousand triangles, because the tree omits
+  /// these triangles.
   std::vector<TrianglePair> near_pairs() const;
 
   /// Returns the pairs from near_pairs() whose triangles intersect, ascending.
@@ -57,15 +57,16 @@ class TriangleScene {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
-  /// Returns pairs of nodes. Any two leaves that overlap are descendants of the two nodes of one of
-  /// these pairs. Each pair of nodes can be processed as one parallel task.
+  /// Returns pairs of nodes, each of which is one parallel task. For any two leaves that overlap,
+  /// one of these pairs consists of an ancestor of the first leaf and an ancestor of the second
+  /// leaf.
   std::vector<NodePair> initial_node_pairs() const;
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
   template <class Keep>
   std::vector<TrianglePair> filtered_pairs(const Keep& keep) const;
-  /// Appends to `found` the pairs of overlapping triangles from two leaves, except triangles that
-  /// share a vertex.
+  /// Appends to `found` the pairs of triangles from two leaves whose boxes overlap, except pairs
+  /// that share a vertex.
   ///
   /// \param one, other  leaf numbers, equal or in ascending order
   /// \param keep        keep(pair): whether to append the pair

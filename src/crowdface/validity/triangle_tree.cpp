@@ -24,8 +24,9 @@ std::vector<bool> is_at_hub(const std::vector<Triangle>& triangles, Index vertex
   return left_out;
 }
 
-/// Builds the tree. Each triangle is represented by its centroid, shifted along the normal by
-/// `normal_offset`. All coordinates are multiplied by 3.
+/// Builds the tree from one point per triangle: the centroid, shifted along the triangle's normal
+/// by `normal_offset`. The coordinates of all points are multiplied by 3, because the sum of a
+/// triangle's corners is three times the centroid.
 MedianSplitTree split_triangles(const std::vector<Triangle>& triangles, const Positions& positions,
                                 double normal_offset) {
   const std::vector<bool> left_out = is_at_hub(triangles, positions.rows());

@@ -12,10 +12,10 @@
 
 namespace crowdface {
 
-/// A median split tree of the triangles of a mesh. It omits triangles at vertices with more than a
+/// A median split tree of the triangles of a mesh, without triangles at vertices with more than a
 /// thousand triangles. Build the tree once for each mesh topology: TriangleScene fits the boxes to
-/// any positions, and the boxes are small if the positions are similar to the positions from which
-/// the tree was built.
+/// any positions. The boxes are small if the positions are similar to the positions from which the
+/// tree was built.
 struct TriangleTree : MedianSplitTree {
   /// Number of triangles in a leaf; the last leaf may have fewer.
   static constexpr std::uint32_t kLeafSize = LeafBoxes::kMaxTriangles;

@@ -26,8 +26,8 @@ bool crosses_plane(const Corners& t, const Vector& normal, const Corners& other,
   return least < 0 && most > 0;
 }
 
-/// Returns the interval in which triangle `t` meets the intersection line of both triangles'
-/// planes. The interval is given by coordinates along `axis`.
+/// Returns the interval in which triangle `t` meets the line of intersection of both triangles'
+/// planes, as coordinates along `axis`.
 ///
 /// \param distance  signed distances of the corners of `t` from the other triangle's plane. At
 ///                  least one is positive and one negative.

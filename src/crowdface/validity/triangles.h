@@ -34,8 +34,8 @@ class TargetTriangles {
   std::uint64_t memory_bytes() const { return frames_.size() * sizeof(Frame); }
 
  private:
-  /// A triangle of the target, described in the plane of the triangle: in orthonormal coordinates,
-  /// its corners are (0, 0), (length, 0) and (apex_x, apex_y).
+  /// A triangle of the target, described by orthonormal coordinates in the triangle's plane: the
+  /// corners are (0, 0), (length, 0) and (apex_x, apex_y).
   struct Frame {
     Triangle corners;
     Eigen::Vector3d normal;  ///< the length of this vector is twice the triangle's area

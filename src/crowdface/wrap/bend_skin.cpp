@@ -230,7 +230,7 @@ class Bending {
   std::vector<double> visibility_weights_;
   std::vector<std::uint32_t> scan_points_;
   std::vector<std::uint32_t> found_on_scan_;  ///< per skin vertex: triangle found last
-  std::vector<SurfaceHit> found_on_skin_;     ///< #scan_points_
+  std::vector<SurfaceHit> found_on_skin_;     ///< per scan point: point found last
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;
   /// Only some scan vertices are sampled; each sampled point stands for this many scan vertices.

@@ -26,8 +26,10 @@ constexpr double kMinNormalCosine = 0.7;  // least cosine between the normals of
 constexpr double kMinDetailVisibility = 0.15;
 constexpr double kNoDataWeight = 1e-4;  ///< weight of a zero offset at vertices without scan data
 constexpr int kSteps = 30;
+/// Limits of even_out_folds: number of rounds, number of first rounds that do not shrink the
+/// offsets, and number of averaging sweeps in each round.
 constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
-constexpr double kKeptOffset = 0.98;  ///< factor of offsets in each sweep
+constexpr double kKeptOffset = 0.98;  ///< factor by which a later round shrinks offsets in a sweep
 /// Smallest allowed ratio of two areas of a triangle: the area after the move, projected onto the
 /// triangle's plane before the move, divided by the area before the move.
 constexpr double kMinAreaRatio = 0.05;
@@ -93,9 +95,9 @@ class SmoothFit {
   double stiffness_;
 };
 
-/// Target offset of each vertex along its normal.
+/// Target offsets of the skin's vertices along their normals.
 struct TargetOffsets {
-  Eigen::VectorXd weights, values;  ///< #skin
+  Eigen::VectorXd weights, values;  ///< one weight and one offset for each vertex of the skin
 };
 
 TargetOffsets ask_scan(const SkinMesh& skin, const Positions& positions, const Positions& normals,
@@ -199,8 +201,8 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest_positions, const
       }
     }
     std::ranges::sort(evened);
-    // Shrink the offsets a little in each sweep: in a crease the normals cross, so that even equal
-    // offsets produce folds.
+    // In later rounds, also shrink the offsets a little in each sweep. In a crease, the normals of
+    // neighbouring vertices cross, so that even equal offsets along the normals produce folds.
     const double kept = round < kEvenOnly ? 1 : kKeptOffset;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {

@@ -68,9 +68,9 @@ class Factors {
   using Rows = Eigen::Matrix<double, Eigen::Dynamic, 4, Eigen::RowMajor>;
   using Column = SparseMatrix::InnerIterator;
 
-  SparseMatrix lower_;  ///< strictly lower part; the diagonal is 1
+  SparseMatrix lower_;  ///< L without its diagonal, whose entries are 1
   Eigen::VectorXd inverse_;
-  Eigen::VectorXi place_;  ///< position of each row in the factors' order
+  Eigen::VectorXi place_;  ///< for each row of the matrix: the index of this row in L
 };
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace crowdface {
 /// ear.
 struct FaceFeature {
   std::string name;
-  std::vector<std::uint32_t> skin_vertices;  ///< rows of the skin, ascending
+  std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
 };
 
 /// Finds the facial features of a template from its landmarks. Omits a feature if one of the

@@ -19,7 +19,7 @@ Eigen::Matrix3d frame_of(const Eigen::Vector3d& up, const Eigen::Vector3d& front
   return frame;
 }
 
-/// The bounding box of the used positions, along the axes of a frame.
+/// The bounding box, along the axes of a frame, of the positions for which `used` is true.
 Eigen::AlignedBox3d extent_of(const Positions& positions, const std::vector<bool>& used,
                               const Eigen::Matrix3d& frame) {
   Eigen::AlignedBox3d extent;
@@ -42,8 +42,9 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest_positions, const H
   const ShapeFitOptions options{.search_radii_mm = {40, 30, 20, 12}, .steps_per_round = 4};
   ShapeFit best;
   best.median_distance_mm = 1e300;
-  // Take the scale from the ratio of the heads' widths, because scans end at different heights.
-  // Align the tops of the heads and the foremost points of the faces.
+  // Try several scales near the ratio of the heads' widths; the ratio of the heights is unknown,
+  // because scans end at different heights. For each scale, align the tops of the heads and the
+  // foremost points of the faces, with several vertical offsets.
   for (const double wider : {1.0, 0.85, 1.15}) {
     for (const double lower : kLower) {
       Similarity pose;

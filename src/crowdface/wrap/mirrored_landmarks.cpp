@@ -15,7 +15,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMinMm = 6;  ///< natural variation between people
+/// Residuals up to this length are natural differences between people.
+constexpr double kMinMm = 6;
 constexpr double kTimesWorse = 2.5;
 
 constexpr std::size_t kMinCount = 5;  ///< four points cannot reveal a reflection

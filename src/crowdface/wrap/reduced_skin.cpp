@@ -15,10 +15,10 @@ namespace crowdface {
 
 namespace {
 
-/// Finds the position of each vertex of the original skin on the reduced skin. Searches only the
-/// triangles around the reduced skin's vertex that is nearest along the surface, and around the
-/// neighbours of that vertex. The point that is nearest in space may be wrong, because lips touch
-/// and nostrils have thin walls.
+/// Finds the closest point of the reduced skin to each vertex of the original skin. First finds the
+/// vertex of the reduced skin that is nearest along the surface. Then searches only the triangles
+/// around this vertex and around its neighbours. The closest point in space may lie on another part
+/// of the skin, because lips touch and nostrils have thin walls.
 std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
                                                        const Positions& positions,
                                                        const SkinMesh& small) {

@@ -40,7 +40,7 @@ bool seen(const WrapTemplate& wrap_template, Index v) {
 }
 
 /// Distances to the scan, for all visible skin vertices that have scan data.
-/// \param regions, region  restrict the result to one region; null: the whole skin
+/// \param regions, region  the region of the vertices; if `regions` is null, the whole skin
 std::vector<double> seen_distances(const WrapTemplate& wrap_template, const WrapResult& result,
                                    const SkinRegions* regions = nullptr, std::size_t region = 0) {
   std::vector<double> distances;

@@ -100,7 +100,8 @@ class Equations {
 
   Eigen::MatrixXd matrix_;
   Eigen::VectorXd right_;
-  Eigen::MatrixXd rows_;  ///< #unknowns by kMaxRows
+  /// #unknowns by kMaxRows: each column is a row of the weighted Jacobian; `count_` columns are set
+  Eigen::MatrixXd rows_;
   Eigen::VectorXd values_;
   Index count_ = 0;
 };

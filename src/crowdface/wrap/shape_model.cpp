@@ -46,8 +46,8 @@ ShapeModel make_shape_model(const std::vector<Positions>& heads) {
   for (Index k = 0; k + 1 < count; ++k) {
     if (eigen.eigenvalues(k) <= kMinEigenvalue * eigen.eigenvalues(0)) break;
     Positions mode = Positions::Zero(model.mean.rows(), 3);
-    // For an eigenvector v with eigenvalue λ, Σ_i v_i difference_i has the length √λ. The standard
-    // deviation along this mode is √(λ / (count − 1)).
+    // For a unit eigenvector v of the Gram matrix with eigenvalue λ, Σ_i v_i differences_i has the
+    // length √λ. The standard deviation of the heads in this direction is √(λ / (count − 1)).
     for (Index i = 0; i < count; ++i) {
       mode += eigen.eigenvectors(i, k) * differences[static_cast<std::size_t>(i)];
     }

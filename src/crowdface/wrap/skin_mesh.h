@@ -15,7 +15,7 @@ inline constexpr double kVisibleSkinThreshold = 0.12, kUnfoldedSkinThreshold = 0
 
 /// The skin of a template as a separate mesh with its own vertex indices.
 struct SkinMesh {
-  std::vector<std::uint32_t> vertices;  ///< rows of the template, ascending
+  std::vector<std::uint32_t> vertices;  ///< vertex indices in the template, ascending
   std::vector<Triangle> triangles;      ///< indices into `vertices`
   Adjacency adjacency;                  ///< neighbours along edges
   /// #vertices, 0 … 1: see `vertex_ambient_visibility`

@@ -30,8 +30,8 @@ constexpr double kMirroredShare = 0.9;
 /// kOutlierFactor times the median of all landmarks' final distances.
 constexpr double kMinOutlierMm = 4, kOutlierFactor = 3.5;
 
-/// Converts landmarks from rows of the template to rows of the skin; drops landmarks outside the
-/// skin.
+/// Converts the landmarks' vertex indices in the template to vertex indices in the skin. Drops
+/// landmarks outside the skin.
 std::vector<WrapLandmark> landmarks_on_skin(const SkinMesh& skin,
                                             const std::vector<WrapLandmark>& landmarks) {
   std::vector<WrapLandmark> result;

@@ -32,7 +32,7 @@ struct LandmarkResidual {
 struct FeatureCheck {
   std::string name;
   ReliefCorrelation correlation;
-  std::vector<std::uint32_t> skin_vertices;  ///< rows of the skin, ascending
+  std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
 };
 
 struct WrapResult {

@@ -58,8 +58,9 @@ std::vector<std::string> read_target_names(const std::filesystem::path& file) {
   return names;
 }
 
-/// Keeps the vertices and texture coordinates that the polygons use.
-/// \return the kept vertices' rows in the file.
+/// Copies to `mesh` the vertices and texture coordinates that its polygons use, and renumbers its
+/// polygons.
+/// \return for each vertex of `mesh`: its row in `all.positions`
 std::vector<std::uint32_t> keep_used_rows(const ThreeMesh& all, Mesh& mesh) {
   std::vector<std::uint32_t> rows = renumber(mesh.topology.corner_vertices, all.positions.rows());
   mesh.topology.vertex_count = static_cast<Index>(rows.size());

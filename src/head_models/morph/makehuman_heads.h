@@ -15,9 +15,9 @@ namespace crowdface {
 /// Skin and eyeballs of head and neck of the MakeHuman base mesh, cut from the body along an edge
 /// loop of the mesh. The rest of the file (joints, helpers for clothes, lashes, teeth) is left out.
 struct MakeHumanMesh {
-  /// all vertices of the file, decimetres; morph targets use their indices
+  /// all vertices of the file, in decimetres; morph targets use the row indices of this matrix
   Positions file_positions;
-  Mesh head;                             ///< decimetres, as in the file
+  Mesh head;                             ///< skin and eyeballs above the cut, decimetres
   Mesh body;                             ///< the skin below the cut, decimetres
   std::vector<std::uint32_t> head_rows;  ///< row of each head vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
@@ -54,8 +54,9 @@ class MakeHumanHeads : public HeadModel {
   /// Fits a mesh to the average head and returns its vertices in the coordinate frame of the heads.
   Positions fitted_to_neutral(const FittedMesh& mesh) const;
 
-  /// Returns the average body below the heads. The vertices of its open rim coincide with the
-  /// vertices of the neutral head's rim. Its texture coordinates refer to the heads' skin texture.
+  /// Returns the average body below the heads. The vertices of the body's open rim coincide with
+  /// the vertices of the neutral head's rim. The body's texture coordinates refer to the heads'
+  /// skin texture.
   Mesh body() const;
 
   const Mesh& neutral() const override { return neutral_; }

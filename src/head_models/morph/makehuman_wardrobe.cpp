@@ -110,10 +110,10 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 struct Wearable {
   std::string_view folder, kind, tags;
   double share = 1;
-  bool young = false;  ///< true: the attachment is not for old people
+  bool young = false;  ///< whether old people never wear the attachment
 };
-// The tags "male" and "female" of hair come from the package; for brows they are assigned by the
-// thickness of the brows.
+// For hair, the tags "male" and "female" come from the package. For brows, the thickness of the
+// brows determines these tags.
 constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "male"},
                                                      {"eyebrow002", "brow", "female"},
                                                      {"eyebrow003", "brow", "male"},

@@ -40,7 +40,7 @@ std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t s
 struct MakeHumanParts {
   std::vector<FittedPart> fitted_parts;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
   std::vector<FittedMesh::Picture> eye_colours;
-  std::filesystem::path lashes, teeth, tongue;  ///< textures
+  std::filesystem::path lashes, teeth, tongue;  ///< texture of each part
   AssetLicence eyes_licence, lashes_licence, teeth_licence, tongue_licence;
 };
 
@@ -57,7 +57,7 @@ struct MakeHumanAttachment {
   std::string name, kind;
   std::filesystem::path file;        ///< path in the package
   std::vector<std::string> tags;     ///< tags that a head needs to wear the attachment
-  bool excludes_old_people = false;  ///< true: the attachment is not for old people
+  bool excludes_old_people = false;  ///< whether old people never wear the attachment
   double relative_frequency = 1;     ///< relative frequency among attachments of the same kind
 };
 

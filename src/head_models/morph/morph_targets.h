@@ -30,7 +30,7 @@ class MorphTargets {
                Index vertex_count);
 
   /// Adds the weighted displacements of the given vertices to `positions`.
-  /// \param rows       the vertices: rows of the target.
+  /// \param rows       the given vertices, as row indices of the target.
   /// \param positions  #rows by 3.
   /// \throws InvalidInput if the target does not exist.
   void add_displacements(const TargetWeight& target, std::span<const std::uint32_t> rows,

@@ -48,7 +48,7 @@ const Section kBack = {{{5.2, 0},
                         {12.3, -23.5},
                         {11.6, -28.0}}};
 
-const Vector3d kAxis(0, -16.4, -3.1);  ///< middle of the rim of the average head
+const Vector3d kAxis(0, -16.4, -3.1);  ///< centre of the lower rim of the average head's neck, cm
 
 // The texture shows the bust as a ring: kInner is the radius of the upper rim, kOuter the radius of
 // the lower edge, in texture coordinates.

@@ -97,7 +97,7 @@ class Grower {
       const double falls = held * smooth_step(0.5, 5, grown);
       const double hangs = falls * smooth_step(1, -3, p.y());
       const double combed = (0.95 - 0.7 * falls) * (1 - hangs);
-      // A lock that hangs loses its sideways motion; otherwise single locks stand off the others.
+      // Make hanging locks less sideways; otherwise single locks would stick out.
       direction.x() *= 1 - 0.6 * hangs;
       direction += combed * combing_direction(cut_, p) + 0.75 * falls * Vector3d(0, -1, 0);
       Vector3d next = p + step * direction.normalized();

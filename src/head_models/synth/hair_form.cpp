@@ -35,7 +35,8 @@ double triangle_wave(double x) {
 double across_hair(const HairCut& cut, const Vector3d& p) {
   if (cut.backward_combing >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));
-  // On the forehead, the hairline runs from side to side, and hair is combed at right angles to it.
+  // On the forehead, the hairline runs from side to side. Hair is combed at right angles to the
+  // hairline.
   const double ahead = smooth_step(1, 4, p.z()), x = std::abs(p.x());
   return (1 - ahead) * p.z() + (ahead - smooth_step(-3, -7, p.z())) * x;
 }

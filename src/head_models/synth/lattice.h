@@ -26,13 +26,14 @@ struct Address {
   double b = 0;
 };
 
-/// Size of the lattice of strip and cap; columns go from the midline of the face to the midline of
-/// the back.
+/// Number of columns and rows of the lattice on one half of the head. Columns go from the midline
+/// of the face to the midline of the back. Distances on the lattice are in units; one unit is about
+/// one quad of the smallest layout.
 inline constexpr int kColumns = 14, kRows = 12;
-inline constexpr int kFrontColumn = 5;  ///< between front and side: front corners of the cap
-inline constexpr int kBackColumn = 8;   ///< between side and back: rear corners of the cap
+inline constexpr int kFrontColumn = 5;  ///< column of the front corner of the cap
+inline constexpr int kBackColumn = 8;   ///< column of the rear corner of the cap
 
-/// Returns the distance, in units, from the midline to a lattice column.
+/// Returns the distance, in units, from the midline of the face to a lattice column.
 /// \param column  −13 … 13, negative at x < 0.
 double column_distance(int column);
 /// Returns the distance, in units, from the cap to a lattice row.
@@ -42,10 +43,12 @@ double row_distance(int row);
 /// A rectangle of the lattice that is cut out of the strip: an eye, an ear, a nostril or the mouth.
 struct Opening {
   SkinPatch patch;
-  int column0, column1, row0, row1;  ///< bounds at x > 0; for the mouth column0 = −column1
+  /// first and last lattice column and row, at x > 0; for the mouth column0 = −column1
+  int column0, column1, row0, row1;
 };
-/// Returns the opening in which this patch lies. The patch must not be the strip or the cap.
+/// Returns the opening that a patch fills. The patch must not be the strip or the cap.
 const Opening& opening_of(SkinPatch patch);
+/// Returns the openings at x > 0, and the mouth.
 std::span<const Opening> openings();
 
 }  // namespace crowdface::synth

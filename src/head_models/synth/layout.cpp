@@ -161,7 +161,8 @@ class Sewing {
     }
   }
 
-  /// A mesh vertex on the outline of an opening: its ring coordinate a, and its column and row.
+  /// A mesh vertex on the outline of an opening, with its ring coordinate Address::a, its mesh
+  /// column i and its mesh row j.
   struct Stitch {
     Corner corner;
     double a;
@@ -180,8 +181,8 @@ class Sewing {
     return 4 - x;
   }
 
-  /// Returns the opening's outline, counter-clockwise from its upper left corner, seen from
-  /// outside.
+  /// Returns the outline of an opening, counter-clockwise from the opening's upper left corner,
+  /// seen from outside the head.
   std::vector<Stitch> outline(const Span& s, int side) {
     std::vector<Stitch> out;
     const auto put = [&](int i, int j) {

@@ -19,8 +19,8 @@ class LooseParts {
   explicit LooseParts(double edge_cm);
 
   /// Appends the polygons and texture coordinates of the parts to the polygons and texture
-  /// coordinates of the skin. The appended coordinates lie in the texture areas of the eyeballs
-  /// (unwrap_eyeball) and of the mouth's hole (unwrap_hole).
+  /// coordinates of the skin. Eyeballs get the texture areas of unwrap_eyeball. Teeth get the hole
+  /// that the mouth leaves in the texture (unwrap_hole).
   void append_to(Topology& topology, TextureCoordinates& uvs) const;
   Index vertex_count() const { return static_cast<Index>(points_.size()); }
   Index face_count() const { return static_cast<Index>(corners_.size() / 4); }

@@ -25,8 +25,8 @@ GuideRay eye_edge(const Vector2d& c) {
   const double x = 1.52 * c.x() - 0.1 * s;
   const double y = (c.y() > 0 ? 0.53 : 0.47) * s + 0.07 * c.x() - 0.03;
   const double z = std::sqrt(std::max(0.0, kEyeRadius * kEyeRadius - x * x - y * y));
-  // At the corners, the skin lies in front of the eyeball. A ray from the centre of the eyeball
-  // would move away from (x, y) before it meets this skin. So the ray is almost parallel to z.
+  // The ray is almost parallel to z. At the corners of the eye, the skin lies in front of the
+  // eyeball, and a ray from the eyeball's centre would meet this skin far from (x, y).
   return {eye_centre() + 0.95 * Vector3d(x, y, 0), eye_centre() + Vector3d(x, y, z + 0.12)};
 }
 
@@ -61,7 +61,7 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector2d rim(foot.x() - eye_centre().x(), foot.y());
   const Vector2d flat = rim + t * (0.26 * c - rim);
   const double r2 = kEyeRadius * kEyeRadius;
-  // The iris is a shallow dish, as in sculpture.
+  // The iris is a shallow dish, as sculptors carve it.
   const double dish = 0.10 * smooth_step(0.62, 0.42, flat.norm());
   return eye_centre() +
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);

@@ -20,7 +20,7 @@ struct LocalDisplacement {
 /// N(0, 1).
 struct Measure {
   std::string_view name;
-  double maleness_effect, age_effect, build_effect;  ///< coefficients of the average
+  double maleness_effect, age_effect, build_effect;  ///< coefficients of the mean, see above
   double spread;                                     ///< standard deviation of the random part
   LocalDisplacement displacement;                    ///< displacement for a value of 1
 };

@@ -24,8 +24,8 @@ struct Fold {
   std::string_view name;
   Vector2d start, control, end;
   double width, depth;  ///< cm
-  double base, aged,
-      spread;          ///< factor of depth at age 40, its change per 20 years, std. deviation
+  /// factor on the depth: mean at age 40, change of the mean per 20 years, standard deviation
+  double base, aged, spread;
   double bulge;        ///< height of a ridge left of the curve, relative to the depth
   bool paired = true;  ///< whether the fold is mirrored to x < 0
   /// Amplitude of the irregular waves of a wrinkle's curve, cm; 0 if the fold is not a wrinkle.

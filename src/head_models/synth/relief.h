@@ -36,10 +36,12 @@ class Relief {
     /// a coordinate in the noise fields, different for each curve, so that curves are independent
     double noise_coordinate = 0;
     /// The curve has gaps where `fold_gap_noise_` is low. Along the curve, this noise is sampled
-    /// from (0, noise_coordinate, 0) to (gap_noise_length, noise_coordinate, 0). 0: no gaps.
+    /// from (0, noise_coordinate, 0) to (gap_noise_length, noise_coordinate, 0). If
+    /// gap_noise_length is 0, the curve has no gaps.
     double gap_noise_length = 0;
-    Eigen::AlignedBox2d affected_box;  ///< bounding box of the curve's effect
+    Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
   };
+  /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
   double grain(const Eigen::Vector3d& position) const;
   double stroke_height(const Stroke& stroke, const Eigen::Vector2d& place) const;
   void add_stroke(std::size_t fold_index, double side, double depth);

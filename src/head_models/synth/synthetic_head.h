@@ -19,7 +19,7 @@ namespace crowdface {
 class SyntheticHeads {
  public:
   enum class Parts {
-    kSkin,          ///< the skin includes the fronts of the eyes, as in sculpture
+    kSkin,          ///< one surface: the skin continues over the fronts of the eyeballs
     kEyesAndTeeth,  ///< two eyeballs and two rows of teeth are separate components
   };
   enum class Scalp {

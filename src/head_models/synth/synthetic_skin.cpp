@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// Opacity of painted hair roots below hair cards. A higher opacity would be visible on the bald
-/// crowns of faces that are blended from heads with hair.
+/// Opacity of painted hair roots below hair cards. If a face has a bald crown, but its texture is
+/// blended from heads with hair, more opaque roots would be visible on the crown.
 constexpr double kRoots = 0.3;
 
 /// Writes a colour as three bytes.

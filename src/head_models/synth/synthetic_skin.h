@@ -36,7 +36,7 @@ class SyntheticSkins {
 
  private:
   int size_;
-  double scalp_hair_;  ///< see SkinPaint
+  double scalp_hair_;  ///< parameter `scalp_hair` of SkinPaint
   std::vector<synth::AtlasTexel> atlas_;
   double texel_cm_ = 0;
 };

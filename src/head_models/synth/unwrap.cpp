@@ -7,8 +7,8 @@
 namespace crowdface::synth {
 namespace {
 
-// Widths and heights of the lattice intervals in the texture, about their size in cm on the head;
-// the face is slightly enlarged.
+// Widths and heights that the lattice intervals have in the texture. The unit is about 1 cm on the
+// head; the face is slightly enlarged.
 constexpr std::array<double, kColumns - 1> kWidths = {0.5, 1.3, 1.9, 2.2, 1.9, 2.4, 3.6,
                                                       2.4, 1.9, 1.9, 1.9, 1.3, 0.8};
 constexpr std::array<double, kRows - 1> kHeights = {3.6, 3.0, 4.4, 2.0, 1.8, 1.2,
@@ -39,7 +39,7 @@ double down(double unit) {
 double half_width() {
   return across(column_distance(kColumns - 1));
 }
-/// Height of the texture's part below the cap, in the unit of kHeights.
+/// Height of the strip in the texture, in the unit of kHeights. The strip lies below the cap.
 double strip_height() {
   return down(row_distance(kRows - 1));
 }
