@@ -9,21 +9,20 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/smooth_step.h"
 #include "crowdface/core/text.h"
+#include "crowdface/parts/point_grid.h"
 
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the height of the eyes above the mouth, about 65 mm. The upper border
-// runs under the brows, the lower border between nose and lips. The transition between two bands
-// extends by kSoft above and below their border, so that the transition is about four
-// centimetres wide. Adjacent bands come from different people, whose surfaces are often a
-// centimetre apart, so a narrower transition would be visible as a ridge.
+// Lengths are fractions of the height of the eyes above the mouth, about 65 mm. The upper border runs under the brows,
+// the lower border between nose and lips. The transition between two regions extends by kSoft to
+// both sides of their border, so that the transition is about four centimetres wide. Adjacent
+// regions come from different people, whose surfaces are often a centimetre apart. A narrower
+// transition would therefore be visible as a ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
-// Fractions of the height of the eyes above the mouth. kAroundEar, kBelowEar and kFrontOfEar: the
-// distances by which the ear regions extend beyond the ears. kBelowChin: how far below the chin the
-// neck begins. kEarSoft and kNeckSoft: half the width of the soft borders.
-constexpr double kAroundEar = 0.12, kBelowEar = 0.2, kFrontOfEar = 0.08, kEarSoft = 0.12,
-                 kBelowChin = 0.12, kNeckSoft = 0.12;
+// How far from an ear the transition to the other regions begins, how far below the chin the border
+// of the neck lies, and how long a neck must be. Fractions as above.
+constexpr double kAroundEar = 0.1, kBelowChin = 0.3, kMinNeck = 0.24;
 
 // Fractions of the height of the eyes above the mouth. The search range for ears extends from
 // kBelow below the mouth to kAbove above the eyes. kMinEar is the
@@ -33,17 +32,6 @@ constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
 /// this fraction of its maximum protrusion.
 constexpr double kMinProtrusionFraction = 0.4;
 constexpr int kBins = 96;
-
-/// Weight of the ear region at a point, 0 … 1.
-double ear_share(const EarBox& ears, double face, double side, double height, double front) {
-  const double around = kAroundEar * face, soft = kEarSoft * face;
-  const auto inside = [&](double from, double to, double x) {
-    return smooth_step(from - soft, from + soft, x) * smooth_step(to + soft, to - soft, x);
-  };
-  return inside(ears.bottom - kBelowEar * face, ears.top + around, height) *
-         inside(ears.back - around, ears.front + kFrontOfEar * face, front) *
-         smooth_step(ears.inner - 2 * around, ears.inner, side);
-}
 
 /// The border below which the neck begins. Its height is interpolated between a point below the
 /// chin and a point below the ears.
@@ -58,8 +46,8 @@ struct NeckBorder {
 
 }  // namespace
 
-std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
-                                const FaceMarks& marks) {
+std::optional<Ears> find_ears(const Topology& topology, const HeadShape& head,
+                              const FaceMarks& marks) {
   const HeadAxes& axes = marks.axes;
   const Positions& positions = head.positions;
   const std::vector<bool>& skin = head.is_skin;
@@ -111,10 +99,12 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
   int bottom = at, top = at;
   while (bottom > 0 && stands_out(bottom - 1) > kMinProtrusionFraction * most) --bottom;
   while (top < kBins - 1 && stands_out(top + 1) > kMinProtrusionFraction * most) ++top;
-  EarBox ears{low + bottom * step, low + top * step, std::numeric_limits<double>::infinity(),
-              -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  // From the vertices between `ears.bottom` and `ears.top` that protrude, compute where the ears
-  // begin (`ears.inner`) and their extent from front to back.
+  Ears ears{low + bottom * step,
+            low + top * step,
+            std::numeric_limits<double>::infinity(),
+            -std::numeric_limits<double>::infinity(),
+            {}};
+  // The ears are the protruding vertices at these heights.
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double height = p.dot(axes.up), front = p.dot(axes.front);
@@ -122,9 +112,9 @@ std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
     if (breadth_at(p) - head_at(height) < kMinProtrusionFraction * most) continue;
     ears.back = std::min(ears.back, front);
     ears.front = std::max(ears.front, front);
-    ears.inner = std::min(ears.inner, head_at(height));
+    ears.vertices.push_back(static_cast<std::uint32_t>(v));
   }
-  if (ears.back > ears.front) return std::nullopt;
+  if (ears.vertices.empty()) return std::nullopt;
   return ears;
 }
 
@@ -156,8 +146,6 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
   const bool with_ears = ear < count || neck < count;
   const auto found = with_ears ? find_ears(topology, head, marks) : std::nullopt;
   if (ear < count && !found) throw InvalidInput("no ears were found at the sides of the head");
-  const EarBox ears = found.value_or(EarBox());
-  const Eigen::Vector3d side = axes.side();
   Eigen::VectorXd heights(positions.rows());
   double least = marks.chin_height, middle_front = 0;
   for (Index v = 0; v < positions.rows(); ++v) {
@@ -166,27 +154,30 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
     least = std::min(least, heights[v]);
     middle_front += p.dot(axes.front) / static_cast<double>(positions.rows());
   }
-  if (neck < count && least > marks.chin_height - 2 * kBelowChin * marks.eye_to_mouth()) {
+  const double face = marks.eye_to_mouth(), soft = kSoft * face;
+  if (neck < count && least > marks.chin_height - kMinNeck * face) {
     throw InvalidInput("no neck: the head ends at its chin");
   }
-  const double under = kBelowChin * marks.eye_to_mouth();
-  NeckBorder border{marks.chin_front, marks.chin_height - under, middle_front,
-                    marks.mouth_height - 2 * under};
+  NeckBorder border{marks.chin_front, marks.chin_height - kBelowChin * face, middle_front,
+                    marks.mouth_height - kBelowChin * face};
   if (found) {
-    border.ear_front = ears.front;
-    border.ear = ears.bottom - 2 * under;
+    border.ear_front = found->front;
+    border.ear = found->bottom - kBelowChin * face;
   }
+  std::optional<PointGrid> ears;
+  if (ear < count) ears.emplace(positions, found->vertices);
   const RegionWeights::Alpha level =
       horizontal_bands(heights, marks.eyes_height, marks.mouth_height);
   RegionWeights::Alpha alpha = RegionWeights::Alpha::Zero(positions.rows(), count);
-  const double soft = kNeckSoft * marks.eye_to_mouth();
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double front = p.dot(axes.front);
     double rest = 1;
-    if (ear < count) {
-      const double away = std::abs(p.dot(side) - marks.symmetry_offset);
-      alpha(v, ear) = ear_share(ears, marks.eye_to_mouth(), away, heights[v], front);
+    if (ears) {
+      const double far = kAroundEar * face + 2 * soft;
+      const PointGrid::NearestVertex nearest = ears->nearest(p, far);
+      alpha(v, ear) =
+          nearest.vertex == kNoIndex ? 0 : smooth_step(far, kAroundEar * face, nearest.distance);
       rest -= alpha(v, ear);
     }
     if (neck < count) {

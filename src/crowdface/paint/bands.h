@@ -32,17 +32,17 @@ inline constexpr std::array<std::pair<std::string_view, Band>, 5> kMaskBandNames
      {"ears", Band::kEars},
      {"neck", Band::kNeck}}};
 
-/// Extent of both ears of a head along the head's axes.
-struct EarBox {
-  double bottom = 0, top = 0;  ///< heights
-  double back = 0, front = 0;  ///< positions along HeadAxes::front
-  double inner = 0;            ///< distance from the symmetry plane at which the ears begin
+/// Both ears of a head: their vertices, and their extent along the head's axes.
+struct Ears {
+  double bottom = 0, top = 0;           ///< heights
+  double back = 0, front = 0;           ///< positions along HeadAxes::front
+  std::vector<std::uint32_t> vertices;  ///< vertices of both ears, ascending; at least one
 };
 /// Finds the ears: the parts of the skin that protrude at both sides of the head, between the
 /// heights of mouth and brows.
 /// \return nothing if nothing protrudes.
-std::optional<EarBox> find_ears(const Topology& topology, const HeadShape& head,
-                                const FaceMarks& marks);
+std::optional<Ears> find_ears(const Topology& topology, const HeadShape& head,
+                              const FaceMarks& marks);
 
 /// Computes the weights of brow, nose and mouth (columns 0 to 2) as horizontal bands with soft
 /// borders, #V by 3.

@@ -425,7 +425,7 @@ class LandmarkSearch {
     keep(name + "_right", best[1], reason);
   }
 
-  void outline(const std::optional<EarBox>& ears) {
+  void outline(const std::optional<Ears>& ears) {
     constexpr double kBeforeEar = 12, kBelowEyes = 8, kBehindEyes = 8;
     const auto outer = at("eye_outer_left");
     const auto base = at("nose_base"), mouth = at("mouth_middle"), chin = at("chin_lowest");
@@ -446,7 +446,7 @@ class LandmarkSearch {
   /// Finds the ears' highest and lowest points. Rays from the side scan the surface downwards from
   /// above the ear, and upwards from below the ear. In each of the two directions, the first steep
   /// rise of the surface is the ear's rim.
-  void ear_rims(const EarBox& ears) {
+  void ear_rims(const Ears& ears) {
     constexpr double kAround = 16, kStep = 0.5, kRise = 0.8;
     const double back = ears.back / mm_, front = ears.front / mm_;
     const double top = ears.top / mm_, bottom = ears.bottom / mm_;
@@ -476,7 +476,7 @@ class LandmarkSearch {
     found_.points[name] = {{*v, *v, *v}, {1, 0, 0}, row3(head_.positions, *v), 0};
   }
 
-  void skull(const std::optional<EarBox>& ears) {
+  void skull(const std::optional<Ears>& ears) {
     constexpr double kForehead = 75, kBehindEars = 40, kAboveEars = 8, kAboveEyes = 25;
     const char* const reason = "the heads have no skull";
     double top = -kNever, back = kNever;
