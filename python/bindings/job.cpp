@@ -113,7 +113,7 @@ class PythonJob {
   FacePlan face_of(const std::string& recipe) const {
     return parse_plan_line(recipe, job_.names, "recipe").face;
   }
-  const Prepared& prepared() {
+  const PreparedHeads& prepared() {
     if (!prepared_) prepared_ = prepare(job_.config, job_.inputs, job_.smoothing, cache_);
     return *prepared_;
   }
@@ -124,7 +124,7 @@ class PythonJob {
 
   fs::path cache_;
   Job job_;
-  std::optional<Prepared> prepared_;
+  std::optional<PreparedHeads> prepared_;
   std::optional<FaceBuilder> builder_;
   std::optional<FaceShapes> shapes_;
   std::optional<FaceAttachments> attachments_;

@@ -85,7 +85,7 @@ void blend(const BlendOptions& options) {
   }
   if (job.config.smoothing.levels != LevelRepresentation::kExact)
     check_levels(line.face.recipe, job, options.recipe);
-  Prepared prepared;
+  PreparedHeads prepared;
   // the exact filter needs no prepared heads
   if (job.config.smoothing.levels == LevelRepresentation::kExact) {
     prepared.filter.emplace(job.smoothing, job.inputs.head_set.heads.front().positions);

@@ -34,7 +34,7 @@ void warn_about_output(const Job& job) {
 void describe(const Job& job) {
   const Inputs& inputs = job.inputs;
   const auto& boundary = inputs.adjacency.boundary;
-  const std::string levels = describe_levels(inputs);
+  const std::string levels = describe_detail_levels(inputs);
   const auto& bands = job.names.bands;
   const std::uint64_t sampled = job.config.crowd.count, by_hand = job.config.recipes.size();
   print(concat(

@@ -31,7 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Returns whether an image is a mask of three regions.
-bool has_three_bands(const fs::path& image) {
+bool has_three_regions(const fs::path& image) {
   try {
     return mask_channel_indices(read_image(image)).size() == 3;
   } catch (const RecoverableError&) {
@@ -44,11 +44,11 @@ bool has_three_bands(const fs::path& image) {
 /// the heads; empty if there is no such mask.
 std::string find_mask(const fs::path& heads) {
   for (const char* name : {"regions.png", "makehuman_bands.png", "ict_bands.png"}) {
-    if (is_file(heads / name) && has_three_bands(heads / name)) return name;
+    if (is_file(heads / name) && has_three_regions(heads / name)) return name;
   }
   const char* tiles = "ict_bands.<UDIM>.png";
   const std::vector<fs::path> files = find_tiles(heads / tiles);
-  return !files.empty() && has_three_bands(files.front()) ? tiles : "";
+  return !files.empty() && has_three_regions(files.front()) ? tiles : "";
 }
 
 void throw_if_any(const Complaints& complaints) {

@@ -80,7 +80,7 @@ Orientation bearing_of(const MaskOptions& options, const MaskInputs& wanted,
 }
 
 void mask(const MaskOptions& options) {
-  const std::vector<Band> bands = parse_bands(options.bands);
+  const std::vector<MaskBand> bands = parse_bands(options.bands);
   const fs::path out = options.out;
   if (out.extension() != ".png") {
     throw UsageError(concat("-o: expected a PNG file, found ", quoted(options.out)));

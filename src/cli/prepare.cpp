@@ -17,7 +17,7 @@ namespace crowdface::cli {
 namespace {
 
 /// Logs for each head the measured error of the fitted smoothing levels.
-void log_level_errors(const Job& job, const Prepared& prepared) {
+void log_level_errors(const Job& job, const PreparedHeads& prepared) {
   const double mm = mm_per(job.config.faces.units);
   for (std::size_t h = 0; h < prepared.levels.size(); ++h) {
     const StoredLevels& levels = prepared.levels[h];
@@ -29,7 +29,7 @@ void log_level_errors(const Job& job, const Prepared& prepared) {
 
 /// Throws an error if a prepared head could not be stored in the cache. Other commands can continue
 /// without a cache, but filling the cache is the purpose of `prepare`.
-void require_heads_in_cache(const Prepared& prepared, const std::vector<std::string>& names,
+void require_heads_in_cache(const PreparedHeads& prepared, const std::vector<std::string>& names,
                             const std::filesystem::path& cache) {
   for (std::size_t h = 0; h < names.size(); ++h) {
     if (prepared.levels[h].mapped_file) continue;
@@ -63,7 +63,7 @@ CommandAction add_prepare(CLI::App& program) {
           return prepare_heads(job.config, job.inputs, job.smoothing, cache,
                                [&](std::size_t head) { return shard.owns(head); });
         }
-        const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+        const PreparedHeads prepared = prepare(job.config, job.inputs, job.smoothing, cache);
         require_heads_in_cache(prepared, job.names.heads, cache);
         const double size = wavelength_of_iterations(job.smoothing.kind(), job.inputs.max_level,
                                                      job.inputs.edge_length_mm);

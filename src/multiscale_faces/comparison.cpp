@@ -65,8 +65,8 @@ namespace {
 
 /// Returns the pairs of adjacent triangles whose common edge lies in the border between regions
 /// (both end points of the edge are marked in `border`).
-std::vector<std::pair<std::size_t, std::size_t>> pairs_in(const FrontPatch& patch,
-                                                          const std::vector<bool>& border) {
+std::vector<std::pair<std::size_t, std::size_t>> triangle_pairs_in(
+    const FrontPatch& patch, const std::vector<bool>& border) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> first;
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
@@ -86,7 +86,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairs_in(const FrontPatch& patc
 double largest_new_crease(const FrontPatch& patch, const Positions& face,
                           const std::vector<Positions>& heads, const std::vector<bool>& border) {
   double largest = 0;
-  for (const auto& [s, t] : pairs_in(patch, border)) {
+  for (const auto& [s, t] : triangle_pairs_in(patch, border)) {
     const auto crease = [&, s = s, t = t](const Positions& positions) {
       const Eigen::Vector3d a = area_vector(positions, patch.triangles[s]),
                             b = area_vector(positions, patch.triangles[t]);

@@ -114,7 +114,7 @@ std::vector<double> everywhere(int base, double weight) {
 }
 
 /// The result of nearest_face.
-struct Nearest {
+struct FittedFace {
   Positions face;
   int base = 0;
   /// the weight w of each level above `base`, in the order base + 1, base + 2, …
@@ -124,9 +124,9 @@ struct Nearest {
 /// The search tries the base levels 0 to 3, and optimizes a weight w for each level above the base
 /// level: each lender gets the weight w, and the target gets 1 − w.
 /// \param regions  for each lender, the lender's weight at each vertex of the patch; or empty.
-Nearest nearest_face(Heads& heads, int target, const std::vector<int>& lenders,
-                     const std::vector<std::vector<double>>& regions, const Positions& ours) {
-  Nearest best;
+FittedFace nearest_face(Heads& heads, int target, const std::vector<int>& lenders,
+                        const std::vector<std::vector<double>>& regions, const Positions& ours) {
+  FittedFace best;
   double best_rms = HUGE_VAL;
   for (int base = 0; base < 4; ++base) {
     const auto face_of = [&](const std::vector<double>& weights) {
@@ -233,7 +233,7 @@ class Report {
   std::vector<SheetCell> cells_;
 };
 
-std::string level_text(const Nearest& nearest) {
+std::string level_text(const FittedFace& nearest) {
   std::ostringstream text;
   text.precision(2);
   text << "base " << nearest.base << ", weights";
@@ -252,7 +252,7 @@ void figure_12(Heads& heads, const fs::path& ours, Report& report) {
                make_face(heads, kTarget, kBase,
                          {{kTarget, everywhere(kBase, 1 - weight)},
                           {kLender, everywhere(kBase, weight)}}));
-    const Nearest nearest = nearest_face(heads, kTarget, {kLender}, {}, face);
+    const FittedFace nearest = nearest_face(heads, kTarget, {kLender}, {}, face);
     report.line(std::string(name) + ": " + level_text(nearest));
     report.add(name, "nearest", kTarget, kLender, face, nearest.face);
   }
@@ -277,7 +277,7 @@ void figure_10(Heads& heads, const fs::path& ours, const std::string& mask, Repo
                                       {"result_b", Lenders{3, 1, 6}},
                                       {"result_c", Lenders{6, 3, 1}}}) {
     const Positions face = heads.read(ours / (std::string(name) + ".obj"));
-    const Nearest nearest = nearest_face(heads, kTarget, lenders, regions, face);
+    const FittedFace nearest = nearest_face(heads, kTarget, lenders, regions, face);
     report.line(std::string(name) + ": " + level_text(nearest));
     report.add(name, "nearest", kTarget, lenders[1], face, nearest.face);
     std::vector<Positions> used = {patch.rows_of(heads.head(kTarget))};

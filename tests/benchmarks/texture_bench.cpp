@@ -20,7 +20,7 @@ testing::TwoCharts heads_of(int size) {
     sheet.add_head([&](double x, double y, int column, int row) -> Eigen::Array3f {
       const auto texel = static_cast<std::uint64_t>(row) * static_cast<std::uint64_t>(size) +
                          static_cast<std::uint64_t>(column);
-      const double noise = random_unit({h + 1, texel, "texel", 0});
+      const double noise = random_uniform({h + 1, texel, "texel", 0});
       return Eigen::Array3d(0.2 + 0.3 * x, 0.2 + 0.2 * y, 0.2 + 0.3 * noise).cast<float>();
     });
   }

@@ -106,7 +106,7 @@ TEST(CapacityForecast, IsNotMisledByAPlaceWhereManyCrowdTogether) {
     std::uint64_t too_near = 0;
     for (; too_near < 1000; ++too_near) {
       const auto [x, y] = random_pair({3, draws, "point"});
-      const bool corner = random_unit({3, draws++, "where"}) < 0.9;
+      const bool corner = random_uniform({3, draws++, "where"}) < 0.9;
       const Point point = {corner ? kCorner * x : x, corner ? kCorner * y : y};
       const auto cell = [](double v) { return static_cast<int>(v / kDistance); };
       bool near = false;

@@ -10,14 +10,16 @@ namespace crowdface {
 namespace {
 
 // The last reason was once counted beyond the end.
-TEST(Rejections, EveryReasonIsCountedApart) {
-  Rejections all;
+TEST(RejectionCounts, EveryReasonIsCountedApart) {
+  RejectionCounts all;
   std::set<std::string> names;
-  for (const Reason reason :
-       {Reason::kMinDistance, Reason::kMinDistanceToHeads, Reason::kMaxWeight, Reason::kImplausible,
-        Reason::kFlipped, Reason::kStretched, Reason::kIntersecting, Reason::kGap, Reason::kExposed,
-        Reason::kFamily, Reason::kRejected, Reason::kTraits}) {
-    Rejections one;
+  for (const RejectionReason reason :
+       {RejectionReason::kMinDistance, RejectionReason::kMinDistanceToHeads,
+        RejectionReason::kMaxWeight, RejectionReason::kImplausible, RejectionReason::kFlipped,
+        RejectionReason::kStretched, RejectionReason::kIntersecting, RejectionReason::kGap,
+        RejectionReason::kExposed, RejectionReason::kFamily, RejectionReason::kRejected,
+        RejectionReason::kTraits}) {
+    RejectionCounts one;
     one.add(reason, 3);
     EXPECT_EQ(one.total(), 3U) << name_of(reason);
     EXPECT_EQ(one.most_frequent(), reason);
@@ -33,13 +35,13 @@ TEST(Constraints, MessagesNameTheKeyAndItsLimit) {
   diversity.min_distance_mm = 1.25;
   BelievabilityOptions believability;
   believability.max_exposed_mm2 = 4.5;
-  EXPECT_EQ(describe(Reason::kMinDistance, diversity, believability),
+  EXPECT_EQ(describe(RejectionReason::kMinDistance, diversity, believability),
             "diversity.min_distance, 1.25 mm");
   EXPECT_EQ(
-      describe_violation(Reason::kExposed, diversity, believability),
+      describe_violation(RejectionReason::kExposed, diversity, believability),
       "the lining of nose, lips or lids shows through the skin by more than the limit, 4.5 mm²");
   for (std::size_t r = 0; r < kReasonCount; ++r) {
-    EXPECT_FALSE(constraint_of(static_cast<Reason>(r)).advice.empty()) << r;
+    EXPECT_FALSE(constraint_of(static_cast<RejectionReason>(r)).advice.empty()) << r;
   }
 }
 

@@ -344,9 +344,9 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
   });
   EXPECT_EQ(judge.check_skin(recipe), std::nullopt);
   found.intersecting_triangle_count = 501;
-  EXPECT_EQ(judge.check_skin(recipe), Reason::kIntersecting);
+  EXPECT_EQ(judge.check_skin(recipe), RejectionReason::kIntersecting);
   found.local.flipped_triangle_count = 501;
-  EXPECT_EQ(judge.check_skin(recipe), Reason::kFlipped);
+  EXPECT_EQ(judge.check_skin(recipe), RejectionReason::kFlipped);
   EXPECT_EQ(asked, 3);
   limits.max_stretch = 1;  // no face is stretched so little
   EXPECT_EQ(FaceJudge(*space_, {}, limits, &skin,
@@ -355,7 +355,7 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
                         return found;
                       })
                 .check_skin(recipe),
-            Reason::kStretched);
+            RejectionReason::kStretched);
   EXPECT_EQ(asked, 3) << "a mesh is built only for what the samples let pass";
 }
 

@@ -80,7 +80,7 @@ TEST(PartsOfAJob, HaveTheSameBytesOnAnyThreadsAndAlone) {
       EXPECT_EQ(face_in(folder, "one"), many) << levels;
     }
     const Job job = load_job(folder.config(), {});
-    const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, folder.cache());
+    const PreparedHeads prepared = prepare(job.config, job.inputs, job.smoothing, folder.cache());
     const FaceBuilder builder(job.config, job.inputs, prepared);
     const auto plan = read_plan(folder / "many/plan.jsonl", job.names);
     std::vector<const Recipe*> recipes;

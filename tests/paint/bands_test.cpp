@@ -12,8 +12,9 @@
 namespace crowdface::testing {
 namespace {
 
-const std::vector<Band> kThree = {Band::kBrow, Band::kNose, Band::kMouth};
-const std::vector<Band> kFive = {Band::kBrow, Band::kNose, Band::kMouth, Band::kEars, Band::kNeck};
+const std::vector<MaskBand> kThree = {MaskBand::kBrow, MaskBand::kNose, MaskBand::kMouth};
+const std::vector<MaskBand> kFive = {MaskBand::kBrow, MaskBand::kNose, MaskBand::kMouth,
+                                     MaskBand::kEars, MaskBand::kNeck};
 
 TEST(Bands, RunSoftlyIntoOneAnotherAndSumToOne) {
   const Eigen::VectorXd heights = Eigen::VectorXd::LinSpaced(401, -10, 10);
@@ -99,16 +100,18 @@ TEST(Bands, AHeadWithoutEarsOrNeckHasNoSuchBands) {
     head.positions(v, 0) = std::clamp(head.positions(v, 0), -5.0, 5.0);
     head.positions(v, 1) = std::max(head.positions(v, 1), marks->chin_height);
   }
-  for (const auto& [band, phrase] : {std::pair{Band::kEars, "ears"}, {Band::kNeck, "neck"}}) {
-    const std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth, band};
+  for (const auto& [band, phrase] :
+       {std::pair{MaskBand::kEars, "ears"}, {MaskBand::kNeck, "neck"}}) {
+    const std::vector<MaskBand> bands = {MaskBand::kBrow, MaskBand::kNose, MaskBand::kMouth, band};
     expect_error(ExitCode::kBadData, {phrase},
                  [&] { propose_bands(faces.topology, head, *marks, bands); });
   }
 }
 
 TEST(Bands, NamesAreReadInTheirOrder) {
-  EXPECT_EQ(parse_bands("mouth,brow,nose,neck"),
-            (std::vector<Band>{Band::kMouth, Band::kBrow, Band::kNose, Band::kNeck}));
+  EXPECT_EQ(
+      parse_bands("mouth,brow,nose,neck"),
+      (std::vector<MaskBand>{MaskBand::kMouth, MaskBand::kBrow, MaskBand::kNose, MaskBand::kNeck}));
   EXPECT_EQ(names_of(kFive), (std::vector<std::string>{"brow", "nose", "mouth", "ears", "neck"}));
   for (const char* wrong :
        {"brow", "", "brow,nose,mouth,", "brow,nose,mouth,chin", "brow,nose,nose,mouth"}) {

@@ -16,7 +16,7 @@ TextureLayer evenly(const LinearRgb& light) {
   return layer;
 }
 
-const TexturePlace kMiddle{0, {0.5F, 0.5F}};
+const TexturePoint kMiddle{0, {0.5F, 0.5F}};
 
 /// What is finer than a reduced mesh is no grain on it.
 TEST(VertexFinish, FineRoughnessIsEvenedOut) {
@@ -25,7 +25,7 @@ TEST(VertexFinish, FineRoughnessIsEvenedOut) {
   TextureSet texture_set;
   texture_set.roughness.texture_of_face = {0};
   texture_set.roughness.textures.push_back(std::make_shared<const Texture>(std::move(stripes)));
-  const TexturePlace on_stripe{0, {256.5F / 512, 0.5F}};
+  const TexturePoint on_stripe{0, {256.5F / 512, 0.5F}};
   EXPECT_LT(roughness_at(texture_set, on_stripe).value(), 0.7F) << "a stripe alone has 1";
 }
 

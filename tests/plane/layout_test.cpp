@@ -68,7 +68,7 @@ TEST(PointInPolygon, IsUniformByArea) {
   double mean_y = 0;
   for (std::uint64_t i = 0; i < 20000; ++i) {
     const auto [pick, a] = random_pair({1, i, "test", 0});
-    const PlanePoint p = sample_polygon(trapezium, pick, a, random_unit({1, i, "b", 0}));
+    const PlanePoint p = sample_polygon(trapezium, pick, a, random_uniform({1, i, "b", 0}));
     ASSERT_GE(p.y(), 0);
     ASSERT_LE(p.y(), 1);
     ASSERT_GE(p.x(), 0);

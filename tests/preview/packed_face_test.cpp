@@ -63,7 +63,7 @@ TEST(PackedFace, ComesBackWithinHalfAStepAndAHundredthOfADegree) {
   const Ball ball;
   const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
   const std::array heads = {&ball.positions};
-  const PackingFrame frame = PackingFrame::enclosing(heads);
+  const PackingGrid frame = PackingGrid::enclosing(heads);
   const std::string bytes =
       pack_face(ball.topology, mesh.vertices, VertexFaces(ball.topology), frame, ball.positions);
   const std::size_t count = mesh.vertices.size();
@@ -86,17 +86,17 @@ TEST(PackedFace, FrameLeavesAQuarterAroundTheHeads) {
   Positions head(2, 3);
   head << 0, 0, 0, 8, 2, 4;
   const std::array heads = {static_cast<const Positions*>(&head)};
-  const PackingFrame frame = PackingFrame::enclosing(heads);
+  const PackingGrid frame = PackingGrid::enclosing(heads);
   EXPECT_DOUBLE_EQ(frame.low_corner.x(), -2);
   EXPECT_DOUBLE_EQ(frame.low_corner.y(), -5);
   EXPECT_DOUBLE_EQ(frame.low_corner.x() + 65535 * frame.step, 10);
-  EXPECT_THROW(PackingFrame::enclosing({}), BrokenPrecondition);
+  EXPECT_THROW(PackingGrid::enclosing({}), BrokenPrecondition);
 }
 
 TEST(PackedFace, WhatLiesBeyondTheFrameIsMovedToItsRim) {
   const Ball ball;
   const ReducedMesh mesh = reduce_mesh(triangles_of(ball.topology), ball.positions, 1000);
-  const PackingFrame frame{Eigen::Vector3d::Constant(5), 1e-6};
+  const PackingGrid frame{Eigen::Vector3d::Constant(5), 1e-6};
   const std::string bytes =
       pack_face(ball.topology, mesh.vertices, VertexFaces(ball.topology), frame, ball.positions);
   for (std::size_t i = 0; i < 3 * mesh.vertices.size(); ++i) EXPECT_EQ(number_at(bytes, i), 0);

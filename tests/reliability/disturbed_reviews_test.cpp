@@ -67,7 +67,7 @@ class ReviewedCrowd {
       run_killed(given, {}, what);
     }
     if (sheet) run_and_expect(what, [&] { remake_sheets(folder_.out(), {}, folder_.cache()); });
-    ASSERT_EQ(CrowdDirectory{folder_.out()}.kept_reviews().size(),
+    ASSERT_EQ(CrowdDirectory{folder_.out()}.stored_reviews().size(),
               static_cast<std::size_t>(reviews))
         << what;
     const ChildOutcome anew = make_anew();
@@ -144,7 +144,7 @@ class ReviewedCrowd {
   /// folder's config, and the kept reviews.
   ChildOutcome make_anew() const {
     std::vector<std::string> kept, set;
-    for (const fs::path& file : CrowdDirectory{folder_.out()}.kept_reviews()) {
+    for (const fs::path& file : CrowdDirectory{folder_.out()}.stored_reviews()) {
       kept.push_back(file.string());
     }
     const std::string config = read_text(folder_.out() / "config.yaml");

@@ -92,7 +92,8 @@ TEST(AttachmentMesh, AveragesTheOpacityBehindAPixel) {
   const Scene scene;
   Texture noise{256, 256, {}};
   for (std::uint64_t t = 0; t < 256 * 256; ++t) {
-    noise.texels.push_back(LinearRgb::Constant(random_unit({1, t, "noise"}) < 0.5 ? 1.0F : 0.0F));
+    noise.texels.push_back(
+        LinearRgb::Constant(random_uniform({1, t, "noise"}) < 0.5 ? 1.0F : 0.0F));
   }
   AttachmentMaterial material = black(1);
   material.opacity = std::make_shared<const MipMap>(std::move(noise));
@@ -107,7 +108,8 @@ TEST(AttachmentMesh, AveragesTheOpacityBehindAPixel) {
 TEST(MipMap, KeepsTheMean) {
   Texture texture{8, 6, {}};
   for (std::uint64_t t = 0; t < 48; ++t) {
-    texture.texels.push_back(LinearRgb::Constant(static_cast<float>(random_unit({2, t, "texel"}))));
+    texture.texels.push_back(
+        LinearRgb::Constant(static_cast<float>(random_uniform({2, t, "texel"}))));
   }
   const auto mean = [](const Texture& level) {
     return std::accumulate(level.texels.begin(), level.texels.end(), 0.0,

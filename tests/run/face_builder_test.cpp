@@ -47,7 +47,7 @@ struct Folder {
   }
   testing::TemporaryFolder folder;
   std::optional<Job> job;
-  std::optional<Prepared> prepared;
+  std::optional<PreparedHeads> prepared;
 };
 
 Recipe recipe(Index target, Index source, std::uint64_t iterations, double extrapolation) {

@@ -185,7 +185,7 @@ void print(const char* how, const LidFigures& lids) {
 int main(int argc, char** argv) try {
   if (argc < 2) throw UsageError("usage: crowdface_measure_shapes CONFIG [FACES]");
   const Job job = load_job(argv[1], {}, cache_directory());
-  const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache_directory());
+  const PreparedHeads prepared = prepare(job.config, job.inputs, job.smoothing, cache_directory());
   const CrowdPlan crowd_plan =
       crowdface::plan_crowd(job.config, job.inputs, prepared, {}, cache_directory());
   const FaceBuilder builder(job.config, job.inputs, prepared);

@@ -192,7 +192,7 @@ TEST_F(NumberedFolders, ALargeCrowdThatLiesInOneFolderStaysThere) {
   Job job = load_job(folder_.config(), overrides);
   job.config.output.faces_per_folder.reset();  // as versions wrote it that knew no subfolders
   folder_.folder().write("out/config.yaml",
-                         config_text_in_folder(job.config, crowd_directory_of(job.config)));
+                         stored_config_text(job.config, crowd_directory_of(job.config)));
   EXPECT_EQ(faces_per_folder(folder_, 10'001), std::nullopt);
   EXPECT_EQ(load_job(folder_.out() / "config.yaml", {}).config.output.faces_per_folder,
             std::nullopt);

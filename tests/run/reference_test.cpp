@@ -19,7 +19,8 @@ namespace {
 /// Whole number in [0, count) that depends on the arguments alone.
 std::size_t pick(std::size_t count, std::uint64_t seed, std::uint64_t index,
                  std::string_view what) {
-  return static_cast<std::size_t>(random_unit({seed, index, what, 0}) * static_cast<double>(count));
+  return static_cast<std::size_t>(random_uniform({seed, index, what, 0}) *
+                                  static_cast<double>(count));
 }
 
 /// Faces of 3 to 6 corners picked at random, corners repeated or not: edges of many faces, isolated
@@ -88,7 +89,7 @@ std::string scattered_quads(std::uint64_t seed, int tiles) {
       const std::uint64_t corner = 4 * q + c;
       text += concat("v ", corner, " 0 0\n");
       // The quad's own middle lies inside the tile: its corners are spread around it.
-      const double inside = random_unit({seed, corner, "u", 0});
+      const double inside = random_uniform({seed, corner, "u", 0});
       double u = c == 0 ? 0.25 : c == 1 ? 0.75 : inside, v = c == 2 ? 0.375 : inside * inside;
       if (c == 3) {
         u = places[pick(places.size(), seed, q, "place u")];

@@ -23,9 +23,10 @@ TEST(ScarcityWarning, TellsOnceThatFacesAreGettingScarce) {
   casting.count = 10;
   casting.diversity.min_distance_mm = 1;
   ScarcityWarning warning(casting);
-  Rejections few, many;
-  few.add(Reason::kMinDistance, 3);
-  many.add(Reason::kMinDistance, static_cast<std::uint64_t>(casting.diversity.max_attempts) / 5);
+  RejectionCounts few, many;
+  few.add(RejectionReason::kMinDistance, 3);
+  many.add(RejectionReason::kMinDistance,
+           static_cast<std::uint64_t>(casting.diversity.max_attempts) / 5);
   add_log_file(path);
   warning.on_face_accepted(few);
   warning.on_face_accepted(many);

@@ -174,9 +174,9 @@ std::vector<std::string> write_bowls(const std::filesystem::path& folder, const 
 reference::Picture mask_picture(std::size_t width, std::size_t height, std::uint64_t seed) {
   reference::Picture picture{width, height, 3, {}};
   for (std::uint64_t texel = 0; texel < width * height; ++texel) {
-    const bool black = random_unit({seed, texel, "black", 0}) < 0.15;
+    const bool black = random_uniform({seed, texel, "black", 0}) < 0.15;
     for (std::uint64_t c = 0; c < 3; ++c) {
-      const double value = random_unit({seed, 3 * texel + c, "texel", 0});
+      const double value = random_uniform({seed, 3 * texel + c, "texel", 0});
       picture.values.push_back(black ? 0 : std::floor(256 * value) / 255);
     }
   }

@@ -58,8 +58,8 @@ TEST(SurfaceStatistics, AreMeansSmoothedByIteration) {
   TwoCharts sheet(256);
   for (std::uint64_t h = 0; h < 2; ++h) {
     sheet.add_head([h](double x, double y, int column, int row) -> Eigen::Array3f {
-      const float noise = static_cast<float>(
-          random_unit({.seed = h + 1, .index = static_cast<std::uint64_t>(row * 4096 + column)}));
+      const float noise = static_cast<float>(random_uniform(
+          {.seed = h + 1, .index = static_cast<std::uint64_t>(row * 4096 + column)}));
       return Eigen::Array3f(static_cast<float>(x), static_cast<float>(y), 0.5F) * noise;
     });
   }

@@ -41,7 +41,7 @@ Recipe alone(Index head, std::size_t regions = 1) {
 /// Independent of each other from texel to texel and head to head, or in blocks of some texels.
 float noise(std::uint64_t head, int column, int row, int block = 1) {
   const auto place = static_cast<std::uint64_t>(row / block * 4096 + column / block);
-  return static_cast<float>(random_unit({.seed = head + 1, .index = place})) - 0.5F;
+  return static_cast<float>(random_uniform({.seed = head + 1, .index = place})) - 0.5F;
 }
 
 /// Green densities of a picture; bytes know them to a step.

@@ -125,7 +125,7 @@ void scatter(Scan& scan, std::uint64_t seed) {
     if (rim[v] || around[v].empty()) continue;
     const RandomKey key{seed, v, "truth/scatter"};
     const auto choice =
-        static_cast<std::size_t>(random_unit(key) * static_cast<double>(around[v].size()));
+        static_cast<std::size_t>(random_uniform(key) * static_cast<double>(around[v].size()));
     const Triangle& t = scan.triangles[around[v][choice]];
     const auto [a, b] = random_pair(key, 1);
     const Eigen::RowVector3d before = scan.positions.row(v);
@@ -154,9 +154,9 @@ void cut_holes(Scan& scan, const TruthOptions& options) {
   for (int h = 0; h < options.holes; ++h) {
     const RandomKey key{options.seed, static_cast<std::uint64_t>(h), "truth/hole"};
     const auto t =
-        static_cast<std::size_t>(random_unit(key) * static_cast<double>(scan.triangles.size()));
+        static_cast<std::size_t>(random_uniform(key) * static_cast<double>(scan.triangles.size()));
     const Eigen::RowVector3d middle = scan.positions.row(scan.triangles[t][0]);
-    const double radius = options.hole_radius_mm * (0.5 + random_unit(key, 1));
+    const double radius = options.hole_radius_mm * (0.5 + random_uniform(key, 1));
     std::erase_if(scan.triangles, [&](const Triangle& corner) {
       return (scan.positions.row(corner[0]) - middle).norm() < radius;
     });
@@ -171,7 +171,7 @@ Scan shuffled(const Scan& scan, std::uint64_t seed) {
   }
   std::vector<std::pair<double, std::uint32_t>> order;
   for (std::uint32_t v = 0; v < used.size(); ++v) {
-    if (used[v]) order.emplace_back(random_unit({seed, v, "truth/order"}), v);
+    if (used[v]) order.emplace_back(random_uniform({seed, v, "truth/order"}), v);
   }
   std::sort(order.begin(), order.end());
   std::vector<std::uint32_t> number(used.size(), 0);
@@ -182,7 +182,7 @@ Scan shuffled(const Scan& scan, std::uint64_t seed) {
   }
   std::vector<std::pair<double, std::uint32_t>> faces;
   for (std::uint32_t t = 0; t < scan.triangles.size(); ++t) {
-    faces.emplace_back(random_unit({seed, t, "truth/faces"}), t);
+    faces.emplace_back(random_uniform({seed, t, "truth/faces"}), t);
   }
   std::sort(faces.begin(), faces.end());
   for (const auto& [chance, t] : faces) {
@@ -219,9 +219,9 @@ Similarity random_pose(std::uint64_t seed) {
   const RandomKey key{seed, 0, "truth/pose"};
   const Eigen::Vector3d axis = normal3(key).normalized();
   Similarity pose;
-  pose.rotation = Eigen::AngleAxisd(3 * random_unit(key, 5), axis).toRotationMatrix();
+  pose.rotation = Eigen::AngleAxisd(3 * random_uniform(key, 5), axis).toRotationMatrix();
   pose.translation = 700 * normal3({seed, 1, "truth/pose"});
-  pose.scale = 0.01 + 4 * random_unit(key, 6);
+  pose.scale = 0.01 + 4 * random_uniform(key, 6);
   return pose;
 }
 

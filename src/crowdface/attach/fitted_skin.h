@@ -38,8 +38,8 @@ class FittedSkin {
   FittedSkin(const FittedSkin&) = delete;
   FittedSkin& operator=(const FittedSkin&) = delete;
 
-  const Positions& mesh_positions() const { return mesh_; }
-  std::span<const std::uint32_t> vertices() const { return skin_; }
+  const Positions& mesh_positions() const { return positions_; }
+  std::span<const std::uint32_t> vertices() const { return skin_vertices_; }
   const PointGrid& grid() const { return levels_.front().grid; }
   const std::vector<double>& areas() const { return areas_; }
   double units_per_mm() const { return units_per_mm_; }
@@ -86,12 +86,12 @@ class FittedSkin {
   double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
   /// Adds the vertices of a level that are inside the patch. Their weights are multiplied by
   /// `share`.
-  void add_samples(const Level& level, const Eigen::Vector3d& point, double share,
-                   Patch& patch) const;
+  void add_patch_vertices(const Level& level, const Eigen::Vector3d& point, double share,
+                          Patch& patch) const;
 
   const Topology& topology_;
-  Positions mesh_;
-  std::vector<std::uint32_t> skin_;
+  Positions positions_;
+  std::vector<std::uint32_t> skin_vertices_;
   double units_per_mm_;
   VertexFaces vertex_faces_;
   NormalFans fans_;

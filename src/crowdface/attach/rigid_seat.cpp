@@ -14,14 +14,14 @@ namespace crowdface {
 namespace {
 
 /// The skin within this distance of the attachment (the socket) determines the attachment's motion.
-/// The distance is doubled until the socket has at least kMinOfSocket vertices.
-constexpr double kSeatReachMm = 15;
-constexpr std::size_t kMinOfSocket = 12;
+/// The distance is doubled until the socket has at least kMinSocketVertices vertices.
+constexpr double kSocketRadiusMm = 15;
+constexpr std::size_t kMinSocketVertices = 12;
 /// Maximum number of steps that move the attachment out of the skin.
-constexpr int kSeatRounds = 8;
+constexpr int kMaxPushSteps = 8;
 /// Weight in the least-squares step of a motion of one millimetre, relative to the weight of a
 /// vertex that is one millimetre too near to the skin.
-constexpr double kStillness = 0.02;
+constexpr double kMotionWeight = 0.02;
 
 }  // namespace
 
@@ -34,8 +34,8 @@ RigidPlacement::RigidPlacement(const FittedSkin& skin, const Positions& points,
   centre_ = centre_of(points, all);
   radius_ = std::max(radius_about(centre_, points, all), skin.units_per_mm());
   const PointGrid grid(points, all);
-  const std::size_t fewest = std::min(kMinOfSocket, skin.vertices().size());
-  for (double reach = kSeatReachMm * skin.units_per_mm(); socket_.vertices.size() < fewest;
+  const std::size_t fewest = std::min(kMinSocketVertices, skin.vertices().size());
+  for (double reach = kSocketRadiusMm * skin.units_per_mm(); socket_.vertices.size() < fewest;
        reach *= 2) {
     socket_ = find_socket(skin.mesh_positions(), grid, skin.vertices(), skin.areas(), reach);
     if (reach > 1e6 * skin.units_per_mm()) break;
@@ -67,7 +67,7 @@ RigidMotion RigidPlacement::push_out_of_skin(
     program.add_target({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), arm.dot(n)},
                        one.height, weight);
   }
-  for (std::size_t u = 0; u < kUnknowns; ++u) program.add_target(u, 0, kStillness);
+  for (std::size_t u = 0; u < kUnknowns; ++u) program.add_target(u, 0, kMotionWeight);
   const QuadraticProgram::Vector x = program.solve(0);
   return nudged(motion, pivot, {x[0], x[1], x[2]}, Eigen::Vector3d(x[3], x[4], x[5]) / radius,
                 x[6] / radius);
@@ -77,7 +77,7 @@ Positions RigidPlacement::place(const Positions& face, const Positions& normals)
   if (socket_.vertices.size() < 3) return moved_points({});
   RigidMotion motion =
       fit_rigid_motion(skin_.mesh_positions(), face, socket_.vertices, socket_.weights);
-  for (int round = 0; round < kSeatRounds; ++round) {
+  for (int round = 0; round < kMaxPushSteps; ++round) {
     const auto violations = gaps_.violations(face, normals, moved_points(motion));
     if (violations.empty()) break;
     motion = push_out_of_skin(motion, violations);

@@ -20,30 +20,30 @@ namespace {
 
 /// Minimum radius of the patch of skin around a root. Where the skin has few vertices, the radius
 /// is larger.
-constexpr double kPatchReachMm = 3;
-/// A point of the attachment that is farther than kOffMm millimetres from its root uses
+constexpr double kMinPatchRadiusMm = 3;
+/// A point of the attachment that is farther than kMaxAnchorShiftMm millimetres from its root uses
 /// a larger patch.
-constexpr double kOffMm = 10;
+constexpr double kMaxAnchorShiftMm = 10;
 /// A patch contains only vertices whose distance from the root along the surface is at most
-/// kAlong times the patch's radius.
-constexpr double kAlong = 1.5;
-/// If fewer than kMinNear vertices of a patch are near the root along the surface, the patch
+/// kMaxSurfaceRatio times the patch's radius.
+constexpr double kMaxSurfaceRatio = 1.5;
+/// If fewer than kMinPatchVertices vertices of a patch are near the root along the surface, the patch
 /// keeps all its vertices, because a few vertices do not determine a rotation reliably.
-constexpr std::size_t kMinNear = 6;
+constexpr std::size_t kMinPatchVertices = 6;
 
 /// The root of a point is ambiguous if two parts of the skin are about equally near to the point,
 /// for example both lips. The test uses a sphere around the point, whose radius is the distance to
 /// the nearest skin vertex plus kAmbiguousMm. The root is ambiguous if the sphere contains a skin
-/// vertex whose distance from the nearest vertex along the surface is more than kFarther times the
+/// vertex whose distance from the nearest vertex along the surface is more than kFarRatio times the
 /// sphere's radius.
-constexpr double kAmbiguousMm = 2, kFarther = 4;
+constexpr double kAmbiguousMm = 2, kFarRatio = 4;
 
 /// Finds the root of each point of an attachment on the skin, starting the search at the root of a
 /// neighbouring point.
-class Roots {
+class RootSearch {
  public:
-  Roots(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
-        const Positions& points)
+  RootSearch(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
+             const Positions& points)
       : skin_(skin),
         points_(points),
         normals_(skin.normals(skin.mesh_positions())),
@@ -60,7 +60,7 @@ class Roots {
     std::ranges::sort(starts);
     const Adjacency neighbours = build_adjacency(topology);
     for (const QueueEntry& start : starts) {
-      if (!is_found_[start.point]) grow(start, nearest, neighbours);
+      if (!is_found_[start.point]) find_connected_roots(start, nearest, neighbours);
     }
   }
   const std::vector<NearestSkinPoint>& of_point() const { return of_point_; }
@@ -78,7 +78,7 @@ class Roots {
 
   bool is_ambiguous(const QueueEntry& at, EdgeDistances& along) const {
     const double reach = at.distance + kAmbiguousMm * skin_.units_per_mm();
-    along.search(std::array{at.vertex}, kFarther * reach);
+    along.search(std::array{at.vertex}, kFarRatio * reach);
     const Eigen::Vector3d point = row3(points_, at.point);
     return std::ranges::any_of(skin_.grid().vertices_near(point, reach), [&](std::uint32_t v) {
       return (row3(skin_.mesh_positions(), v) - point).norm() < reach &&
@@ -88,8 +88,8 @@ class Roots {
 
   /// Finds the roots of all points that are connected with the start point in the attachment's
   /// mesh, in order of their distance from the skin.
-  void grow(const QueueEntry& start, const std::vector<QueueEntry>& nearest,
-            const Adjacency& neighbours) {
+  void find_connected_roots(const QueueEntry& start, const std::vector<QueueEntry>& nearest,
+                            const Adjacency& neighbours) {
     std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;
     open.push(start);
     while (!open.empty()) {
@@ -136,8 +136,9 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   std::vector<std::uint32_t> all(static_cast<std::size_t>(points.rows()));
   if (all.empty()) return;
   std::iota(all.begin(), all.end(), 0U);
-  const std::vector<NearestSkinPoint> roots = Roots(skin, adjacency, topology, points).of_point();
-  const Positions anchors = anchors_of(roots, points, kOffMm * skin.units_per_mm());
+  const std::vector<NearestSkinPoint> roots =
+      RootSearch(skin, adjacency, topology, points).of_point();
+  const Positions anchors = anchors_of(roots, points, kMaxAnchorShiftMm * skin.units_per_mm());
   const PointGrid grid(anchors, all);
   EdgeDistances along(adjacency, skin.mesh_positions());
   std::vector<std::vector<BendNodes::NodeWeight>> of_point(all.size());
@@ -146,9 +147,9 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
     if (covered[p]) continue;
     const Eigen::Vector3d middle = row3(anchors, p);
     const auto number = static_cast<std::uint32_t>(nodes_.patches.size());
-    nodes_.patches.push_back(skin.patch_around(middle, kPatchReachMm * skin.units_per_mm()));
+    nodes_.patches.push_back(skin.patch_around(middle, kMinPatchRadiusMm * skin.units_per_mm()));
     FittedSkin::Patch& patch = nodes_.patches.back();
-    const double near = kAlong * patch.radius;
+    const double near = kMaxSurfaceRatio * patch.radius;
     along.search(std::array{roots[p].vertex}, near);
     const double radius = BendNodes::kInfluenceRadius * BendNodes::kNodeSpacing * patch.radius;
     for (const std::uint32_t q : grid.vertices_near(middle, radius)) {
@@ -173,7 +174,7 @@ void ShapeBend::remove_distant_vertices(const EdgeDistances& along, double limit
     near.vertices.push_back(patch.vertices[i]);
     near.weights.push_back(patch.weights[i]);
   }
-  if (near.vertices.size() >= kMinNear) patch = std::move(near);
+  if (near.vertices.size() >= kMinPatchVertices) patch = std::move(near);
 }
 
 Displacements ShapeBend::shape_displacements(const Positions& face, const Positions& placed,

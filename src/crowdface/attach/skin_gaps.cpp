@@ -22,13 +22,13 @@ constexpr double kMinGapMm = 2;
 /// Number of rounds in which pushed vertices move their neighbours.
 constexpr int kRounds = 8;
 constexpr std::uint32_t kGapsPerBlock = 512;
-constexpr double kNowhere = std::numeric_limits<double>::infinity();
+constexpr double kNoGap = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Positions& points)
     : skin_(skin),
-      heights_(static_cast<std::size_t>(points.rows()), kNowhere),
+      heights_(static_cast<std::size_t>(points.rows()), kNoGap),
       start_vertices_(heights_.size(), 0),
       neighbours_(build_adjacency(topology)) {
   const Positions normals = skin.normals(skin.mesh_positions());
@@ -55,7 +55,7 @@ std::vector<SkinGaps::Violation> SkinGaps::violations(const Positions& face,
                                                       const Positions& points) const {
   std::vector<Violation> all;
   for (std::uint32_t p = 0; p < heights_.size(); ++p) {
-    if (heights_[p] == kNowhere || heights_[p] < 0) continue;
+    if (heights_[p] == kNoGap || heights_[p] < 0) continue;
     const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     const double missing = min_height(p) - place.height;
@@ -69,7 +69,7 @@ void SkinGaps::restore_gaps(const Positions& face, const Positions& normals,
   Positions moves = Positions::Zero(points.rows(), 3), outward_normal = moves;
   const auto count = static_cast<std::uint32_t>(heights_.size());
   parallel_for_each(count, kGapsPerBlock, [&](std::uint32_t p) {
-    if (heights_[p] == kNowhere) return;
+    if (heights_[p] == kNoGap) return;
     const NearestSkinPoint place =
         skin_.nearest_skin(face, normals, start_vertices_[p], row3(points, p));
     // Move a point that was near the fitted skin to its original distance from the skin. Move a

@@ -73,8 +73,8 @@ struct Recipe {
 /// 1.
 bool is_unmirrored(const Recipe& recipe);
 /// Returns the weight with which the face's mirror image is mixed into the face, see
-/// mirrored_weight(double, bool).
-double mirrored_weight(const Recipe& recipe);
+/// mirror_image_weight(double, bool).
+double mirror_image_weight(const Recipe& recipe);
 
 /// A smoothing level of one region, the heads that are smoothed to this level, and the weights of
 /// these heads; see weights_by_level.

@@ -15,7 +15,7 @@ namespace {
 
 /// Returns the fraction of a band's weights that apply_age moves to old or young heads, for a face
 /// of this age (−1 … 1).
-double share_of(double age, const SamplingOptions& sampling, std::size_t band) {
+double aged_fraction(double age, const SamplingOptions& sampling, std::size_t band) {
   return std::abs(age) * (sampling.bands.empty() ? 1 : sampling.bands[band].ageing);
 }
 
@@ -88,7 +88,7 @@ void apply_age(FacePlan& face, double age, const HeadAnchorsAndTags& heads,
   const AgedHeads aged(age, heads, sampling);
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
-      const double share = share_of(age, sampling, b);
+      const double share = aged_fraction(age, sampling, b);
       if (share == 0) continue;
       BandRecipe& band = band_of(region, b);
       band.weights = aged.with_moved(band.weights, share);
@@ -105,7 +105,7 @@ void undo_age(FacePlan& face, const HeadAnchorsAndTags& heads, const SamplingOpt
   bool known = true;
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
-      const double share = share_of(*face.age, sampling, b);
+      const double share = aged_fraction(*face.age, sampling, b);
       known = known && share <= 1 - kRounding;
       if (share == 0 || share > 1 - kRounding) continue;
       // Undo apply_age, which multiplied the weights of the heads outside the age class by 1 −

@@ -48,15 +48,15 @@ std::vector<Redraw> read_marks(const Review& review, CastingResult& cast) {
   return redraws;
 }
 
-class Redrawing {
+class FaceRedrawer {
  public:
-  Redrawing(const CastingOptions& casting, const FaceJudge& judge, CastingResult& cast)
+  FaceRedrawer(const CastingOptions& casting, const FaceJudge& judge, CastingResult& cast)
       : casting_(casting),
         judge_(judge),
         cast_(cast),
         unrelated_(casting, judge.space()),
         half_median_mm_(0.5 * quartiles(pair_distances(cast.points)).median),
-        kinds_(face_distributions(casting)) {}
+        distributions_(face_distributions(casting)) {}
 
   /// Casts a new face to replace a rejected face.
   ///
@@ -103,15 +103,15 @@ class Redrawing {
     }
     const int candidates = old.index ? casting_.diversity.candidate_count(*old.index) : 1;
     std::optional<FaceSearch::FoundFace> found;
-    Rejections rejections;
+    RejectionCounts rejections;
     for (const double least : distances_to_rejected(family, own, *redraw.mark)) {
       FaceSearch search(
           [&](std::uint32_t attempt) { return with_locked(generate(attempt), old, *redraw.mark); },
           judge_, casting_.diversity, candidates, old.notes.attempt + 1);
-      found =
-          search.choose_face(others, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
+      found = search.choose_face(
+          others, [&](const FaceSpace::Point& point) -> std::optional<RejectionReason> {
             for (const FaceSpace::Point& other : rejected) {
-              if (FaceSpace::distance(point, other) < least) return Reason::kRejected;
+              if (FaceSpace::distance(point, other) < least) return RejectionReason::kRejected;
             }
             const auto why = rejection_reason(point);
             return why ? why : changes.rejection_reason(point);
@@ -173,7 +173,7 @@ class Redrawing {
   }
 
   const FaceDistribution& distribution_of_face(std::uint64_t index) const {
-    return kinds_[static_cast<std::size_t>(cast_.group_indices[index - 1] + 1)];
+    return distributions_[static_cast<std::size_t>(cast_.group_indices[index - 1] + 1)];
   }
 
   /// Copies the locked bands of the old face. Also copies the old face's target, mirroring and
@@ -228,7 +228,7 @@ class Redrawing {
   CastingResult& cast_;
   UnrelatedFaces unrelated_;
   double half_median_mm_;
-  std::vector<FaceDistribution> kinds_;
+  std::vector<FaceDistribution> distributions_;
 };
 
 }  // namespace
@@ -253,7 +253,7 @@ void apply_review(const CastingOptions& crowd_options, const FaceJudge& judge,
   });
   std::vector<bool> is_final(cast.crowd.size(), true);
   for (const Redraw& redraw : redraws) is_final[static_cast<std::size_t>(redraw.face)] = false;
-  Redrawing redrawing(casting, judge, cast);
+  FaceRedrawer redrawing(casting, judge, cast);
   for (const Redraw& redraw : redraws) {
     if (!redrawing.redraw(redraw, is_final)) return;
   }

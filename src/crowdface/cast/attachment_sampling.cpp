@@ -37,7 +37,7 @@ bool keep_matching(Items& items, const Wanted& wanted) {
 }
 
 /// Returns whether a tag describes a colour: "brown" and "brown_hair" describe brown.
-bool says_colour(const std::string& tag, const std::string& colour) {
+bool names_colour(const std::string& tag, const std::string& colour) {
   return !colour.empty() && (tag == colour || tag.starts_with(colour + '_'));
 }
 
@@ -99,9 +99,9 @@ class AttachmentChooser {
                     const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& sequence)
       : options_(options) {
     for (const AttachmentItem& item : options.items) {
-      if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
+      if (!contains(distributions_, item.kind)) distributions_.push_back(item.kind);
     }
-    for (const int group : groups) group_indices_.emplace_back(group, sizes_[group]++);
+    for (const int group : groups) group_indices_.emplace_back(group, group_sizes_[group]++);
     for (const auto& quota : options.quotas) {
       const std::string& word = quota.first;
       const auto first =
@@ -124,7 +124,7 @@ class AttachmentChooser {
       }
     }
     for (auto& [kind, quotas] : quotas_) {
-      for (const auto& [group, faces] : sizes_) {
+      for (const auto& [group, faces] : group_sizes_) {
         quotas.schedules[group] = schedule_shares_randomly(
             quotas.shares, faces, options.seed, concat("attachment quotas/", kind, '/', group));
       }
@@ -136,8 +136,8 @@ class AttachmentChooser {
     std::optional<HairColour> hair;
     if (hair_) hair = hairs_[face.id] = hair_->colour_of(face, heads_[face.id]);
     Items placed;
-    for (const std::string& kind : kinds_) {
-      const AttachmentItem* one = draw_one(kind, face, placed);
+    for (const std::string& kind : distributions_) {
+      const AttachmentItem* one = sample_one(kind, face, placed);
       if (one == nullptr) continue;
       placed.push_back(one);
       ++wearer_counts_[similar_faces_key(face)][one->name];
@@ -169,7 +169,7 @@ class AttachmentChooser {
     Items items;
     for (const AttachmentItem& item : options_.items) {
       const bool may = std::all_of(item.tags.begin(), item.tags.end(), [&](const std::string& tag) {
-        return contains(tags, tag) || (item.colour == colour && says_colour(tag, colour));
+        return contains(tags, tag) || (item.colour == colour && names_colour(tag, colour));
       });
       const bool must_not = std::ranges::any_of(
           item.excluded_tags, [&](const std::string& tag) { return contains(tags, tag); });
@@ -179,8 +179,8 @@ class AttachmentChooser {
     return items;
   }
 
-  const AttachmentItem* draw_one(const std::string& kind, const FacePlan& face,
-                                 const Items& placed) const {
+  const AttachmentItem* sample_one(const std::string& kind, const FacePlan& face,
+                                   const Items& placed) const {
     Items items = wearable(kind, heads_.at(face.id));
     if (items.empty()) return nullptr;
     const std::string purpose =
@@ -297,7 +297,7 @@ class AttachmentChooser {
     const Index head = heads_.at(face.id);
     std::vector<std::string> parents = face.parents;
     const std::string purpose = concat("attachment/", kind, "/parent/", face.id);
-    if (random_unit({options_.seed, 0, purpose}) < 0.5)
+    if (random_uniform({options_.seed, 0, purpose}) < 0.5)
       std::reverse(parents.begin(), parents.end());
     for (const std::string& parent : parents) {
       const std::string colour = colour_of(kind, parent);
@@ -374,11 +374,11 @@ class AttachmentChooser {
 
   const AttachmentOptions& options_;
   /// kinds of attachments, in the order of the first item of each kind
-  std::vector<std::string> kinds_;
+  std::vector<std::string> distributions_;
   std::map<std::string, KindQuotas> quotas_;
   /// for each sampled face: the face's group, and the face's index within the group
   std::vector<std::pair<int, std::uint64_t>> group_indices_;
-  std::map<int, std::uint64_t> sizes_;  ///< number of sampled faces in each group
+  std::map<int, std::uint64_t> group_sizes_;  ///< number of sampled faces in each group
   /// attachments that have been chosen so far, by the face's id
   std::map<std::string, Items> placed_;
   /// by the face's id: the typical head, whose tags apply to the face
@@ -400,7 +400,7 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
                         std::vector<FacePlan>& crowd, const std::vector<FacePlan>& rejected,
                         const std::vector<std::size_t>& crowd_size_at_rejection) {
   AttachmentChooser drawing(options, groups, crowd, crowd);
-  const auto dress = [](FacePlan& face, ChosenAttachments drawn) {
+  const auto set_attachments = [](FacePlan& face, ChosenAttachments drawn) {
     face.attachments = std::move(drawn.names);
     face.hair = drawn.hair;
   };
@@ -425,7 +425,7 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
       if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;
       const std::string& id = rejected[next].id;
       if (!redrawn.contains(id)) continue;
-      dress(*redrawn[id], drawing.choose(*versions_by_id[id][++version_indices[id]]));
+      set_attachments(*redrawn[id], drawing.choose(*versions_by_id[id][++version_indices[id]]));
     }
   };
   // First choose attachments for the original version of each face, so that a redraw does not
@@ -435,7 +435,7 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     FacePlan& face = crowd[i];
     const auto found = versions_by_id.find(face.id);
     if (found == versions_by_id.end()) {
-      dress(face, drawing.choose(face));
+      set_attachments(face, drawing.choose(face));
       continue;
     }
     drawing.choose(*found->second.front());

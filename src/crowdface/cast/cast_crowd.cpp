@@ -139,10 +139,10 @@ void grow(const CastingOptions& casting, const FaceJudge& judge,
   auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   const std::size_t others = result.crowd.size() - (from - 1);
   for (std::size_t i = 0; i < result.crowd.size(); ++i) {
-    if (i == others) crowd->mark_first_sampled();
+    if (i == others) crowd->begin_sampled_faces();
     crowd->add(result.crowd[i], result.points[i]);
   }
-  if (others == result.crowd.size()) crowd->mark_first_sampled();
+  if (others == result.crowd.size()) crowd->begin_sampled_faces();
   cast_first_fit(casting, judge, distributions, separation_of(result), from, to, *crowd, population,
                  on_face_joined, result);
   take_crowd(judge, *crowd, result);
@@ -158,8 +158,8 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   for (const ManualRecipe& hand : casting.recipes) {
     std::optional<FacePlan> face = complete_by_limits(casting, hand, judge);
     if (!face) {
-      Rejections rejections;
-      rejections.add(Reason::kTraits);
+      RejectionCounts rejections;
+      rejections.add(RejectionReason::kTraits);
       result.shortfall = Shortfall{0, rejections, -1, {}, {}, hand.id};
       return result;
     }
@@ -171,7 +171,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   CastingOptions of_families = casting;
   of_families.diversity = casting.diversity.options_of_face(0);
   for (const FamilyOptions& family : casting.families) {
-    Rejections rejections;
+    RejectionCounts rejections;
     auto cast =
         cast_family(of_families, family, judge, unrelated, crowd, family_separation, rejections);
     result.rejections.add(rejections);
@@ -181,7 +181,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
     }
     result.families.push_back(std::move(*cast));
   }
-  crowd.mark_first_sampled();
+  crowd.begin_sampled_faces();
   result.group_indices = schedule_groups(casting.groups, casting.count);
   const std::vector<FaceDistribution> distributions = face_distributions(casting);
   const std::vector<std::uint64_t> before = faces_before_reviews(casting);

@@ -21,9 +21,9 @@ namespace crowdface {
 /// each constraint rejected a candidate.
 struct Shortfall {
   std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
-  Rejections rejections;    ///< how often each constraint rejected a candidate for the next face
-  int group_index = -1;     ///< group of the sampled face that could not be found, or −1
-  std::string family = {};  ///< name of the family that could not be cast, if any
+  RejectionCounts rejections;  ///< how often each constraint rejected a candidate for the next face
+  int group_index = -1;        ///< group of the sampled face that could not be found, or −1
+  std::string family = {};     ///< name of the family that could not be cast, if any
   std::string reviewed_face_id = {};  ///< id of the face that could not be redrawn, if any
   std::string manual_face_id = {};  ///< id of the hand-written face that could not be cast, if any
   std::string unchangeable_face_id = {};  ///< id of the face that could not be changed, if any
@@ -70,7 +70,7 @@ struct CastingResult {
   /// Changed faces, by index in `crowd`. (`crowd` itself holds the faces without their changes, and
   /// no other face depends on a change.)
   std::map<std::size_t, ChangedFace> changed = {};
-  Rejections rejections;
+  RejectionCounts rejections;
   std::optional<Shortfall> shortfall;
 };
 
@@ -82,6 +82,6 @@ inline constexpr std::uint64_t kFacesCastInParallel = 64;
 ///
 /// \param rejected  The candidates for this face that were rejected; there are many if the crowd is
 ///                  nearly full.
-using FaceJoinedCallback = std::function<void(const Rejections& rejected)>;
+using FaceJoinedCallback = std::function<void(const RejectionCounts& rejected)>;
 
 }  // namespace crowdface

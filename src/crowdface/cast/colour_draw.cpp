@@ -11,11 +11,11 @@
 namespace crowdface {
 namespace {
 
-constexpr double kMaxOfSecond = 0.5;
+constexpr double kMaxSecondWeight = 0.5;
 
-class ColourDrawing {
+class ColourChooser {
  public:
-  explicit ColourDrawing(const ColourOptions& draw) : draw_(draw) {
+  explicit ColourChooser(const ColourOptions& draw) : draw_(draw) {
     for (const auto& all : draw.tags) {
       std::vector<std::string> compared = all;
       std::erase_if(compared, [&](const std::string& tag) {
@@ -53,7 +53,7 @@ class ColourDrawing {
     const auto [first, second] = random_pair(key);
     std::vector<SourceWeight> colours = {{take(first), 1}};
     if (!heads.empty()) {
-      const double share = kMaxOfSecond * random_pair(key, 1)[0];
+      const double share = kMaxSecondWeight * random_pair(key, 1)[0];
       colours.push_back({take(second), share});
       colours.front().weight = 1 - share;
     }
@@ -67,15 +67,15 @@ class ColourDrawing {
 };
 
 /// Maps the id of each parent to the colours that its children inherit.
-class Parents {
+class ParentColours {
  public:
-  Parents(const std::vector<std::string>& heads, const std::vector<FacePlan>& crowd)
+  ParentColours(const std::vector<std::string>& heads, const std::vector<FacePlan>& crowd)
       : heads_(heads) {
     for (const FacePlan& face : crowd) {
       for (const std::string& name : face.parents) known_[name];
     }
   }
-  void meet(const FacePlan& face) {
+  void record(const FacePlan& face) {
     const auto found = known_.find(face.id);
     if (found != known_.end()) found->second = face.recipe.colours;
   }
@@ -94,13 +94,13 @@ class Parents {
 }  // namespace
 
 void choose_colours(const ColourOptions& draw, std::vector<FacePlan>& crowd) {
-  const ColourDrawing drawing(draw);
-  Parents parents(draw.head_names, crowd);
+  const ColourChooser drawing(draw);
+  ParentColours parents(draw.head_names, crowd);
   for (FacePlan& face : crowd) {
     const Index typical = typical_head(face.recipe, draw.tags);
     std::vector<SourceWeight>& colours = face.recipe.colours;
     if (!colours.empty()) {  // colours that the recipe specifies
-      parents.meet(face);
+      parents.record(face);
       continue;
     }
     std::map<Index, double> inherited;
@@ -119,7 +119,7 @@ void choose_colours(const ColourOptions& draw, std::vector<FacePlan>& crowd) {
     } else {
       colours = drawing.drawn(typical, 0, 0, face.id);
     }
-    parents.meet(face);
+    parents.record(face);
   }
 }
 

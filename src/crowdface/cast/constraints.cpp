@@ -25,40 +25,48 @@ using Diversity = DiversityOptions;
 using Believability = BelievabilityOptions;
 
 constexpr std::array<Constraint, kReasonCount> kConstraints = {{
-    {Reason::kMinDistance, "diversity", "min_distance", &Diversity::min_distance_mm, nullptr, " mm",
-     "nearer to another face than", kRoom},
-    {Reason::kMinDistanceToHeads, "diversity", "min_distance_to_faces",
+    {RejectionReason::kMinDistance, "diversity", "min_distance", &Diversity::min_distance_mm,
+     nullptr, " mm", "nearer to another face than", kRoom},
+    {RejectionReason::kMinDistanceToHeads, "diversity", "min_distance_to_faces",
      &Diversity::min_distance_to_heads_mm, nullptr, " mm", "nearer to a head than", kMixture},
-    {Reason::kMaxWeight, "diversity", "max_weight", &Diversity::max_weight, nullptr, "",
+    {RejectionReason::kMaxWeight, "diversity", "max_weight", &Diversity::max_weight, nullptr, "",
      "one head has more weight in a region than", kMixture},
-    {Reason::kImplausible, "believability", "max_deviation", nullptr, &Believability::max_deviation,
-     "", "farther from the heads' mean than", kShape},
-    {Reason::kFlipped, "believability", "max_flipped", nullptr, &Believability::max_flipped, "",
-     "more of the skin is turned over than", kShape},
-    {Reason::kStretched, "believability", "max_stretch", nullptr, &Believability::max_stretch, "",
-     "skin is stretched more than", kShape},
-    {Reason::kIntersecting, "believability", "max_intersecting", nullptr,
+    {RejectionReason::kImplausible, "believability", "max_deviation", nullptr,
+     &Believability::max_deviation, "", "farther from the heads' mean than", kShape},
+    {RejectionReason::kFlipped, "believability", "max_flipped", nullptr,
+     &Believability::max_flipped, "", "more of the skin is turned over than", kShape},
+    {RejectionReason::kStretched, "believability", "max_stretch", nullptr,
+     &Believability::max_stretch, "", "skin is stretched more than", kShape},
+    {RejectionReason::kIntersecting, "believability", "max_intersecting", nullptr,
      &Believability::max_intersecting, "", "more of the skin passes through other skin than",
      kShape},
-    {Reason::kGap, "believability", "max_gap", nullptr, &Believability::max_gap_mm, " mm",
+    {RejectionReason::kGap, "believability", "max_gap", nullptr, &Believability::max_gap_mm, " mm",
      "lips, or other skin that nearly touches, part by more than", kShape},
-    {Reason::kExposed, "believability", "max_exposed", nullptr, &Believability::max_exposed_mm2,
-     " mm²", "the lining of nose, lips or lids shows through the skin by more than", kShape},
-    {.reason = Reason::kFamily, .config_section = "", .config_key = "family", .advice = kFamilies},
-    {.reason = Reason::kRejected,
+    {RejectionReason::kExposed, "believability", "max_exposed", nullptr,
+     &Believability::max_exposed_mm2, " mm²",
+     "the lining of nose, lips or lids shows through the skin by more than", kShape},
+    {.reason = RejectionReason::kFamily,
+     .config_section = "",
+     .config_key = "family",
+     .advice = kFamilies},
+    {.reason = RejectionReason::kRejected,
      .config_section = "diversity",
      .config_key = "min_distance_to_rejected",
      .advice = kReview},
-    {.reason = Reason::kTraits, .config_section = "", .config_key = "traits", .advice = kTraits},
+    {.reason = RejectionReason::kTraits,
+     .config_section = "",
+     .config_key = "traits",
+     .advice = kTraits},
 }};
 
 constexpr bool constraints_are_in_order() {
   for (std::size_t r = 0; r < kReasonCount; ++r) {
-    if (kConstraints[r].reason != static_cast<Reason>(r)) return false;
+    if (kConstraints[r].reason != static_cast<RejectionReason>(r)) return false;
   }
   return true;
 }
-static_assert(constraints_are_in_order(), "every Reason has its row, in the enumeration's order");
+static_assert(constraints_are_in_order(),
+              "every RejectionReason has its row, in the enumeration's order");
 
 std::string full_key(const Constraint& constraint) {
   return concat(constraint.config_section, '.', constraint.config_key);
@@ -75,22 +83,22 @@ std::string limit_of(const Constraint& constraint, const DiversityOptions& diver
 
 }  // namespace
 
-const Constraint& constraint_of(Reason reason) {
+const Constraint& constraint_of(RejectionReason reason) {
   return kConstraints[static_cast<std::size_t>(reason)];
 }
 
-std::string describe(Reason reason, const DiversityOptions& diversity,
+std::string describe(RejectionReason reason, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability) {
-  if (reason == Reason::kFamily) return "the distances within the family";
-  if (reason == Reason::kTraits) return "the limits on measurements (traits)";
+  if (reason == RejectionReason::kFamily) return "the distances within the family";
+  if (reason == RejectionReason::kTraits) return "the limits on measurements (traits)";
   const Constraint& constraint = constraint_of(reason);
-  if (reason == Reason::kRejected) {
+  if (reason == RejectionReason::kRejected) {
     return concat("the distance to faces that reviews rejected (", full_key(constraint), ")");
   }
   return concat(full_key(constraint), ", ", limit_of(constraint, diversity, believability));
 }
 
-std::string describe_violation(Reason reason, const DiversityOptions& diversity,
+std::string describe_violation(RejectionReason reason, const DiversityOptions& diversity,
                                const BelievabilityOptions& believability) {
   const Constraint& constraint = constraint_of(reason);
   return concat(constraint.violation_text, " the limit, ",

@@ -16,7 +16,7 @@
 namespace crowdface {
 
 /// The constraint that a rejected candidate violates.
-enum class Reason {
+enum class RejectionReason {
   kMinDistance,         ///< too near to another face of the crowd
   kMinDistanceToHeads,  ///< too near to an input head
   kMaxWeight,           ///< one head has too much weight in a region
@@ -32,11 +32,11 @@ enum class Reason {
   kRejected,  ///< too similar to a face that a review rejected
   kTraits,    ///< a measurement is outside its limits
 };
-constexpr auto kReasonCount = static_cast<std::size_t>(Reason::kTraits) + 1;
+constexpr auto kReasonCount = static_cast<std::size_t>(RejectionReason::kTraits) + 1;
 
 /// A constraint on faces, with the names and texts that the user sees.
 struct Constraint {
-  Reason reason;
+  RejectionReason reason;
   std::string_view config_section;  ///< section of the config that contains the key of the limit
   /// key of the limit in `config_section`; casting.json and logs use this name, too
   std::string_view config_key;
@@ -55,38 +55,40 @@ struct Constraint {
   /// Returns whether the limit is a minimum distance. If so, a lower limit lets more faces fit.
   bool is_distance() const { return diversity_limit != nullptr && unit == " mm"; }
 };
-const Constraint& constraint_of(Reason reason);
+const Constraint& constraint_of(RejectionReason reason);
 
 /// Returns the name of a constraint, which is its key in the config.
-inline std::string_view name_of(Reason reason) {
+inline std::string_view name_of(RejectionReason reason) {
   return constraint_of(reason).config_key;
 }
 /// Returns a text such as "diversity.min_distance, 0.8 mm".
-std::string describe(Reason reason, const DiversityOptions& diversity,
+std::string describe(RejectionReason reason, const DiversityOptions& diversity,
                      const BelievabilityOptions& believability);
 /// Returns a text such as "nearer to a head than the limit, 0.5 mm".
 ///
 /// \pre `reason` is not kFamily, kRejected or kTraits.
-std::string describe_violation(Reason reason, const DiversityOptions& diversity,
+std::string describe_violation(RejectionReason reason, const DiversityOptions& diversity,
                                const BelievabilityOptions& believability);
 
 /// Number of rejected candidates for each reason.
-struct Rejections {
+struct RejectionCounts {
   std::array<std::uint64_t, kReasonCount> counts = {};
-  void add(Reason reason, std::uint64_t candidate_count = 1) {
+  void add(RejectionReason reason, std::uint64_t candidate_count = 1) {
     counts[static_cast<std::size_t>(reason)] += candidate_count;
   }
-  void add(const Rejections& other) {
+  void add(const RejectionCounts& other) {
     for (std::size_t r = 0; r < kReasonCount; ++r) counts[r] += other.counts[r];
   }
-  std::uint64_t of(Reason reason) const { return counts[static_cast<std::size_t>(reason)]; }
+  std::uint64_t of(RejectionReason reason) const {
+    return counts[static_cast<std::size_t>(reason)];
+  }
   std::uint64_t total() const {
     return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
   }
   /// Returns the most frequent reason; if several reasons are equally frequent, the first of these
   /// in the enumeration.
-  Reason most_frequent() const {
-    return static_cast<Reason>(std::ranges::max_element(counts) - counts.begin());
+  RejectionReason most_frequent() const {
+    return static_cast<RejectionReason>(std::ranges::max_element(counts) - counts.begin());
   }
 };
 

@@ -22,11 +22,11 @@ class CrowdSoFar {
   }
   Index size() const { return nearest_search_.size(); }
   /// Marks the beginning of the sampled faces: all faces added later are sampled.
-  void mark_first_sampled() { first_sampled_ = size(); }
+  void begin_sampled_faces() { first_sampled_index_ = size(); }
   /// Index of the first sampled face. Casting chooses among candidates by their distances to
   /// sampled faces only, so an additional recipe or family does not change the choice. (Every
   /// candidate must keep the minimum distance from all faces, though.)
-  Index first_sampled() const { return first_sampled_; }
+  Index first_sampled_index() const { return first_sampled_index_; }
   const std::vector<FacePlan>& faces() const { return faces_; }
   const std::vector<FaceSpace::Point>& points() const { return points_; }
   /// Moves the faces out of this object. Afterwards, only `take_points` may be called.
@@ -39,7 +39,7 @@ class CrowdSoFar {
   std::vector<FacePlan> faces_;
   std::vector<FaceSpace::Point> points_;
   NearestFaceSearch nearest_search_;
-  Index first_sampled_ = 0;
+  Index first_sampled_index_ = 0;
 };
 
 }  // namespace crowdface

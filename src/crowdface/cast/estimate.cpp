@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCountHalvings = 7;
 /// The pool must contain at least this many candidates for each face of a crowd.
-constexpr std::uint64_t kPoolPerFace = 5;
+constexpr std::uint64_t kMinCandidatesPerFace = 5;
 
 /// Returns how many candidates of the pool, taken in order, first-fit casting keeps at this minimum
 /// distance. Stops counting at `enough`.
@@ -32,16 +32,17 @@ std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const 
                                            const std::vector<std::uint64_t>& counts,
                                            std::uint64_t pool_size) {
   // The estimate ignores the crowd's groups, because each group would need a separate pass.
-  CastingOptions free = casting;
-  free.groups.clear();
-  const CandidatePool pool = sample_pool(free, judge, face_distributions(free), pool_size);
+  CastingOptions ungrouped = casting;
+  ungrouped.groups.clear();
+  const CandidatePool pool =
+      sample_pool(ungrouped, judge, face_distributions(ungrouped), pool_size);
   const CrowdSoFar nobody(judge.space().dimensions());
   FarthestPoints points(pool, nobody);
   // for each n: the distance of the closest pair among the first n picks
   std::vector<double> closest;
   std::uint64_t most = 0;
   for (const std::uint64_t count : counts) {
-    if (count * kPoolPerFace <= pool.faces.size()) most = std::max(most, count);
+    if (count * kMinCandidatesPerFace <= pool.faces.size()) most = std::max(most, count);
   }
   while (closest.size() < most) {
     throw_if_interrupted();

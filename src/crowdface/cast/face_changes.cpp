@@ -65,7 +65,7 @@ std::vector<std::string> changed_keys(const AppliedChange& applied) {
 ///
 /// \pre The condition holds at 1.
 template <class Holds>
-double least_share(const Holds& holds) {
+double smallest_fraction_where(const Holds& holds) {
   constexpr int kSteps = 10;  // the bisection finds the fraction to within 0.1 %
   double share = 1, step = 0.5;
   for (int i = 0; i < kSteps; ++i, step *= 0.5) {
@@ -76,14 +76,14 @@ double least_share(const Holds& holds) {
 
 /// Returns whether a redraw is needed only to meet limits on measurements: the change sets neither
 /// a group nor locked bands.
-bool limits_only(const FaceChange& change) {
+bool redraws_only_for_limits(const FaceChange& change) {
   return !change.group && change.locked_bands.empty();
 }
 
-class Changing {
+class FaceChanger {
  public:
-  Changing(const CastingOptions& casting, const FaceJudge& judge, std::size_t at,
-           CastingResult& cast)
+  FaceChanger(const CastingOptions& casting, const FaceJudge& judge, std::size_t at,
+              CastingResult& cast)
       : casting_(casting), judge_(judge), at_(at), cast_(cast), changed_(cast.changed.at(at)) {}
 
   /// Starts from the face as it was cast, and applies all changes of this face.
@@ -110,7 +110,8 @@ class Changing {
     if (applied.variant_of) {
       changed_.variant_of = applied.variant_of;
       change_into(search(vary(change), CrowdSoFar(judge_.space().dimensions())));
-    } else if (change.needs_redraw() && !(limits_only(change) && meets_limits(changed_.face))) {
+    } else if (change.needs_redraw() &&
+               !(redraws_only_for_limits(change) && meets_limits(changed_.face))) {
       changed_.variant_of.reset();
       change_into(search(make_redraw(change), faces_before()));
     }
@@ -171,8 +172,9 @@ class Changing {
         return FaceSpace::distance(judge_.space().point(face.recipe), point) >=
                change.variant_distance_mm;
       };
-      return at(is_beyond(at(1)) ? least_share([&](double share) { return is_beyond(at(share)); })
-                                 : 1);
+      return at(is_beyond(at(1))
+                    ? smallest_fraction_where([&](double share) { return is_beyond(at(share)); })
+                    : 1);
     };
   }
 
@@ -184,7 +186,7 @@ class Changing {
     open.id = now.id;
     if (!change.locked_bands.empty()) open.target = now.recipe.target;
     if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
-    const bool only_traits = limits_only(change);
+    const bool only_traits = redraws_only_for_limits(change);
     return [=, this](std::uint32_t attempt) {
       FacePlan drawn = random_face_plan(casting_, open, key(attempt), kind);
       drawn.index = now.index;
@@ -199,7 +201,8 @@ class Changing {
       // Mix in more of the drawn face than `meets_limits` requires. This margin is needed because
       // `meets_limits` does not build the whole mesh.
       constexpr double kMargin = 0.05;
-      const double share = least_share([&](double part) { return meets_limits(at(part)); });
+      const double share =
+          smallest_fraction_where([&](double part) { return meets_limits(at(part)); });
       return at(share + kMargin * (1 - share));
     };
   }
@@ -300,7 +303,7 @@ void apply(const CastingOptions& casting, const FaceJudge& judge,
         cast.changed.try_emplace(at, ChangedFace{cast.crowd[at], cast.points[at]})
             .first->second.changes;
     own.insert(first ? own.begin() : own.end(), std::move(one));
-    Changing(casting, judge, at, cast).apply();
+    FaceChanger(casting, judge, at, cast).apply();
   }
 }
 
@@ -320,11 +323,11 @@ AvoidedFaces::AvoidedFaces(const CastingResult& cast, double min_distance_mm,
   }
 }
 
-std::optional<Reason> AvoidedFaces::rejection_reason(const FaceSpace::Point& point) const {
+std::optional<RejectionReason> AvoidedFaces::rejection_reason(const FaceSpace::Point& point) const {
   const bool is_near = std::ranges::any_of(points_, [&](const FaceSpace::Point& other) {
     return FaceSpace::distance(point, other) < min_distance_mm_;
   });
-  return is_near ? std::optional(Reason::kMinDistance) : std::nullopt;
+  return is_near ? std::optional(RejectionReason::kMinDistance) : std::nullopt;
 }
 
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
@@ -334,7 +337,7 @@ void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& jud
 
 void reapply_changes(const CastingOptions& casting, const FaceJudge& judge, std::size_t face,
                      CastingResult& cast) {
-  if (cast.changed.contains(face)) Changing(casting, judge, face, cast).apply();
+  if (cast.changed.contains(face)) FaceChanger(casting, judge, face, cast).apply();
 }
 
 }  // namespace crowdface

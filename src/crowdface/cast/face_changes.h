@@ -42,7 +42,7 @@ class AvoidedFaces {
   AvoidedFaces(const CastingResult& cast, double min_distance_mm,
                const std::vector<bool>& is_considered = {});
   /// Returns why a face is rejected, given the face's point; nothing if the face is accepted.
-  std::optional<Reason> rejection_reason(const FaceSpace::Point& point) const;
+  std::optional<RejectionReason> rejection_reason(const FaceSpace::Point& point) const;
 
  private:
   double min_distance_mm_;

@@ -10,14 +10,14 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kMovedRows = 1024;  ///< number of vertices that are transformed at a time
+constexpr Index kVerticesPerBlock = 1024;  ///< number of vertices that are transformed at a time
 
 double distance_of_views(const Eigen::Ref<const Positions>& a, const Eigen::Ref<const Positions>& b,
                          const Eigen::VectorXd& weights) {
   const Similarity motion = fit_similarity(b, a, ScaleFit::kRigid, weights);
   double squared = 0, total = 0;
-  for (Index first = 0; first < a.rows(); first += kMovedRows) {
-    const Index count = std::min(kMovedRows, a.rows() - first);
+  for (Index first = 0; first < a.rows(); first += kVerticesPerBlock) {
+    const Index count = std::min(kVerticesPerBlock, a.rows() - first);
     const Positions moved = motion.apply(b.middleRows(first, count));
     for (Index i = 0; i < count; ++i) {
       squared += weights(first + i) * (a.row(first + i) - moved.row(i)).squaredNorm();

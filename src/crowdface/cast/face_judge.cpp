@@ -8,19 +8,19 @@
 
 namespace crowdface {
 
-std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
-                                     const SkinDefects& defects) {
+std::optional<RejectionReason> exceeded_limit(const BelievabilityOptions& limits,
+                                              const SkinDefects& defects) {
   const auto triangles = static_cast<double>(defects.local.compared_triangle_count);
   if (static_cast<double>(defects.local.flipped_triangle_count) > limits.max_flipped * triangles) {
-    return Reason::kFlipped;
+    return RejectionReason::kFlipped;
   }
-  if (defects.local.stretch_factor > limits.max_stretch) return Reason::kStretched;
+  if (defects.local.stretch_factor > limits.max_stretch) return RejectionReason::kStretched;
   if (static_cast<double>(defects.intersecting_triangle_count) >
       limits.max_intersecting * triangles) {
-    return Reason::kIntersecting;
+    return RejectionReason::kIntersecting;
   }
-  if (defects.gap_excess_mm > limits.max_gap_mm) return Reason::kGap;
-  if (defects.exposed_back_face_mm2 > limits.max_exposed_mm2) return Reason::kExposed;
+  if (defects.gap_excess_mm > limits.max_gap_mm) return RejectionReason::kGap;
+  if (defects.exposed_back_face_mm2 > limits.max_exposed_mm2) return RejectionReason::kExposed;
   return std::nullopt;
 }
 
@@ -44,39 +44,41 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
                              kFractionOfMedian * quartiles(pair_distances(heads)).median);
 }
 
-std::optional<Reason> FaceJudge::check_traits(const FacePlan& face) const {
+std::optional<RejectionReason> FaceJudge::check_traits(const FacePlan& face) const {
   if (trait_rules_ == nullptr || trait_rules_->limits_of(face).empty()) return std::nullopt;
   return trait_rules_->check(face, trait_rules_->measurer().exact_landmarks(face.recipe));
 }
 
-std::optional<Reason> FaceJudge::check_recipe(const Recipe& recipe,
-                                              const FaceSpace::Point& point) const {
+std::optional<RejectionReason> FaceJudge::check_recipe(const Recipe& recipe,
+                                                       const FaceSpace::Point& point) const {
   for (const RegionRecipe& region : recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       for (const SourceWeight& source : band_of(region, b).weights) {
-        if (source.weight > diversity_.max_weight) return Reason::kMaxWeight;
+        if (source.weight > diversity_.max_weight) return RejectionReason::kMaxWeight;
       }
     }
   }
   const double limit = diversity_.min_distance_to_heads_mm;
-  if (limit > 0 && head_search_.nearest(point, limit).face >= 0) return Reason::kMinDistanceToHeads;
+  if (limit > 0 && head_search_.nearest(point, limit).face >= 0)
+    return RejectionReason::kMinDistanceToHeads;
   if (believability_.check && plausibility_.score(point) > believability_.max_deviation) {
-    return Reason::kImplausible;
+    return RejectionReason::kImplausible;
   }
   return std::nullopt;
 }
 
-std::optional<Reason> FaceJudge::check_candidate(const Recipe& recipe,
-                                                 const FaceSpace::Point& point,
-                                                 std::uint32_t earlier_candidate_count) const {
+std::optional<RejectionReason> FaceJudge::check_candidate(
+    const Recipe& recipe, const FaceSpace::Point& point,
+    std::uint32_t earlier_candidate_count) const {
   if (const auto why = check_recipe(recipe, point)) return why;
   const bool is_same_person_as_head =
       earlier_candidate_count < DiversityOptions::kCandidatesCheckedForSamePerson &&
       head_search_.nearest(point, same_person_mm_).face >= 0;
-  return is_same_person_as_head ? std::optional(Reason::kMinDistanceToHeads) : std::nullopt;
+  return is_same_person_as_head ? std::optional(RejectionReason::kMinDistanceToHeads)
+                                : std::nullopt;
 }
 
-std::optional<Reason> FaceJudge::check_skin(const Recipe& whole) const {
+std::optional<RejectionReason> FaceJudge::check_skin(const Recipe& whole) const {
   if (proxy_skin_ == nullptr || !believability_.check) return std::nullopt;
   // check the unmirrored face, because a face and its mirror image have the same defects
   Recipe recipe = whole;

@@ -15,8 +15,8 @@ namespace crowdface {
 
 /// Returns the first limit that the defects of a face's skin exceed; nothing if they exceed no
 /// limit.
-std::optional<Reason> exceeded_limit(const BelievabilityOptions& limits,
-                                     const SkinDefects& defects);
+std::optional<RejectionReason> exceeded_limit(const BelievabilityOptions& limits,
+                                              const SkinDefects& defects);
 
 /// Builds the whole mesh of a recipe, and compares the mesh's skin with the target's skin. Must be
 /// callable from any thread.
@@ -39,26 +39,28 @@ class FaceJudge {
   void set_trait_rules(const TraitRules* rules) { trait_rules_ = rules; }
   const TraitRules* trait_rules() const { return trait_rules_; }
   /// Checks the limits on measurements, with landmarks of the whole mesh.
-  std::optional<Reason> check_traits(const FacePlan& face) const;
+  std::optional<RejectionReason> check_traits(const FacePlan& face) const;
 
   /// Checks everything that needs only the recipe and the face's point in the face space: weights,
   /// distance from the input heads, plausibility. Takes microseconds.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.
-  std::optional<Reason> check_recipe(const Recipe& recipe, const FaceSpace::Point& point) const;
+  std::optional<RejectionReason> check_recipe(const Recipe& recipe,
+                                              const FaceSpace::Point& point) const;
 
   /// Like `check_recipe`. The first DiversityOptions::kCandidatesCheckedForSamePerson candidates of
   /// a face are also rejected if they count as the same person as a head.
   ///
   /// \param earlier_candidate_count  Number of earlier candidates for the same face.
-  std::optional<Reason> check_candidate(const Recipe& recipe, const FaceSpace::Point& point,
-                                        std::uint32_t earlier_candidate_count) const;
+  std::optional<RejectionReason> check_candidate(const Recipe& recipe,
+                                                 const FaceSpace::Point& point,
+                                                 std::uint32_t earlier_candidate_count) const;
 
   /// Checks the form of the skin: flips, stretch, intersections. Takes a millisecond on the coarse
   /// mesh, a tenth of a second on a whole mesh of 28,000 triangles.
   ///
   /// \return  Why the candidate is rejected; nothing if it is accepted.
-  std::optional<Reason> check_skin(const Recipe& recipe) const;
+  std::optional<RejectionReason> check_skin(const Recipe& recipe) const;
 
   /// Returns the head nearest to a point. If faces may be mirrored, the mirror image of a head
   /// counts as this head.

@@ -32,7 +32,7 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
   }
   candidate.distance_to_crowd_mm =
       crowd.nearest_search()
-          .nearest(candidate.point, HUGE_VAL, crowd.first_sampled(), crowd.size(), farthest)
+          .nearest(candidate.point, HUGE_VAL, crowd.first_sampled_index(), crowd.size(), farthest)
           .distance_mm;
   candidate.is_distance_exact = candidate.distance_to_crowd_mm >= farthest;
   return true;
@@ -85,7 +85,7 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
                                      candidate.face.notes.attempt - first_attempt_)) {
         rejections_.add(*reason);
       } else if (!is_far_from_crowd(candidate, crowd)) {
-        rejections_.add(Reason::kMinDistance);
+        rejections_.add(RejectionReason::kMinDistance);
       } else {
         candidates_.push_back(std::move(candidate));
       }
@@ -105,7 +105,7 @@ void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   const auto gone = std::erase_if(candidates_, [&](const Candidate& candidate) {
     return candidate.distance_to_crowd_mm < diversity_.min_distance_mm;
   });
-  rejections_.add(Reason::kMinDistance, gone);
+  rejections_.add(RejectionReason::kMinDistance, gone);
   compared_face_count_ = crowd.size();
 }
 
@@ -123,7 +123,7 @@ FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
                                          });
     if (first.is_distance_exact) return first;
     const auto nearest = crowd.nearest_search().nearest(first.point, first.distance_to_crowd_mm,
-                                                        crowd.first_sampled(), crowd.size());
+                                                        crowd.first_sampled_index(), crowd.size());
     first.distance_to_crowd_mm = std::min(first.distance_to_crowd_mm, nearest.distance_mm);
     first.is_distance_exact = true;
   }

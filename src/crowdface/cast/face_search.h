@@ -23,7 +23,7 @@ class FaceSearch {
   using GenerateCandidate = std::function<FacePlan(std::uint32_t attempt)>;
   /// An additional check of a candidate, given the candidate's point in the face space. Returns why
   /// the candidate is rejected; nothing if the candidate is accepted.
-  using RejectionCheck = std::function<std::optional<Reason>(const FaceSpace::Point&)>;
+  using RejectionCheck = std::function<std::optional<RejectionReason>(const FaceSpace::Point&)>;
 
   /// Returns how undesirable a candidate is, given the candidate's landmarks (see FaceMeasurer).
   /// Costs serve only to compare candidates.
@@ -52,7 +52,7 @@ class FaceSearch {
                                        const RejectionCheck& rejection_reason = {},
                                        const Cost& cost = {});
 
-  const Rejections& rejections() const { return rejections_; }
+  const RejectionCounts& rejections() const { return rejections_; }
 
  private:
   struct Candidate {
@@ -64,7 +64,7 @@ class FaceSearch {
     bool is_distance_exact =
         true;  ///< whether `distance_to_crowd_mm` is the exact distance, not an upper bound
     bool is_skin_judged = false;  ///< whether `check_skin` was called
-    std::optional<Reason> violated_constraint = std::nullopt;
+    std::optional<RejectionReason> violated_constraint = std::nullopt;
   };
 
   bool needs_candidates(std::size_t unchecked_count) const;
@@ -88,7 +88,7 @@ class FaceSearch {
   /// number of faces of the crowd with which the candidates have been compared
   Index compared_face_count_ = 0;
   std::vector<Candidate> candidates_;
-  Rejections rejections_;
+  RejectionCounts rejections_;
 };
 
 }  // namespace crowdface

@@ -48,7 +48,7 @@ bool is_extrapolated(const Recipe& recipe) {
 /// The order of the coordinate functions in the rows of a matrix: first the mean head, then each
 /// head's deviation from the mean head, then the displacement fields, sorted by region, head and
 /// mode.
-struct FaceSpace::BasisRowOrder {
+struct FaceSpace::FunctionRowOrder {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }
   Index of_field(Index region_and_head, Index mode) const {
@@ -80,12 +80,12 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, Fac
 
 bool FaceSpace::have_matching_sizes(const FaceSpaceTables& tables, const SampledHeads& heads) {
   const std::size_t mirror_variant_count = heads.mirror_images == nullptr ? 1 : 2;
-  const BasisRowOrder rows{static_cast<Index>(mirror_variant_count * heads.heads.size()),
-                           tables.level_coefficients.cols()};
+  const FunctionRowOrder rows{static_cast<Index>(mirror_variant_count * heads.heads.size()),
+                              tables.level_coefficients.cols()};
   const Index regions = heads.region_weights.cols(), rank = tables.principal_directions.rows();
   return tables.level_coefficients.rows() == static_cast<Index>(heads.levels.size()) &&
-         tables.basis_functions.rows() == rows.count(regions) &&
-         tables.principal_directions.cols() == 3 * tables.basis_functions.cols() &&
+         tables.basis_coefficients.rows() == rows.count(regions) &&
+         tables.principal_directions.cols() == 3 * tables.basis_coefficients.cols() &&
          static_cast<Index>(tables.region_metrics.size()) == (regions > 1 ? regions : 0) &&
          std::ranges::all_of(tables.region_metrics, [&](const FloatRows& metric) {
            return metric.rows() == rank && metric.cols() == rank;
@@ -140,7 +140,7 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
     row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
-/// Computes the coordinate functions, in the order of BasisRowOrder. Three rows (x, y, z) belong to
+/// Computes the coordinate functions, in the order of FunctionRowOrder. Three rows (x, y, z) belong to
 /// the mean head, to each head's deviation from the mean head, and to each displacement field: the
 /// part of a mode that belongs to one head, multiplied by the weights of one region.
 ///
@@ -149,7 +149,7 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
 ///                          coefficient.
 FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
                                           const std::vector<float>& max_coefficients,
-                                          const BasisRowOrder& rows) const {
+                                          const FunctionRowOrder& rows) const {
   const Index size = weight_square_roots_.size(), regions = heads_.region_weights.cols();
   FloatRows functions(rows.count(regions), size);
   for (Index c = 0; c < 3; ++c) {
@@ -202,17 +202,17 @@ FloatRows FaceSpace::compute_basis_functions() {
     for (Index l = 0; l < tables_.level_coefficients.rows(); ++l)
       tables_.level_coefficients(l, r) /= max_coefficients.back();
   }
-  const BasisRowOrder rows{head_point_count(), modes.directions.rows()};
+  const FunctionRowOrder rows{head_point_count(), modes.directions.rows()};
   SpanBasis basis = span_basis(coordinate_functions(modes, max_coefficients, rows), kFieldTolerance,
                                mirror_variant_count() * kMaxBasisFunctions);
-  tables_.basis_functions = std::move(basis.coordinates);
+  tables_.basis_coefficients = std::move(basis.coordinates);
   return std::move(basis.directions);
 }
 
 void FaceSpace::compute_head_shapes_and_fields() {
-  const BasisRowOrder rows{head_point_count(), tables_.level_coefficients.cols()};
+  const FunctionRowOrder rows{head_point_count(), tables_.level_coefficients.cols()};
   const auto shape_at = [&](Index row) -> Shape {
-    return tables_.basis_functions.middleRows<3>(row).transpose();
+    return tables_.basis_coefficients.middleRows<3>(row).transpose();
   };
   mean_shape_ = shape_at(0);
   for (Index h = 0; h < rows.heads; ++h) {
@@ -220,23 +220,23 @@ void FaceSpace::compute_head_shapes_and_fields() {
   }
   const auto levels = static_cast<Index>(heads_.levels.size());
   const Index fields = heads_.region_weights.cols() * rows.heads, size = mean_shape_.size();
-  fields_.assign(static_cast<std::size_t>(fields * levels * size), 0.F);
+  displacement_fields_.assign(static_cast<std::size_t>(fields * levels * size), 0.F);
   parallel_for_each(fields, [&](Index kh) {
     for (Index r = 0; r < rows.modes; ++r) {
       const Shape mode = shape_at(rows.of_field(kh, r));
       for (Index l = 0; l < levels; ++l) {
         const float factor = tables_.level_coefficients(l, r);
-        float* out = fields_.data() + (kh * levels + l) * size;
+        float* out = displacement_fields_.data() + (kh * levels + l) * size;
         for (Index i = 0; i < size; ++i) out[i] += factor * mode.data()[i];
       }
     }
   });
 }
 
-const float* FaceSpace::field(std::size_t region, Index head, Index row) const {
+const float* FaceSpace::displacement_field(std::size_t region, Index head, Index row) const {
   const auto rows = static_cast<Index>(heads_.levels.size());
   const Index at = (static_cast<Index>(region) * head_point_count() + head) * rows + row;
-  return fields_.data() + at * mean_shape_.size();
+  return displacement_fields_.data() + at * mean_shape_.size();
 }
 
 /// Returns the shape of a recipe's face with the recipe's extrapolation factors. If any factor is
@@ -269,7 +269,7 @@ std::vector<FaceSpace::Shape> FaceSpace::shapes_of_mirror_variant(const Recipe& 
       for (const WeightedTrajectoryRow& level :
            interpolation_rows(heads_.levels, as_given[l].level)) {
         for (std::size_t i = 0; i < as_given[l].weights.size(); ++i) {
-          const float* from = field(k, first + as_given[l].weights[i].head, level.row);
+          const float* from = displacement_field(k, first + as_given[l].weights[i].head, level.row);
           const auto add_to = [&](Shape& shape, double weight) {
             add_scaled(static_cast<float>(weight * level.weight), from, size, shape.data());
           };

@@ -15,7 +15,7 @@ struct FaceSpaceTables {
   /// #functions by #P: each row holds the coefficients of one coordinate function in an orthonormal
   /// basis of P functions. A coordinate function is a scalar function on the skin. Each coordinate
   /// of a face (x, y or z) is a linear combination of the coordinate functions.
-  FloatRows basis_functions;
+  FloatRows basis_coefficients;
   FloatRows principal_directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
   std::vector<FloatRows> region_metrics;
@@ -93,7 +93,7 @@ class FaceSpace {
   /// The coefficients of a face before alignment: a row per basis function (#P), a column per axis.
   using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  struct BasisRowOrder;
+  struct FunctionRowOrder;
 
   /// Returns 2 if each head has a mirror image (the mirror images are the heads from number
   /// head_count() on), otherwise 1.
@@ -116,7 +116,7 @@ class FaceSpace {
   ///
   /// \param modes  orthonormal basis of the detail that smoothing removes from the heads
   FloatRows coordinate_functions(const SpanBasis& modes, const std::vector<float>& max_coefficients,
-                                 const BasisRowOrder& rows) const;
+                                 const FunctionRowOrder& rows) const;
   FloatRows compute_basis_functions();
   void compute_head_shapes_and_fields();
   void find_principal_directions(std::size_t bands);
@@ -127,7 +127,7 @@ class FaceSpace {
   std::vector<Shape> shapes_of_mirror_variant(const Recipe& recipe, Index orientation) const;
   std::vector<float> aligned_deviation(const Shape& shape) const;
   std::vector<Eigen::VectorXf> coordinates(const std::vector<Shape>& shapes) const;
-  const float* field(std::size_t region, Index head, Index row) const;
+  const float* displacement_field(std::size_t region, Index head, Index row) const;
 
   SampledHeads heads_;
   std::vector<Index> nonzero_weight_samples_;  ///< indices of the samples with nonzero weight
@@ -138,7 +138,7 @@ class FaceSpace {
   /// The displacement fields α_k (S_L x_h − x_h): the displacement of head x_h by smoothing to
   /// level L, multiplied by the weights α_k of region k. One #P by 3 matrix for each region, head
   /// (including mirror images) and row of `level_coefficients`.
-  std::vector<float> fields_;
+  std::vector<float> displacement_fields_;
   FloatRows directions_transposed_;  ///< 3·#P by #D, padded with zeros to a multiple of 16 columns
   /// the region's fraction of the face's surface area; empty if there is one region
   std::vector<double> region_area_fractions_;

@@ -11,14 +11,14 @@
 namespace crowdface {
 namespace {
 
-constexpr std::uint32_t kFounders = 12;  ///< number of founders to try before giving up
-/// number of pairs of new parents that are tried until a pair matches well; if none does, kFounders
+constexpr std::uint32_t kMaxFounders = 12;  ///< number of founders to try before giving up
+/// number of pairs of new parents that are tried until a pair matches well; if none does, kMaxFounders
 /// further pairs are tried without this condition
-constexpr std::uint32_t kCouples = 200;
+constexpr std::uint32_t kMaxCouples = 200;
 /// largest number of candidates that are tried for each founder
-constexpr std::uint32_t kFounderAttempts = 64;
+constexpr std::uint32_t kMaxAttemptsPerFounder = 64;
 /// number of acceptable candidates among which the founder of a family without parents is chosen
-constexpr int kFounderCandidates = 24;
+constexpr int kCandidatesPerFounder = 24;
 
 /// Returns the options of the search for a founder, who is not part of the crowd: the options have
 /// no minimum distances and no limit on weights.
@@ -26,7 +26,7 @@ DiversityOptions without_distance_limits(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
   diversity.min_distance_to_heads_mm = 0;
   diversity.max_weight = 1;
-  diversity.max_attempts = kFounderAttempts;
+  diversity.max_attempts = kMaxAttemptsPerFounder;
   return diversity;
 }
 
@@ -37,7 +37,7 @@ std::vector<FaceSearch::FoundFace> find_members(const CastingOptions& casting,
                                                 const FamilySampler& sampler,
                                                 const FamilyPlan& cast, const CrowdSoFar& crowd,
                                                 const FamilySeparation& family_separation,
-                                                Rejections& rejections) {
+                                                RejectionCounts& rejections) {
   std::vector<FaceSearch::FoundFace> members;
   std::vector<FaceSpace::Point> own;
   while (static_cast<int>(members.size()) < family.member_count) {
@@ -46,7 +46,7 @@ std::vector<FaceSearch::FoundFace> find_members(const CastingOptions& casting,
                       judge, casting.diversity, 1);
     auto member = search.choose_face(crowd, [&](const FaceSpace::Point& point) {
       return sampler.distance_to_new_parent_mm(point) < casting.diversity.min_distance_mm
-                 ? std::optional(Reason::kMinDistance)
+                 ? std::optional(RejectionReason::kMinDistance)
                  : sampler.rejection_reason(cast, point, own, family_separation);
     });
     rejections.add(search.rejections());
@@ -62,19 +62,19 @@ std::vector<FaceSearch::FoundFace> find_members(const CastingOptions& casting,
 std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,
                                       const FaceJudge& judge, const UnrelatedFaces& unrelated,
                                       CrowdSoFar& crowd, FamilySeparation& family_separation,
-                                      Rejections& rejections) {
+                                      RejectionCounts& rejections) {
   FamilySampler sampler(casting, family, judge, unrelated, crowd);
   const DiversityOptions of_founder = without_distance_limits(casting.diversity);
   const bool drawn = sampler.needs_parents();
-  const std::uint32_t attempts_each = kFounderAttempts * max_attempts_factor(casting);
-  for (std::uint32_t f = 0; f < (drawn ? kCouples + kFounders : kFounders); ++f) {
+  const std::uint32_t attempts_each = kMaxAttemptsPerFounder * max_attempts_factor(casting);
+  for (std::uint32_t f = 0; f < (drawn ? kMaxCouples + kMaxFounders : kMaxFounders); ++f) {
     throw_if_interrupted();
     if (drawn && !sampler.sample_parents(crowd, family_separation, f, rejections))
       return std::nullopt;
     // Find a founder (from whom the members are derived). New parents must also resemble this
     // founder.
     FaceSearch founder([&](std::uint32_t attempt) { return sampler.founder(attempt); }, judge,
-                       of_founder, family.parents.empty() ? kFounderCandidates : 1,
+                       of_founder, family.parents.empty() ? kCandidatesPerFounder : 1,
                        f * attempts_each);
     auto found = founder.choose_face(crowd);
     rejections.add(founder.rejections());
@@ -83,8 +83,8 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     // The limit grows with the number of tries. If both parents are new, a pair that matches well
     // is soon found. If one parent is given, no new parent may match well.
     const double enough =
-        kMaxFractionOfNearerStrangersForFounder * (0.5 + static_cast<double>(f) / kCouples);
-    if (drawn && f < kCouples && to_half > enough) continue;
+        kMaxFractionOfNearerStrangersForFounder * (0.5 + static_cast<double>(f) / kMaxCouples);
+    if (drawn && f < kMaxCouples && to_half > enough) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child who is not part of the crowd replaces the founder.
     if (family.are_twins) {
@@ -95,7 +95,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
         const bool too_far = to_half <= kMaxFractionOfNearerStrangersForFounder &&
                              sampler.fraction_of_strangers_nearer_than_parent(point) >
                                  kMaxFractionOfNearerStrangersForFounder;
-        return too_far ? std::optional(Reason::kFamily)
+        return too_far ? std::optional(RejectionReason::kFamily)
                        : sampler.rejection_reason(cast, point, {}, family_separation);
       });
       rejections.add(model.rejections());

@@ -18,7 +18,7 @@ namespace crowdface {
 std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const FamilyOptions& family,
                                       const FaceJudge& judge, const UnrelatedFaces& unrelated,
                                       CrowdSoFar& crowd, FamilySeparation& family_separation,
-                                      Rejections& rejections);
+                                      RejectionCounts& rejections);
 
 /// Returns the mean silhouette coefficient of a family's members, which measures how well a cluster
 /// is separated (Rousseeuw 1987). The coefficient of a member is (b − a)/max(a, b), where a is the

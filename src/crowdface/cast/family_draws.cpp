@@ -18,7 +18,7 @@ namespace crowdface {
 namespace {
 
 /// smallest distance of a member from the founder, as a fraction of max_distance
-constexpr double kNearestShare = 0.4;
+constexpr double kMinDistanceFraction = 0.4;
 /// A member is a mixture of the founder and a random face. The detail of this random face is a
 /// mixture too: a parent's detail has this weight, and random detail has the remaining weight.
 constexpr double kParentShare = 0.75;
@@ -30,7 +30,7 @@ constexpr double kMainParentShapeShare = 0.65;
 constexpr double kRandomShapeShare = 0.2;
 constexpr int kHalvings = 10;
 // largest distance in mm between a twin and the hidden child from which all twins are derived
-constexpr double kTwinsReach = 0.5;
+constexpr double kMaxTwinDistanceMm = 0.5;
 
 /// A child counts as resembling a parent if at most this fraction of strangers is nearer to the
 /// child than the parent is.
@@ -62,7 +62,7 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
       judge_(judge),
       unrelated_faces_(unrelated),
       parents_(family.parents.size()),
-      kin_points_(judge.space().dimensions()),
+      relative_points_(judge.space().dimensions()),
       stranger_points_(judge.space().dimensions()) {
   const auto& faces = crowd.faces();
   for (std::size_t p = 0; p < parents_.size(); ++p) {
@@ -86,7 +86,7 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
     }
     add_parent(p, found->id, *found,
                crowd.points()[static_cast<std::size_t>(found - faces.begin())]);
-    if (found->family) relatives_.push_back(*found->family);
+    if (found->family) relative_family_names_.push_back(*found->family);
   }
   if (parents_not_in_crowd_.empty()) prepare_inheritance();
   const auto is_parent = [&](const std::string& name) {
@@ -95,13 +95,13 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
   };
   for (const FacePlan& face : faces) {
     if (face.family && std::any_of(face.parents.begin(), face.parents.end(), is_parent)) {
-      relatives_.push_back(*face.family);
+      relative_family_names_.push_back(*face.family);
     }
   }
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const FacePlan& face = faces[i];
-    const bool relative = face.family && contains(relatives_, *face.family);
-    (relative || is_parent(face.id) ? kin_points_ : stranger_points_).add(crowd.points()[i]);
+    const bool relative = face.family && contains(relative_family_names_, *face.family);
+    (relative || is_parent(face.id) ? relative_points_ : stranger_points_).add(crowd.points()[i]);
   }
 }
 
@@ -178,7 +178,7 @@ FaceDistribution FamilySampler::third_contributor_distribution() const {
 
 bool FamilySampler::sample_parents(const CrowdSoFar& crowd,
                                    const FamilySeparation& family_separation, std::uint32_t attempt,
-                                   Rejections& rejections) {
+                                   RejectionCounts& rejections) {
   new_parents_.clear();
   for (const std::size_t p : parents_not_in_crowd_) {
     const Parent& parent = family_.parents[p];
@@ -192,10 +192,10 @@ bool FamilySampler::sample_parents(const CrowdSoFar& crowd,
         judge_, casting_.diversity, 1,
         attempt * static_cast<std::uint32_t>(casting_.diversity.max_attempts) *
             max_attempts_factor(casting_));
-    auto found =
-        search.choose_face(crowd, [&](const FaceSpace::Point& point) -> std::optional<Reason> {
+    auto found = search.choose_face(
+        crowd, [&](const FaceSpace::Point& point) -> std::optional<RejectionReason> {
           if (distance_to_new_parent_mm(point) < casting_.diversity.min_distance_mm)
-            return Reason::kMinDistance;
+            return RejectionReason::kMinDistance;
           return family_separation.rejection_reason(point);
         });
     rejections.add(search.rejections());
@@ -296,7 +296,7 @@ int FamilySampler::parent_to_inherit_from(std::size_t region, std::size_t band) 
 void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.purpose_prefix, "/inherits/", what);
-    return random_unit({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
+    return random_uniform({casting_.seed, key.index, purpose, key.attempt}) < 0.5 ? 0 : 1;
   };
   if (!family_.target) {
     const double one = kMainParentShapeShare / (1 - kRandomShapeShare);
@@ -325,7 +325,7 @@ void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& ke
 
 double FamilySampler::max_distance_from_founder_mm(const FamilyPlan& family_plan) const {
   const double most = family_.max_distance_mm;
-  return family_plan.founder_is_prototype_of_twins ? std::min(most, kTwinsReach) : most;
+  return family_plan.founder_is_prototype_of_twins ? std::min(most, kMaxTwinDistanceMm) : most;
 }
 
 FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_plan, int member,
@@ -345,7 +345,7 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
   // how_far: 0 gives the smallest, 1 the largest distance from the founder
-  draft.distance_mm = kNearestShare + (1 - kNearestShare) * how_far;
+  draft.distance_mm = kMinDistanceFraction + (1 - kMinDistanceFraction) * how_far;
   draft.distance_mm *= max_distance_from_founder_mm(family_plan);
   if (family_plan.founder_is_prototype_of_twins) {
     draft.random_face.inherited_from = family_plan.founder.inherited_from;
@@ -389,25 +389,27 @@ FacePlan FamilySampler::member(const FamilyPlan& family_plan, int member,
   return face_at_chosen_distance(family_plan, member_draft(family_plan, member, attempt));
 }
 
-std::optional<Reason> FamilySampler::rejection_reason(
+std::optional<RejectionReason> FamilySampler::rejection_reason(
     const FamilyPlan& family_plan, const FaceSpace::Point& point,
     const std::vector<FaceSpace::Point>& members, const FamilySeparation& family_separation) const {
   if (FaceSpace::distance(point, family_plan.founder_point) >
       max_distance_from_founder_mm(family_plan))
-    return Reason::kFamily;
-  if (family_separation.is_too_near_to_family(point, relatives_)) return Reason::kFamily;
-  if (!resembles_parents(family_plan, point)) return Reason::kFamily;
-  if (kin_points_.nearest(point, family_.min_distance_mm).face >= 0) return Reason::kFamily;
-  if (distance_to_new_parent_mm(point) < family_.min_distance_mm) return Reason::kFamily;
+    return RejectionReason::kFamily;
+  if (family_separation.is_too_near_to_family(point, relative_family_names_))
+    return RejectionReason::kFamily;
+  if (!resembles_parents(family_plan, point)) return RejectionReason::kFamily;
+  if (relative_points_.nearest(point, family_.min_distance_mm).face >= 0)
+    return RejectionReason::kFamily;
+  if (distance_to_new_parent_mm(point) < family_.min_distance_mm) return RejectionReason::kFamily;
   double farthest = 0;
   for (const FaceSpace::Point& relative : members) {
     const double mm = FaceSpace::distance(point, relative);
-    if (mm < family_.min_distance_mm) return Reason::kFamily;
+    if (mm < family_.min_distance_mm) return RejectionReason::kFamily;
     farthest = std::max(farthest, mm);
     // The earlier member `relative` must also be nearer to `point` than to any stranger.
-    if (stranger_points_.nearest(relative).distance_mm <= mm) return Reason::kFamily;
+    if (stranger_points_.nearest(relative).distance_mm <= mm) return RejectionReason::kFamily;
   }
-  if (stranger_points_.nearest(point).distance_mm <= farthest) return Reason::kFamily;
+  if (stranger_points_.nearest(point).distance_mm <= farthest) return RejectionReason::kFamily;
   return std::nullopt;
 }
 

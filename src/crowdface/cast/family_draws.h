@@ -48,7 +48,7 @@ class FamilySampler {
   ///
   /// \return  false if there is no room for these parents in the crowd.
   bool sample_parents(const CrowdSoFar& crowd, const FamilySeparation& family_separation,
-                      std::uint32_t attempt, Rejections& rejections);
+                      std::uint32_t attempt, RejectionCounts& rejections);
   /// Returns the parents that the last call of sample_parents made, mother first.
   const std::vector<FaceSearch::FoundFace>& new_parents() const { return new_parents_; }
   /// Returns the distance from a point to the nearest new parent. (New parents are not yet in the
@@ -68,10 +68,10 @@ class FamilySampler {
   /// the face is accepted.
   ///
   /// \param members  Points of the members found so far.
-  std::optional<Reason> rejection_reason(const FamilyPlan& family_plan,
-                                         const FaceSpace::Point& point,
-                                         const std::vector<FaceSpace::Point>& members,
-                                         const FamilySeparation& family_separation) const;
+  std::optional<RejectionReason> rejection_reason(const FamilyPlan& family_plan,
+                                                  const FaceSpace::Point& point,
+                                                  const std::vector<FaceSpace::Point>& members,
+                                                  const FamilySeparation& family_separation) const;
 
   /// For each parent, computes the fraction of strangers that are nearer to the point than the
   /// parent is. Returns the larger fraction. For a family in a group, the strangers are faces of
@@ -125,9 +125,9 @@ class FamilySampler {
   /// outside the group. Empty: the family has no group, or no parents.
   std::vector<SubstituteHeads> source_substitutes_;
   /// names of the parents' families, and of the other families that have one of these parents
-  std::vector<std::string> relatives_;
+  std::vector<std::string> relative_family_names_;
   /// points of relatives (kin) and of all other faces (strangers)
-  NearestFaceSearch kin_points_, stranger_points_;
+  NearestFaceSearch relative_points_, stranger_points_;
 };
 
 /// Returns the id of a family's member, such as "NAME_FAMILY_01".

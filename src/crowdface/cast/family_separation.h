@@ -27,8 +27,8 @@ class FamilySeparation {
                              const std::vector<std::string>& relatives = {}) const;
   /// Returns why a face without relatives is rejected, given the face's point in the face space;
   /// nothing if the face is accepted.
-  std::optional<Reason> rejection_reason(const FaceSpace::Point& stranger) const {
-    return is_too_near_to_family(stranger) ? std::optional(Reason::kFamily) : std::nullopt;
+  std::optional<RejectionReason> rejection_reason(const FaceSpace::Point& stranger) const {
+    return is_too_near_to_family(stranger) ? std::optional(RejectionReason::kFamily) : std::nullopt;
   }
   /// Adds a family, given by the face-space points of the family's members.
   void add(const std::string& family, const std::vector<FaceSpace::Point>& members);

@@ -9,12 +9,12 @@ namespace {
 
 /// Largest number of candidates in all trials together. Trials that have begun are finished, and
 /// trials continue until one succeeds, even if they exceed this number.
-constexpr std::uint64_t kMaxDraws = 200'000;
+constexpr std::uint64_t kMaxTrialCandidates = 200'000;
 /// Largest number of faces in a trial.
-constexpr std::uint64_t kMaxTried = 400;
+constexpr std::uint64_t kMaxTrialFaces = 400;
 /// Bisection stops when the smallest distance that fails is at most this factor times the largest
 /// distance that works.
-constexpr double kNearEnough = 1.08;
+constexpr double kBisectionRatio = 1.08;
 
 double whole_hundredths(double mm) {
   return std::floor(mm * 100) / 100;
@@ -47,7 +47,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   }
   easier.reviews.clear();
   easier.changes.clear();
-  easier.count = std::min(casting.count, kMaxTried);
+  easier.count = std::min(casting.count, kMaxTrialFaces);
   remedy.trial_face_count = easier.count;
   const Constraint& constraint = constraint_of(remedy.binding_constraint);
   if (!constraint.is_distance()) return remedy;
@@ -65,7 +65,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   };
   double works = 0, fails = distance;
   double next = next_smaller(fails, std::min(shortfall.cast_count, easier.count), easier.count);
-  while ((draws < kMaxDraws || works == 0) && fails >= kNearEnough * works) {
+  while ((draws < kMaxTrialCandidates || works == 0) && fails >= kBisectionRatio * works) {
     const double mm = whole_hundredths(next);
     if (mm <= works) break;
     if (const auto missing = shortfall_at(mm, {})) {
@@ -88,8 +88,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 
 std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge) {
   // spread mode finds at most twice as many faces as first fit; a factor of 8 leaves a margin
-  constexpr std::uint64_t kBetter = 8;
-  const bool is_large = casting.count > kBetter * kMaxTried;
+  constexpr std::uint64_t kMaxSpreadToFirstFitRatio = 8;
+  const bool is_large = casting.count > kMaxSpreadToFirstFitRatio * kMaxTrialFaces;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {
     return std::nullopt;
@@ -98,7 +98,7 @@ std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const 
   first_fit.diversity.mode = DiversityOptions::Mode::kFirstFit;
   first_fit.reviews.clear();
   first_fit.changes.clear();
-  first_fit.count = kMaxTried;
+  first_fit.count = kMaxTrialFaces;
   return cast_crowd(first_fit, judge).shortfall;
 }
 

@@ -8,7 +8,7 @@ namespace crowdface {
 /// A smaller distance limit with which casting can complete a crowd that now has a shortfall.
 struct Remedy {
   /// the constraint that rejected most candidates
-  Reason binding_constraint = Reason::kMinDistance;
+  RejectionReason binding_constraint = RejectionReason::kMinDistance;
   /// Largest value of the constraint's distance, in whole hundredths of a millimetre, with which
   /// casting succeeded. Empty if the constraint has no distance, or if no value succeeded.
   std::optional<double> largest_distance_mm;

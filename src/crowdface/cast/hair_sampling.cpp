@@ -96,7 +96,7 @@ std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face) {
     chosen = schedule->second[place->second.face_index];
   } else {
     const std::string purpose = concat("hair/colour/", face.id);
-    chosen = share_at(parts, random_unit({options_.seed, face.index.value_or(0), purpose}));
+    chosen = share_at(parts, random_uniform({options_.seed, face.index.value_or(0), purpose}));
   }
   return chosen < 0 ? std::nullopt : std::optional(colours[static_cast<std::size_t>(chosen)]);
 }
@@ -142,7 +142,7 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
     if (colour) return *colour;
   }
   const double drawn =
-      random_unit({options_.seed, static_cast<std::uint64_t>(head), random_number_purpose});
+      random_uniform({options_.seed, static_cast<std::uint64_t>(head), random_number_purpose});
   return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
 }
 
@@ -181,7 +181,7 @@ double HairChooser::grey_fraction(const FacePlan& face,
   const double aged = apparent + way * ((age < 0 ? 0.15 : std::max(0.9, apparent)) - apparent);
   // Each person's hair begins to turn grey at a random age, but never while the person is young.
   const double begin =
-      random_unit({options_.seed, face.index.value_or(0), random_number_purpose}) - 0.5;
+      random_uniform({options_.seed, face.index.value_or(0), random_number_purpose}) - 0.5;
   return smooth_step(0.5, 1.0, aged + 0.2 * begin);
 }
 

@@ -18,10 +18,10 @@ const char* verb_of(const ReviewMark& mark) {
 /// Adapts a later review to an earlier review, if the later reviewer did not see the results of the
 /// earlier review. Removes from the later review all requests that the earlier review contains, and
 /// notes conflicts.
-class Merging {
+class ReviewMerger {
  public:
-  Merging(const Review& earlier, std::size_t earlier_number, Review& later,
-          std::size_t later_number, std::vector<std::string>& conflicts)
+  ReviewMerger(const Review& earlier, std::size_t earlier_number, Review& later,
+               std::size_t later_number, std::vector<std::string>& conflicts)
       : earlier_(earlier),
         earlier_name_(concat("review ", earlier_number)),
         later_(later),
@@ -117,7 +117,8 @@ MergedReviews merged_reviews(const std::vector<Review>& reviews) {
     const auto seen =
         static_cast<std::size_t>(reviews[later].review_count_seen_by_reviewer.value_or(later));
     for (std::size_t earlier = seen; earlier < later; ++earlier) {
-      Merging(reviews[earlier], earlier + 1, merged.reviews[later], later + 1, merged.conflicts)
+      ReviewMerger(reviews[earlier], earlier + 1, merged.reviews[later], later + 1,
+                   merged.conflicts)
           .merge();
     }
   }

@@ -8,7 +8,7 @@ namespace {
 
 /// Margin by which the bounding boxes of the mean head's triangles grow on all sides. Two triangles
 /// are checked for intersection only if the enlarged boxes overlap.
-constexpr double kReach = 3;  // in mm
+constexpr double kPairMarginMm = 3;  // in mm
 /// Triangles at most this many edges apart count as neighbours. The intersection check skips
 /// neighbours, because the check for flips already detects folds between neighbours.
 constexpr int kNeighbourEdges = 3;
@@ -41,7 +41,7 @@ std::vector<TrianglePair> nearby_non_adjacent_pairs(const std::vector<Triangle>&
   // for each vertex, the most recently visited triangle whose neighbourhood contains the vertex
   std::vector<std::uint32_t> neighbour_of(static_cast<std::size_t>(mean.rows()), kNoIndex);
   std::uint32_t first = kNoIndex;
-  for (const TrianglePair& pair : near_pairs(triangles, mean, kReach)) {
+  for (const TrianglePair& pair : near_pairs(triangles, mean, kPairMarginMm)) {
     if (pair.first != first) {
       first = pair.first;
       mark_neighbourhood(adjacency, triangles[first], first, neighbour_of);

@@ -11,14 +11,14 @@
 namespace crowdface {
 namespace {
 
-void find_stretches(SampledHeads& sampled) {
+void find_sample_ranges(SampledHeads& sampled) {
   // ranges at most this far apart are joined, because a short gap costs less than another range
-  constexpr Index kGap = 8;
+  constexpr Index kMaxJoinedGap = 8;
   for (Index k = 0; k < sampled.region_weights.cols(); ++k) {
     auto& sample_ranges = sampled.sample_ranges.emplace_back();
     for (Index s = 0; s < sampled.region_weights.rows(); ++s) {
       if (sampled.region_weights(s, k) == 0) continue;
-      if (sample_ranges.empty() || s > sample_ranges.back().second + kGap)
+      if (sample_ranges.empty() || s > sample_ranges.back().second + kMaxJoinedGap)
         sample_ranges.emplace_back(s, s);
       sample_ranges.back().second = s + 1;
     }
@@ -29,7 +29,7 @@ void find_stretches(SampledHeads& sampled) {
 ///
 /// \param whole  whole(head) returns all positions of a head, or of the head's mirror image.
 template <class Whole>
-void take_samples(const HeadSet& head_set, const FaceSamples& samples, const Whole& whole,
+void copy_samples(const HeadSet& head_set, const FaceSamples& samples, const Whole& whole,
                   SampledHeads& sampled) {
   const auto count = static_cast<Index>(samples.size());
   sampled.mean = Positions::Zero(count, 3);
@@ -105,27 +105,28 @@ SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
   sampled.trajectories = trajectories;
   sampled.levels = stored_smoothing_levels(max_level);
   sampled.mm_per_unit = mm_per_unit;
-  take_samples(
+  copy_samples(
       head_set, samples, [](const Head& head) -> const Positions& { return head.positions; },
       sampled);
   sampled.region_weights.resize(count, regions.alpha.cols());
   for (Index s = 0; s < count; ++s) {
     sampled.region_weights.row(s) = regions.alpha.row(samples[static_cast<std::size_t>(s)]);
   }
-  find_stretches(sampled);
+  find_sample_ranges(sampled);
   return sampled;
 }
 
 std::shared_ptr<const SampledHeads> sample_mirror_images(
     const HeadSet& head_set, const RegionWeights& regions, const MirrorMap& mirror,
-    const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads) {
+    const FaceSamples& samples, const FaceSamples& trajectory_vertices, const SampledHeads& heads) {
   const auto count = static_cast<Index>(samples.size());
   std::unordered_map<std::uint32_t, Index> column;
-  for (std::size_t i = 0; i < traced.size(); ++i) column[traced[i]] = 3 * static_cast<Index>(i);
+  for (std::size_t i = 0; i < trajectory_vertices.size(); ++i)
+    column[trajectory_vertices[i]] = 3 * static_cast<Index>(i);
   auto images = std::make_shared<SampledHeads>();
   images->levels = heads.levels;
   images->mm_per_unit = heads.mm_per_unit;
-  take_samples(
+  copy_samples(
       head_set, samples, [&](const Head& head) { return mirrored(mirror, head.positions); },
       *images);
   images->region_weights = Columns::Zero(count, regions.alpha.cols());
@@ -161,7 +162,7 @@ std::shared_ptr<const SampledHeads> sample_mirror_images(
     }
   });
   images->trajectories = images->owned_trajectories;
-  find_stretches(*images);
+  find_sample_ranges(*images);
   return images;
 }
 

@@ -41,11 +41,11 @@ SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
 /// not a vertex, the weights and trajectories there are interpolated.
 ///
 /// \param heads   The heads at the samples.
-/// \param traced  The vertices that the trajectories of `heads` contain: samples_and_mirror_corners
+/// \param trajectory_vertices  The vertices that the trajectories of `heads` contain: samples_and_mirror_corners
 ///                of the samples.
 std::shared_ptr<const SampledHeads> sample_mirror_images(
     const HeadSet& head_set, const RegionWeights& regions, const MirrorMap& mirror,
-    const FaceSamples& samples, const FaceSamples& traced, const SampledHeads& heads);
+    const FaceSamples& samples, const FaceSamples& trajectory_vertices, const SampledHeads& heads);
 
 /// Returns the target of a recipe at the samples, #S by 3 in millimetres, mirrored like the face.
 Positions sample_target(const SampledHeads& heads, const Recipe& recipe);

@@ -137,15 +137,16 @@ inline bool may_mirror(const SamplingOptions& sampling) {
 /// Returns the distribution of the smoothing level at which a band of a region begins.
 inline const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling,
                                                    std::size_t region, std::size_t band) {
-  const bool has_own = !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
-  return has_own ? *sampling.bands[band].regions[region].smoothness
-                 : sampling.regions[region].smoothness;
+  const bool is_set_by_band =
+      !sampling.bands.empty() && sampling.bands[band].regions[region].smoothness;
+  return is_set_by_band ? *sampling.bands[band].regions[region].smoothness
+                        : sampling.regions[region].smoothness;
 }
 /// Returns the heads that lend detail to a band.
 inline const std::vector<Eigen::Index>& sources_of(const SamplingOptions& sampling,
                                                    std::size_t band) {
-  const bool has_own = band < sampling.bands.size() && sampling.bands[band].sources;
-  return has_own ? *sampling.bands[band].sources : sampling.sources;
+  const bool is_set_by_band = band < sampling.bands.size() && sampling.bands[band].sources;
+  return is_set_by_band ? *sampling.bands[band].sources : sampling.sources;
 }
 
 /// A group of sampled faces that have their own sampling parameters.

@@ -113,7 +113,7 @@ std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint6
       --served[j];
     }
     if (possible.empty()) continue;
-    const double drawn = random_unit({seed, n, purpose});
+    const double drawn = random_uniform({seed, n, purpose});
     const std::size_t next = weighted_choice(possible, drawn, &Lack::faces).share;
     ++served[next];
     if (next != none) schedule[n - 1] = static_cast<int>(next);

@@ -25,7 +25,7 @@ std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_
 /// share q gets ⌊q·n⌋ or ⌈q·n⌉.
 ///
 /// \param shares   fractions of the faces; they sum to at most 1.
-/// \param purpose  Purpose of the random numbers; see random_unit.
+/// \param purpose  Purpose of the random numbers; see random_uniform.
 std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint64_t count,
                                           std::uint64_t seed, const std::string& purpose);
 

@@ -14,7 +14,7 @@ constexpr std::size_t kCandidatesAtATime = 256;
 
 /// Returns the squared distance between two points, or an arbitrary value above `limit` if the
 /// squared distance exceeds `limit`.
-double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
+double bounded_squared_distance(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double limit) {
   constexpr Index kLanes = 8, kChunk = 32;
   double sum = 0;
   for (Index begin = 0; begin < a.size() && sum <= limit; begin += kChunk) {
@@ -36,13 +36,14 @@ double squared_up_to(const Eigen::VectorXf& a, const Eigen::VectorXf& b, double 
   return sum;
 }
 
-double squared_up_to(const FaceSpace::Point& a, const FaceSpace::Point& b, double limit) {
-  const double squared_distance_with_extrapolation =
-      squared_up_to(a.coordinates_with_extrapolation, b.coordinates_with_extrapolation, limit);
-  return std::min(
-      squared_distance_with_extrapolation,
-      squared_up_to(a.coordinates_without_extrapolation, b.coordinates_without_extrapolation,
-                    std::min(limit, squared_distance_with_extrapolation)));
+double bounded_squared_distance(const FaceSpace::Point& a, const FaceSpace::Point& b,
+                                double limit) {
+  const double squared_distance_with_extrapolation = bounded_squared_distance(
+      a.coordinates_with_extrapolation, b.coordinates_with_extrapolation, limit);
+  return std::min(squared_distance_with_extrapolation,
+                  bounded_squared_distance(a.coordinates_without_extrapolation,
+                                           b.coordinates_without_extrapolation,
+                                           std::min(limit, squared_distance_with_extrapolation)));
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
   const std::uint64_t size = count * pool_size_factor;
   const std::vector<int> schedule = schedule_groups(casting.groups, size, pool_size_factor);
   std::vector<std::optional<std::pair<FacePlan, FaceSpace::Point>>> drawn(size);
-  std::vector<Rejections> rejections(size);
+  std::vector<RejectionCounts> rejections(size);
   parallel_for_each(size, [&](std::size_t at) {
     if (at % 1024 == 0) throw_if_interrupted();
     const FaceDistribution& kind = distributions[static_cast<std::size_t>(schedule[at] + 1)];
@@ -66,7 +67,7 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
       const TraitRules* rules = judge.trait_rules();
       if (rules != nullptr && !rules->measurer().meets(kind.sampling->traits,
                                                        rules->measurer().landmarks(face.recipe))) {
-        rejections[at].add(Reason::kTraits);
+        rejections[at].add(RejectionReason::kTraits);
         continue;
       }
       FaceSpace::Point point = judge.space().point(face.recipe);
@@ -117,8 +118,9 @@ void FarthestPoints::pick(Index candidate) {
   const FaceSpace::Point& picked = pool_.points[static_cast<std::size_t>(candidate)];
   parallel_for_each(squared_distances_.size(), kCandidatesAtATime, [&](std::size_t at) {
     if (removed_[at]) return;
-    squared_distances_[at] = std::min(
-        squared_distances_[at], squared_up_to(picked, pool_.points[at], squared_distances_[at]));
+    squared_distances_[at] =
+        std::min(squared_distances_[at],
+                 bounded_squared_distance(picked, pool_.points[at], squared_distances_[at]));
   });
 }
 
@@ -139,17 +141,18 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
       // the number of the sampled face that this candidate becomes if the search picks the
       // candidate
       pool.faces[at].index = index;
-      std::optional<Reason> why = judge.check_traits(pool.faces[at]);
+      std::optional<RejectionReason> why = judge.check_traits(pool.faces[at]);
       if (!why) why = judge.check_skin(pool.faces[at].recipe);
-      if (!why && family_separation.is_too_near_to_family(pool.points[at])) why = Reason::kFamily;
+      if (!why && family_separation.is_too_near_to_family(pool.points[at]))
+        why = RejectionReason::kFamily;
       if (!why) break;
       result.rejections.add(*why);
       points.remove(pick.candidate);
       pick = points.farthest(group_index);
     }
     if (pick.candidate < 0 || pick.distance_mm < casting.diversity.min_distance_mm) {
-      Rejections why = pool.rejections;
-      if (pick.candidate >= 0) why.add(Reason::kMinDistance, why.total() + 1);
+      RejectionCounts why = pool.rejections;
+      if (pick.candidate >= 0) why.add(RejectionReason::kMinDistance, why.total() + 1);
       result.shortfall = Shortfall{index - 1, why, group_index};
       return;
     }

@@ -13,7 +13,7 @@ namespace {
 /// Returns the mean point of several heads in face space.
 ///
 /// \param inside  true: the heads of the group; false: all other heads.
-Eigen::VectorXf mean_place(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
+Eigen::VectorXf mean_point(const FaceSpace& space, const std::vector<Index>& group, bool inside) {
   Eigen::VectorXf sum = Eigen::VectorXf::Zero(space.dimensions());
   float count = 0;
   for (Index head = 0; head < space.head_count(); ++head) {
@@ -34,7 +34,7 @@ std::size_t common_tag_count(const std::vector<std::string>& one,
 
 SubstituteHeads::SubstituteHeads(const std::vector<Index>& group, const HeadTags& tags,
                                  const std::vector<Index>& parents_heads, const FaceSpace& space) {
-  const Eigen::VectorXf apart = mean_place(space, group, true) - mean_place(space, group, false);
+  const Eigen::VectorXf apart = mean_point(space, group, true) - mean_point(space, group, false);
   for (Index head = 0; head < space.head_count(); ++head) {
     if (contains(group, head)) {
       substitutes_.push_back(head);

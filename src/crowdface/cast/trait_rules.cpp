@@ -33,9 +33,10 @@ TraitLimits TraitRules::limits_of(const FacePlan& face) const {
   return casting_.sampling.traits;
 }
 
-std::optional<Reason> TraitRules::check(const FacePlan& face, const Positions& landmarks) const {
+std::optional<RejectionReason> TraitRules::check(const FacePlan& face,
+                                                 const Positions& landmarks) const {
   if (measurer_.meets(limits_of(face), landmarks)) return std::nullopt;
-  return Reason::kTraits;
+  return RejectionReason::kTraits;
 }
 
 std::uint32_t max_attempts_factor(const CastingOptions& casting) {

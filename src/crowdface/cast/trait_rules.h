@@ -26,7 +26,7 @@ class TraitRules {
   /// limits.
   ///
   /// \param landmarks  from FaceMeasurer::landmarks or exact_landmarks
-  std::optional<Reason> check(const FacePlan& face, const Positions& landmarks) const;
+  std::optional<RejectionReason> check(const FacePlan& face, const Positions& landmarks) const;
   const FaceMeasurer& measurer() const { return measurer_; }
 
  private:

@@ -16,7 +16,7 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
     }
   }
   // differences up to this value are only rounding errors
-  constexpr double kSame = 1e-9;
+  constexpr double kTolerance = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;
   // The score of a head is a sum over its tags: the total weight of the mixture's heads that have
@@ -26,8 +26,9 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
     for (const std::string& tag : tags[static_cast<std::size_t>(part.head)]) {
       agrees += 2 * shares[tag] - 1;
     }
-    const bool better = agrees > best.first + kSame ||
-                        (agrees > best.first - kSame && part.weight > best.second + kSame);
+    const bool better =
+        agrees > best.first + kTolerance ||
+        (agrees > best.first - kTolerance && part.weight > best.second + kTolerance);
     if (typical >= 0 && !better) continue;
     best = {agrees, part.weight};
     typical = part.head;

@@ -54,8 +54,8 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
 ///
 /// \param head  returns the head of an item.
 template <class Items, class Head>
-Items part_of(Items items, const std::vector<Eigen::Index>& listed, bool keep_listed,
-              const Head& head) {
+Items select_by_head(Items items, const std::vector<Eigen::Index>& listed, bool keep_listed,
+                     const Head& head) {
   std::erase_if(items,
                 [&](const auto& item) { return contains(listed, head(item)) != keep_listed; });
   return items;
@@ -71,7 +71,7 @@ std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
   if (quota) entries.push_back(yaml_entry("share", format_number(quota->share)));
   const auto part = [&](auto heads, std::optional<std::size_t> band, const auto& head) {
     const bool own = quota && quota->band == band;
-    return part_of(std::move(heads), own ? quota->heads : heads_of(quotas, band), own, head);
+    return select_by_head(std::move(heads), own ? quota->heads : heads_of(quotas, band), own, head);
   };
   if (!heads_of(quotas, std::nullopt).empty()) {
     const auto targets = part(sampling.targets, std::nullopt, std::mem_fn(&WeightedHead::head));

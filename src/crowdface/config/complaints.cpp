@@ -9,13 +9,13 @@
 
 namespace crowdface {
 
-void Complaints::add(const YamlPlace& place, std::string message, ExitCode exit_code) {
-  complaints_.push_back({place, std::move(message), exit_code});
+void Complaints::add(const YamlPlace& place, std::string expected, ExitCode exit_code) {
+  complaints_.push_back({place, std::move(expected), exit_code});
 }
 
-void Complaints::add_at(const YamlNode& node, const std::string& message, ExitCode exit_code) {
+void Complaints::add_at(const YamlNode& node, const std::string& expected, ExitCode exit_code) {
   if (node.kind == YamlNode::Kind::kRefused) return;
-  add(node.place, node.path.empty() ? message : concat(node.path, ": ", message), exit_code);
+  add(node.place, node.path.empty() ? expected : concat(node.path, ": ", expected), exit_code);
 }
 
 std::nullopt_t Complaints::add_mismatch(const YamlNode& node, const std::string& expected) {
@@ -23,13 +23,13 @@ std::nullopt_t Complaints::add_mismatch(const YamlNode& node, const std::string&
   return std::nullopt;
 }
 
-bool Complaints::expect_list(const YamlNode& node, const std::string& message) {
-  if (node.kind != YamlNode::Kind::kList) add_mismatch(node, message);
+bool Complaints::expect_list(const YamlNode& node, const std::string& expected) {
+  if (node.kind != YamlNode::Kind::kList) add_mismatch(node, expected);
   return node.kind == YamlNode::Kind::kList;
 }
 
-bool Complaints::expect_map(const YamlNode& node, const std::string& message) {
-  if (node.kind != YamlNode::Kind::kMap) add_mismatch(node, message);
+bool Complaints::expect_map(const YamlNode& node, const std::string& expected) {
+  if (node.kind != YamlNode::Kind::kMap) add_mismatch(node, expected);
   return node.kind == YamlNode::Kind::kMap;
 }
 
@@ -42,7 +42,7 @@ void Complaints::report_to(Problems& problems) const {
   };
   std::ranges::stable_sort(sorted, {}, key);
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxReportedComplaints); ++i) {
-    problems.add(sorted[i].exit_code, concat(sorted[i].place.text(), ": ", sorted[i].message));
+    problems.add(sorted[i].exit_code, concat(sorted[i].place.text(), ": ", sorted[i].expected));
   }
   if (sorted.size() > kMaxReportedComplaints) {
     problems.add(ExitCode::kUsage,

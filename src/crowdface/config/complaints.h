@@ -15,15 +15,15 @@ class Complaints {
  public:
   struct Complaint {
     YamlPlace place;
-    std::string message;
+    std::string expected;
     ExitCode exit_code;
   };
 
-  void add(const YamlPlace& place, std::string message, ExitCode exit_code = ExitCode::kUsage);
+  void add(const YamlPlace& place, std::string expected, ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: MESSAGE" at the node's place in the file, where PATH is the node's
   /// path of keys. Adds nothing if the node has the kind kRefused, because such a node already has
   /// a complaint.
-  void add_at(const YamlNode& node, const std::string& message,
+  void add_at(const YamlNode& node, const std::string& expected,
               ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: expected EXPECTED, found …" at a node's place in the file.
   ///
@@ -32,9 +32,9 @@ class Complaints {
   /// Returns whether the node is a list (expect_list) or a mapping (expect_map). If not, adds the
   /// complaint of add_mismatch.
   ///
-  /// \param message  what the complaint names as the expected value, such as "a list of tags".
-  bool expect_list(const YamlNode& node, const std::string& message);
-  bool expect_map(const YamlNode& node, const std::string& message);
+  /// \param expected  what the complaint names as the expected value, such as "a list of tags".
+  bool expect_list(const YamlNode& node, const std::string& expected);
+  bool expect_map(const YamlNode& node, const std::string& expected);
 
   bool empty() const { return complaints_.empty(); }
   std::size_t size() const { return complaints_.size(); }

@@ -278,7 +278,7 @@ struct Config {
     std::vector<std::string> original_texts;  ///< the unchanged text of each file
     std::vector<Review> reviews;              ///< the review read from each file
     /// whether the reviews stored in the crowd's folder are ignored
-    bool ignores_kept_reviews = false;
+    bool ignores_stored_reviews = false;
   } review;
   /// file that `crowdface edit` has saved; its content is already merged into this config; empty:
   /// none

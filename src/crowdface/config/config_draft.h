@@ -19,11 +19,11 @@ struct ConfigDraft {
   Config config;
   Complaints& complaints;
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
-  std::vector<std::filesystem::path> kept_reviews;  ///< see ConfigOverrides
-  std::optional<std::uint64_t> former_face_count;   ///< see ConfigOverrides
-  std::optional<double> former_min_distance_mm;     ///< see ConfigOverrides
-  std::filesystem::path ignored_reviews_folder;     ///< see ConfigOverrides
-  std::vector<std::string> warnings;                ///< see ConfigReading
+  std::vector<std::filesystem::path> stored_reviews;  ///< see ConfigOverrides
+  std::optional<std::uint64_t> former_face_count;     ///< see ConfigOverrides
+  std::optional<double> former_min_distance_mm;       ///< see ConfigOverrides
+  std::filesystem::path ignored_reviews_folder;       ///< see ConfigOverrides
+  std::vector<std::string> warnings;                  ///< see ConfigReading
   /// Whether the heads, tags, regions and smoothing are valid. A complaint sets the flag of its
   /// section to false. Values that refer to this section are then not checked, so that one mistake
   /// gives only one message.

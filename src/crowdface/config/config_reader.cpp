@@ -20,7 +20,7 @@ YamlNode option_node(const char* option, const std::string& text) {
 }
 
 /// Inserts the reviews stored in the crowd's folder before the reviews that the config lists.
-void insert_kept_reviews(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
+void insert_stored_reviews(const std::vector<std::filesystem::path>& kept, YamlNode& root) {
   YamlNode reviews;
   reviews.kind = YamlNode::Kind::kList;
   for (const std::filesystem::path& file : kept) {
@@ -49,7 +49,7 @@ void apply(const ConfigOverrides& overrides, YamlNode& root, Complaints& complai
   if (overrides.seed) {
     set_text(root, "crowd.seed", *overrides.seed, concat("--seed ", *overrides.seed), complaints);
   }
-  if (!overrides.kept_reviews.empty()) insert_kept_reviews(overrides.kept_reviews, root);
+  if (!overrides.stored_reviews.empty()) insert_stored_reviews(overrides.stored_reviews, root);
 }
 
 /// Reads the options `--review` and `--out`. The paths in these options are relative to the working
@@ -74,7 +74,7 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   ConfigDraft draft(complaints);
   draft.config.file = file;
   draft.folder = file.parent_path();
-  draft.kept_reviews = overrides.kept_reviews;
+  draft.stored_reviews = overrides.stored_reviews;
   draft.former_face_count = overrides.former_face_count;
   draft.former_min_distance_mm = overrides.former_min_distance_mm;
   draft.ignored_reviews_folder = overrides.ignored_reviews_folder;

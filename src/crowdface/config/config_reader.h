@@ -28,7 +28,7 @@ struct ConfigOverrides {
   bool keep_reviews_of_other_configs = false;
   /// Reviews stored in the crowd's folder. The program reads these reviews first. If the config
   /// lists a copy of one of these reviews, the copy is ignored.
-  std::vector<std::filesystem::path> kept_reviews = {};
+  std::vector<std::filesystem::path> stored_reviews = {};
   /// Number of sampled faces of the crowd in the output folder. Stored reviews that do not state a
   /// number of faces get this number.
   std::optional<std::uint64_t> former_face_count = {};

@@ -47,7 +47,7 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
 /// If a group has both `tags` and `targets`: keeps only the targets that have all of the tags, with
 /// their weights. Adds a complaint about each entry of `targets` that names no head with all of the
 /// tags.
-void bind_targets(const YamlNode& node, Group& group, ConfigDraft& draft) {
+void restrict_targets_to_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const YamlEntry *tags = node.find("tags"), *targets = node.find("targets");
   if (tags == nullptr || targets == nullptr || !draft.are_heads_known || !draft.are_tags_known)
     return;
@@ -202,7 +202,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
     group.share = kUnsetShare;
     group.sampling = config.sampling;
     if (!read_keys(item, group_keys(), group, draft)) continue;
-    bind_targets(item, group, draft);
+    restrict_targets_to_tags(item, group, draft);
     if (group.count) group.share = 0;
     if (!group.name.empty()) check_group(item, group, draft);
     config.groups.push_back(std::move(group));

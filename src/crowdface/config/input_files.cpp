@@ -92,12 +92,12 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
   }
   // Remove all files that are neither OBJ files nor files of the most frequent format. Of the files
   // of this format, also remove those that have the same stem as an OBJ file.
-  std::set<std::string> named;
+  std::set<std::string> obj_stems;
   for (const fs::path& file : files) {
-    if (is_obj(file)) named.insert(file.stem().string());
+    if (is_obj(file)) obj_stems.insert(file.stem().string());
   }
   std::erase_if(files, [&](const fs::path& file) {
-    return !is_obj(file) && (ending_of(file) != kind || named.contains(file.stem().string()));
+    return !is_obj(file) && (ending_of(file) != kind || obj_stems.contains(file.stem().string()));
   });
   return files;
 }

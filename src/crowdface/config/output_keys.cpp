@@ -126,7 +126,7 @@ std::string write_surfaces(const Output& output, const WriteContext&) {
 /// no meshes. Always returns true, because this function itself reports an invalid value.
 ///
 /// \param faces  number of faces whose shapes the sheet should show.
-bool can_be_shown(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {
+bool check_sheet_shapes(std::uint64_t faces, const YamlNode& node, ConfigDraft& draft) {
   if (faces > 0 && draft.config.shapes.names.empty()) {
     draft.complaints.add_at(node, "the config has no shapes; add the key shapes");
   }
@@ -162,7 +162,7 @@ const Keys<Sheet>& contact_sheet_keys() {
       key("formats", &Sheet::formats, words<SheetFormat>("a list of formats, [png, exr, pdf]"))
           .not_affecting_face_files(),
       key("shapes", &Sheet::face_count_on_shape_pages,
-          restricted(whole_number(0, 64), can_be_shown))
+          restricted(whole_number(0, 64), check_sheet_shapes))
           .not_affecting_face_files(),
       word_key("texture", &Sheet::texture)};
   return keys;

@@ -42,15 +42,16 @@ std::string counted_faces(std::uint64_t count) {
 class OverriddenKeys {
  public:
   OverriddenKeys(const YamlNode& root, const Config& config)
-      : root_(root), config_(config), faces_of_(config.groups.size(), 0) {
+      : root_(root), config_(config), face_counts_(config.groups.size(), 0) {
     for (const int group : schedule_groups(config.groups, config.crowd.count)) {
-      if (group >= 0) ++faces_of_[static_cast<std::size_t>(group)];
+      if (group >= 0) ++face_counts_[static_cast<std::size_t>(group)];
     }
-    sampled_ = faces_of_;
+    sampled_face_counts_ = face_counts_;
     for (const FamilyOptions& family : config.families) {
-      if (family.group) faces_of_[*family.group] += static_cast<std::uint64_t>(family.member_count);
+      if (family.group)
+        face_counts_[*family.group] += static_cast<std::uint64_t>(family.member_count);
       for (const Parent& parent : family.parents) {
-        if (parent.group) ++faces_of_[*parent.group];
+        if (parent.group) ++face_counts_[*parent.group];
       }
     }
   }
@@ -69,13 +70,13 @@ class OverriddenKeys {
       find_in_recipe(recipes[r], config_.recipes[r]);
     }
     find_in_attachments();
-    return std::move(told_);
+    return std::move(messages_);
   }
 
  private:
   template <class... Parts>
-  void tell(const Parts&... parts) {
-    told_.push_back(concat(parts...));
+  void add_message(const Parts&... parts) {
+    messages_.push_back(concat(parts...));
   }
 
   Heads with_any(const std::vector<std::string>& tags) const {
@@ -97,9 +98,9 @@ class OverriddenKeys {
     const YamlNode *count = value_at(node, "count"), *share = value_at(node, "share");
     const bool wants_none =
         (count != nullptr && group.count == 0U) || (share != nullptr && group.share == 0);
-    if (sampled_[g] == 0 && !wants_none && config_.crowd.count > 0) {
-      tell(node.path, ": the group ", group.name, " gets none of the ", config_.crowd.count,
-           " sampled faces: the counts and shares of all groups leave it none");
+    if (sampled_face_counts_[g] == 0 && !wants_none && config_.crowd.count > 0) {
+      add_message(node.path, ": the group ", group.name, " gets none of the ", config_.crowd.count,
+                  " sampled faces: the counts and shares of all groups leave it none");
     }
   }
 
@@ -115,9 +116,9 @@ class OverriddenKeys {
       const auto others =
           std::ranges::count_if(heads, [&](auto head) { return !contains(tagged, head); });
       if (others == 0) return;
-      tell(key, ": ", others, " of the ", heads.size(), " ", what,
-           " do not have the group's tags, ", join(wanted), "; ", counted_faces(faces_of_[g]),
-           " take detail from them");
+      add_message(key, ": ", others, " of the ", heads.size(), " ", what,
+                  " do not have the group's tags, ", join(wanted), "; ",
+                  counted_faces(face_counts_[g]), " take detail from them");
     };
     const YamlNode *targets = value_at(node, "targets"), *sources = value_at(node, "sources");
     if (sources != nullptr) take(sources->path, own.sources, "sources", tags);
@@ -130,8 +131,8 @@ class OverriddenKeys {
     if (own.age.low < 0)
       take(node.path + ".age", own.heads_tagged_young, "heads tagged young", remove_age_tags(tags));
     const auto replaced = [&](const char* key) {
-      tell("sampling.", key, ": does not apply to the group ", config_.groups[g].name,
-           ", whose tags select its heads (", counted_faces(faces_of_[g]), ")");
+      add_message("sampling.", key, ": does not apply to the group ", config_.groups[g].name,
+                  ", whose tags select its heads (", counted_faces(face_counts_[g]), ")");
     };
     const bool has_weights = std::ranges::any_of(
         all.targets, [](const WeightedHead& target) { return target.weight != 1; });
@@ -154,8 +155,8 @@ class OverriddenKeys {
         }
       }
       if (named.empty()) continue;
-      tell(node.path, '.', key, ": without, ", join(tags), ", leaves out ", join(named), " (",
-           counted_faces(faces_of_[g]), ")");
+      add_message(node.path, '.', key, ": without, ", join(tags), ", leaves out ", join(named),
+                  " (", counted_faces(face_counts_[g]), ")");
     }
   }
 
@@ -168,13 +169,15 @@ class OverriddenKeys {
     if (family.group) {
       const Group& group = config_.groups[*family.group];
       if (family.target && !is_target(group.sampling, *family.target)) {
-        tell(node.path, ".target: ", config_.faces.names[static_cast<std::size_t>(*family.target)],
-             " is not a target of the group ", group.name, ", but ", counted_faces(members),
-             " of the group are built on it");
+        add_message(node.path,
+                    ".target: ", config_.faces.names[static_cast<std::size_t>(*family.target)],
+                    " is not a target of the group ", group.name, ", but ", counted_faces(members),
+                    " of the group are built on it");
       }
       if (group.sampling.age != Range{0, 0} && value_at(node, "age") == nullptr) {
-        tell(node.path, ": the age of the group ", group.name, " does not apply to its members (",
-             counted_faces(members), "), whose age is 0; write age");
+        add_message(node.path, ": the age of the group ", group.name,
+                    " does not apply to its members (", counted_faces(members),
+                    "), whose age is 0; write age");
       }
     }
     for (std::size_t p = 0; p < family.parents.size(); ++p) {
@@ -185,8 +188,8 @@ class OverriddenKeys {
           std::ranges::any_of(parent.possible_target_heads,
                               [&](Eigen::Index head) { return is_target(config_.sampling, head); });
       if (has_target) continue;
-      tell(node.path, ".parents.", role, ": no target of sampling.targets is tagged ", sex,
-           ", so 1 face is built on any target");
+      add_message(node.path, ".parents.", role, ": no target of sampling.targets is tagged ", sex,
+                  ", so 1 face is built on any target");
     }
   }
 
@@ -196,8 +199,8 @@ class OverriddenKeys {
       return has_weights(region) || std::ranges::any_of(region.bands, has_weights);
     });
     if (!has_any || recipe.age || config_.sampling.age == Range{0, 0}) return;
-    tell(node.path, ": sampling.age moves the weights of ", recipe.id,
-         " to other heads (1 face); write age: 0 to keep its weights");
+    add_message(node.path, ": sampling.age moves the weights of ", recipe.id,
+                " to other heads (1 face); write age: 0 to keep its weights");
   }
 
   void find_in_attachments() {
@@ -206,30 +209,32 @@ class OverriddenKeys {
         attachments.items, [](const auto& item) { return item.tint != Tint::kNone; });
     for (std::size_t g = 0; g < config_.groups.size() && !has_tint; ++g) {
       if (config_.groups[g].hair_colours.empty()) continue;
-      tell("groups #", g + 1, ".hair_colours: no attachment has a tint, so ",
-           counted_faces(faces_of_[g]), " keep the colours of the attachments' textures");
+      add_message("groups #", g + 1, ".hair_colours: no attachment has a tint, so ",
+                  counted_faces(face_counts_[g]), " keep the colours of the attachments' textures");
     }
     if (!has_tint && !attachments.hair_colours.empty()) {
-      tell("attachments.hair_colours: no attachment has a tint, so ",
-           counted_faces(config_.crowd.count), " keep the colours of the attachments' textures");
+      add_message("attachments.hair_colours: no attachment has a tint, so ",
+                  counted_faces(config_.crowd.count),
+                  " keep the colours of the attachments' textures");
     }
     for (const Config::Attachment& item : attachments.items) {
       Heads wearers = heads_with_tags(item.tags, config_.faces);
       const Heads refused = with_any(item.excluded_tags);
       std::erase_if(wearers, [&](Eigen::Index head) { return contains(refused, head); });
       if (wearers.empty()) {
-        tell("attachments.items: ", item.name, ": each head that has its tags also has a tag of ",
-             "without, ", join(item.excluded_tags), "; no face wears it");
+        add_message("attachments.items: ", item.name,
+                    ": each head that has its tags also has a tag of ", "without, ",
+                    join(item.excluded_tags), "; no face wears it");
       }
     }
   }
 
   const YamlNode& root_;
   const Config& config_;
-  std::vector<std::uint64_t> sampled_;  ///< for each group: number of sampled faces
+  std::vector<std::uint64_t> sampled_face_counts_;  ///< for each group: number of sampled faces
   /// for each group: number of faces, including the faces of families
-  std::vector<std::uint64_t> faces_of_;
-  std::vector<std::string> told_;
+  std::vector<std::uint64_t> face_counts_;
+  std::vector<std::string> messages_;
 };
 
 }  // namespace

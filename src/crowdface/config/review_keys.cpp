@@ -164,13 +164,13 @@ void add_review(const std::filesystem::path& file, const YamlNode& where, Config
   for (std::size_t i = 0; i < known.texts.size() && !text.empty(); ++i) {
     if (known.texts[i] == add_missing_keys(text, review, known.reviews[i])) return;
   }
-  const bool is_kept = contains(draft.kept_reviews, file);
+  const bool is_stored = contains(draft.stored_reviews, file);
   Review whole = review;
   if (!whole.reviewed_face_count) {
     whole.reviewed_face_count =
-        is_kept ? draft.former_face_count.value_or(config.crowd.count) : config.crowd.count;
+        is_stored ? draft.former_face_count.value_or(config.crowd.count) : config.crowd.count;
   }
-  if (!whole.min_distance_mm && is_kept) whole.min_distance_mm = draft.former_min_distance_mm;
+  if (!whole.min_distance_mm && is_stored) whole.min_distance_mm = draft.former_min_distance_mm;
   if (!text.empty()) text = add_missing_keys(std::move(text), review, whole);
   known.files.push_back(file);
   known.texts.push_back(std::move(text));

@@ -30,26 +30,26 @@ std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane) {
   return {to_unit(bits[0], bits[1]), to_unit(bits[2], bits[3])};
 }
 
-double random_unit(const RandomKey& key, std::uint32_t lane) {
+double random_uniform(const RandomKey& key, std::uint32_t lane) {
   return random_pair(key, lane)[0];
 }
 
 double random_between(const RandomKey& key, double low, double high) {
-  return low + (high - low) * random_unit(key);
+  return low + (high - low) * random_uniform(key);
 }
 
 double random_stratified(const RandomKey& key, std::uint64_t strata) {
   // The indices k·strata, …, k·strata + strata − 1 are a run. The indices of a run visit all
   // intervals once, in cyclic order. The first interval and the cyclic direction are random; lane
-  // kRunLane gives these two random numbers.
-  constexpr std::uint32_t kRunLane = 0x5A17;
+  // kStrataLane gives these two random numbers.
+  constexpr std::uint32_t kStrataLane = 0x5A17;
   const RandomKey run{key.seed, key.index / strata, key.purpose, key.attempt};
-  const auto [place, direction] = random_pair(run, kRunLane);
+  const auto [place, direction] = random_pair(run, kStrataLane);
   const auto count = static_cast<double>(strata);
   const std::uint64_t at = key.index % strata;
   const std::uint64_t step = direction < 0.5 ? at : strata - at;
   const std::uint64_t part = (static_cast<std::uint64_t>(place * count) + step) % strata;
-  return (static_cast<double>(part) + random_unit(key)) / count;
+  return (static_cast<double>(part) + random_uniform(key)) / count;
 }
 
 double random_normal(const RandomKey& key, std::uint32_t lane) {

@@ -23,7 +23,7 @@ struct RandomKey {
 std::array<double, 2> random_pair(const RandomKey& key, std::uint32_t lane = 0);
 
 /// The first number of `random_pair`.
-double random_unit(const RandomKey& key, std::uint32_t lane = 0);
+double random_uniform(const RandomKey& key, std::uint32_t lane = 0);
 
 /// A uniform number in [low, high).
 double random_between(const RandomKey& key, double low, double high);

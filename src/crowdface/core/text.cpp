@@ -167,7 +167,7 @@ std::string quoted(std::string_view text) {
   return out + '"';
 }
 
-bool is_name(std::string_view text, std::size_t max_length) {
+bool is_valid_name(std::string_view text, std::size_t max_length) {
   return !text.empty() && text.size() <= max_length && text.front() != '.' && text != "__proto__" &&
          text.find_first_not_of(
              "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == text.npos;

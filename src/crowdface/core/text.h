@@ -54,7 +54,7 @@ inline constexpr std::size_t kMaxIdLength = 2 * kMaxNameLength + 22;  ///< form:
 /// Whether `text` can be a file name on any system. The text must have 1 to `max_length`
 /// characters, each a letter (A–Z, a–z), digit, '_', '-' or '.', and must not start with '.'.
 /// "__proto__" is refused because in JavaScript it would set an object's prototype.
-bool is_name(std::string_view text, std::size_t max_length = kMaxNameLength);
+bool is_valid_name(std::string_view text, std::size_t max_length = kMaxNameLength);
 
 /// The candidate with the least edit distance to `word`; nothing if `word` is too different from
 /// all candidates to be a misspelling.

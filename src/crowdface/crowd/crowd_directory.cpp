@@ -191,7 +191,7 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
 
 /// Renames the folder of reviews to a new name with the date, such as "reviews-2026-11-27".
 void set_reviews_aside(const CrowdDirectory& directory) {
-  if (directory.kept_reviews().empty()) return;
+  if (directory.stored_reviews().empty()) return;
   const std::chrono::year_month_day today{
       std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now())};
   const std::string name = concat("reviews-", static_cast<int>(today.year()), '-',
@@ -211,7 +211,7 @@ void set_reviews_aside(const CrowdDirectory& directory) {
 /// \throws UsageError if the folder has reviews that this run would overwrite or not apply, because
 ///         another run added these reviews after this run read its config.
 void refuse_unread_reviews(const CrowdDirectory& directory, const CrowdConfig& config) {
-  const std::vector<fs::path> kept = directory.kept_reviews();
+  const std::vector<fs::path> kept = directory.stored_reviews();
   for (std::size_t i = 0; i < kept.size(); ++i) {
     if (i < config.reviews.size()) {
       const std::string text = read_file(kept[i]);
@@ -344,7 +344,7 @@ fs::path CrowdDirectory::review(std::size_t number) const {
   return reviews() / concat("review_", zero_padded(number, 3), ".yaml");
 }
 
-std::vector<fs::path> CrowdDirectory::kept_reviews() const {
+std::vector<fs::path> CrowdDirectory::stored_reviews() const {
   std::vector<fs::path> kept;
   while (path_exists(review(kept.size() + 1))) kept.push_back(review(kept.size() + 1));
   return kept;

@@ -40,7 +40,7 @@ struct CrowdDirectory {
   std::filesystem::path reviews() const { return root / "reviews"; }
   std::filesystem::path review(std::size_t number) const;
   /// The existing review files: review(1), review(2), … up to the first number without a file.
-  std::vector<std::filesystem::path> kept_reviews() const;
+  std::vector<std::filesystem::path> stored_reviews() const;
   std::filesystem::path table() const { return root / "crowd.csv"; }
   std::filesystem::path casting() const { return root / "casting.json"; }
   std::filesystem::path report() const { return root / "report.json"; }

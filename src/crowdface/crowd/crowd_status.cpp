@@ -130,7 +130,7 @@ ShardStatus status_of(const CrowdDirectory& directory, const Shard& shard) {
 
 /// Sets the state kDone if all faces of the shard are finished. For a working shard, computes the
 /// time since the last write and the remaining time. Requires the face counts of `status`.
-void finish(const CrowdDirectory& directory, ShardStatus& status) {
+void set_final_state(const CrowdDirectory& directory, ShardStatus& status) {
   if (status.face_count > 0 && status.finished_face_count == status.face_count) {
     status.state = ShardState::kDone;
     status.reason.clear();
@@ -199,7 +199,7 @@ CrowdStatus crowd_status(const fs::path& crowd_directory) {
     status.finished_face_count += done ? 1U : 0U;
   });
   for (ShardStatus& shard : status.shards) {
-    finish(directory, shard);
+    set_final_state(directory, shard);
     if (shard.seconds_left) {
       status.faces_a_second = status.faces_a_second.value_or(0) + *shard.faces_a_second;
       status.seconds_left = std::max(status.seconds_left.value_or(0), *shard.seconds_left);

@@ -143,8 +143,8 @@ bool has_any_tag(const HeadTags& tags) {
 }
 
 /// Adds the columns with the identity of a face, such as id, family and role.
-void add_who(const std::vector<FacePlan>& crowd, const PlanNames& names,
-             const HeadTagsAndAttachmentKinds& facts, TableColumns& columns) {
+void add_identity_columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
+                          const HeadTagsAndAttachmentKinds& facts, TableColumns& columns) {
   using Face = const FacePlan&;
   const auto parenthood = std::make_shared<const Parenthood>(parenthood_in(crowd));
   const auto kinds = facts.attachment_kinds;
@@ -275,7 +275,7 @@ TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names
                       const std::vector<Eigen::Array3d>& neck_colours,
                       const HeadTagsAndAttachmentKinds& facts) {
   TableColumns columns = table_columns(names);
-  add_who(crowd, names, facts, columns);
+  add_identity_columns(crowd, names, facts, columns);
   add_neck_colours(crowd, neck_colours, columns);
   std::erase_if(columns, [&](const TableColumn& column) {
     return column.applies && std::ranges::none_of(crowd, column.applies);

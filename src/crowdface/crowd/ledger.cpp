@@ -67,20 +67,20 @@ class LedgerReader {
     std::optional<LedgerEntry> entry;
     if (ended) entry = parse_ledger_line(line);
     if (entry && entry->item == kEndItem) {
-      lines.is_complete = entry->key == before_.digest() &&
+      lines.is_complete = entry->key == line_hash_.digest() &&
                           (entry->note.empty() || entry->note == count_files(lines.entries));
     } else if (entry) {
       lines.entries.push_back(std::move(*entry));
     } else {
       ++lines.damaged_count;
     }
-    before_.add_raw(line).add_raw("\n");
+    line_hash_.add_raw(line).add_raw("\n");
   }
 
   LedgerLines lines;
 
  private:
-  Hasher before_;  ///< hash of the lines so far
+  Hasher line_hash_;  ///< hash of the lines so far
 };
 
 }  // namespace

@@ -36,8 +36,8 @@ BandRecipe between(const BandRecipe& a, const BandRecipe& b, double share, Index
   return band;
 }
 
-FacePlan draw_one(const CastingOptions& casting, const SampleRequest& request,
-                  std::uint32_t attempt) {
+FacePlan sample_one(const CastingOptions& casting, const SampleRequest& request,
+                    std::uint32_t attempt) {
   const bool keeps_target = request.original || !request.locked_bands.empty();
   const FacePlan& old = request.original ? *request.original : request.start_face;
   ManualRecipe open;
@@ -71,21 +71,21 @@ std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudg
   constexpr std::uint32_t kAttemptsEach = 40;
   const auto most = static_cast<std::uint32_t>(request.count) * kAttemptsEach;
   std::vector<FacePlan> faces;
-  std::map<Reason, std::uint32_t> reasons;
+  std::map<RejectionReason, std::uint32_t> reasons;
   for (std::uint32_t i = 0; i < most && faces.size() < request.count; ++i) {
     throw_if_interrupted();
-    FacePlan face = draw_one(casting, request, request.first_attempt + i);
+    FacePlan face = sample_one(casting, request, request.first_attempt + i);
     const TraitRules* rules = judge.trait_rules();
     if (rules != nullptr && (rules->check(face, rules->measurer().landmarks(face.recipe)) ||
                              judge.check_traits(face))) {
-      ++reasons[Reason::kTraits];
+      ++reasons[RejectionReason::kTraits];
       continue;
     }
     const FaceSpace::Point point = judge.space().point(face.recipe);
-    std::optional<Reason> why = judge.check_recipe(face.recipe, point);
+    std::optional<RejectionReason> why = judge.check_recipe(face.recipe, point);
     const double least = casting.diversity.min_distance_mm;
     if (!why && !request.original && least > 0 && crowd.nearest(point, least).face >= 0) {
-      why = Reason::kMinDistance;
+      why = RejectionReason::kMinDistance;
     }
     if (!why) why = judge.check_skin(face.recipe);
     if (why) {

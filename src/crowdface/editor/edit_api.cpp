@@ -265,10 +265,10 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   painting_.apply_masks();
   const auto begin = std::chrono::steady_clock::now();
   const Positions positions = session_.build(face.recipe);
-  const EditExpressions::Moves moves =
+  const EditExpressions::WeightedDisplacements moves =
       body.contains("expression")
-          ? expressions_.moves_of(body["expression"], face.recipe, positions)
-          : EditExpressions::Moves();
+          ? expressions_.weighted_displacements(body["expression"], face.recipe, positions)
+          : EditExpressions::WeightedDisplacements();
   Positions shown = positions;
   for (const Displacements& move : moves) move.add_to(shown);
   BinaryAnswer answer;

@@ -42,9 +42,9 @@ std::optional<std::string> EditAttachments::appearance_json(const std::string& n
 }
 
 FacePlan EditAttachments::with_sampled_attachments(const FacePlan& face,
-                                                   const std::string& opened) const {
+                                                   const std::string& opened_id) const {
   if (crowd_ != nullptr) {
-    const auto found = std::ranges::find(*crowd_, opened, &FacePlan::id);
+    const auto found = std::ranges::find(*crowd_, opened_id, &FacePlan::id);
     if (found != crowd_->end()) return *found;
   }
   std::vector<FacePlan> alone = {face};
@@ -66,12 +66,12 @@ EditAttachments::BindingFuture EditAttachments::binding(const std::string& name)
 }
 
 std::optional<std::vector<PlacedAttachment>> EditAttachments::attachments_of(
-    const FacePlan& face, const std::string& opened, const Json& chosen, const Positions& positions,
-    std::span<const Displacements> moves) {
+    const FacePlan& face, const std::string& opened_id, const Json& chosen,
+    const Positions& positions, std::span<const Displacements> moves) {
   const std::vector<Attachment>& items = job_.inputs.attachments.items;
   std::vector<PlacedAttachment> placed;
   if (items.empty()) return placed;
-  const FacePlan plan = with_sampled_attachments(face, opened);
+  const FacePlan plan = with_sampled_attachments(face, opened_id);
   const std::vector<std::string>& drawn = plan.attachments;
   const Json known = kinds();
   for (const auto& [kind, choice] : chosen.items()) {

@@ -37,13 +37,13 @@ class EditAttachments {
   /// The attachments of a face. Returns nothing while an attachment is being bound to the heads for
   /// the first time; binding takes seconds if there are expressions.
   /// \param face    the edited face; determines the attachments that are sampled for the face
-  /// \param opened  id of the crowd's face from which the edit began, or empty. The edited face
+  /// \param opened_id  id of the crowd's face from which the edit began, or empty. The edited face
   ///                keeps the attachments of the crowd's face.
   /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are sampled
   /// \param moves   displacements of the face, which the attachments follow
   /// \throws UsageError if a kind or a name does not exist.
   std::optional<std::vector<PlacedAttachment>> attachments_of(const FacePlan& face,
-                                                              const std::string& opened,
+                                                              const std::string& opened_id,
                                                               const nlohmann::ordered_json& chosen,
                                                               const Positions& positions,
                                                               std::span<const Displacements> moves);
@@ -59,9 +59,9 @@ class EditAttachments {
   /// Returns the binding of an attachment to the heads. The first call for an attachment starts a
   /// thread that computes the binding.
   BindingFuture binding(const std::string& name);
-  /// Returns the crowd's face with the id `opened`. If the crowd has no such face, returns `face`
+  /// Returns the crowd's face with the id `opened_id`. If the crowd has no such face, returns `face`
   /// with sampled attachments.
-  FacePlan with_sampled_attachments(const FacePlan& face, const std::string& opened) const;
+  FacePlan with_sampled_attachments(const FacePlan& face, const std::string& opened_id) const;
 
   const Job& job_;
   const std::vector<FacePlan>* crowd_;

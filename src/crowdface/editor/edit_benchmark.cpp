@@ -12,11 +12,12 @@
 namespace crowdface {
 namespace {
 
-using Change = std::function<void(Recipe& recipe, double turn)>;
+using Change = std::function<void(Recipe& recipe, double fraction)>;
 
 /// Sets the position of a region on the plane to a point between two heads' anchors. Sets the
 /// region's weights accordingly.
-void move(const CastingOptions& casting, Recipe& recipe, std::size_t region, double share) {
+void set_region_position(const CastingOptions& casting, Recipe& recipe, std::size_t region,
+                         double share) {
   const std::vector<PlanePoint>& anchors = casting.anchors;
   const PlanePoint at = (1 - share) * anchors[region % anchors.size()] +
                         share * anchors[(region + 1) % anchors.size()];
@@ -66,15 +67,17 @@ std::string benchmark_edit(const std::filesystem::path& config_or_crowd,
     region.extrapolation = sampling.extrapolation.high;
     region.smoothness = 0.5;
     region.iterations = iterations_of(region.smoothness, casting.level_scale);
-    move(casting, start, start.regions.size() - 1, 0.5);
+    set_region_position(casting, start, start.regions.size() - 1, 0.5);
   }
-  const double one = median_ms(
-      session, start, [&](Recipe& recipe, double turn) { move(casting, recipe, 0, turn); });
-  const double all = median_ms(session, start, [&](Recipe& recipe, double turn) {
-    for (std::size_t k = 0; k < recipe.regions.size(); ++k) move(casting, recipe, k, turn);
+  const double one = median_ms(session, start, [&](Recipe& recipe, double fraction) {
+    set_region_position(casting, recipe, 0, fraction);
   });
-  const double levels = median_ms(session, start, [&](Recipe& recipe, double turn) {
-    recipe.regions[0].iterations = iterations_of(turn, casting.level_scale);
+  const double all = median_ms(session, start, [&](Recipe& recipe, double fraction) {
+    for (std::size_t k = 0; k < recipe.regions.size(); ++k)
+      set_region_position(casting, recipe, k, fraction);
+  });
+  const double levels = median_ms(session, start, [&](Recipe& recipe, double fraction) {
+    recipe.regions[0].iterations = iterations_of(fraction, casting.level_scale);
   });
   const double target = median_ms(session, start, [&](Recipe& recipe, double) {
     recipe.target = (recipe.target + 1) % static_cast<Index>(casting.anchors.size());

@@ -15,8 +15,8 @@ std::vector<std::string> EditExpressions::names() const {
   return names;
 }
 
-EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& weights,
-                                                 const Recipe& recipe, const Positions& positions) {
+EditExpressions::WeightedDisplacements EditExpressions::weighted_displacements(
+    const nlohmann::ordered_json& weights, const Recipe& recipe, const Positions& positions) {
   if (!weights.is_object())
     throw UsageError("expression: expected a mapping from shapes to shares");
   const std::vector<std::string> known = names();
@@ -29,16 +29,16 @@ EditExpressions::Moves EditExpressions::moves_of(const nlohmann::ordered_json& w
     const double weight = number_in(weights, name, 0, 1);
     if (weight > 0) wanted.emplace_back(found - known.begin(), weight);
   }
-  Moves moves;
+  WeightedDisplacements moves;
   if (wanted.empty()) return moves;
   const std::lock_guard lock(mutex_);
   if (!shapes_) shapes_ = std::make_unique<const FaceShapes>(job_.config, job_.inputs);
   if (cached_face_.rows() != positions.rows() || cached_face_ != positions) {
-    cached_moves_ = shapes_->shapes_of_face(recipe, positions);
+    cached_displacements_ = shapes_->shapes_of_face(recipe, positions);
     cached_face_ = positions;
   }
   for (const auto& [shape, weight] : wanted) {
-    moves.push_back(cached_moves_[shape]);
+    moves.push_back(cached_displacements_[shape]);
     moves.back().moves *= weight;
   }
   return moves;

@@ -19,7 +19,7 @@ class EditExpressions {
  public:
   /// For each of several expressions: the vertex displacements, already multiplied by the
   /// expression's weight.
-  using Moves = std::vector<Displacements>;
+  using WeightedDisplacements = std::vector<Displacements>;
 
   /// \param job  must outlive this object.
   explicit EditExpressions(const Job& job) : job_(job) {}
@@ -31,16 +31,16 @@ class EditExpressions {
   /// \param weights    {name: weight 0 … 1}; missing expressions have weight 0
   /// \param positions  the face at rest
   /// \throws UsageError if a name does not exist or a weight is outside its range.
-  Moves moves_of(const nlohmann::ordered_json& weights, const Recipe& recipe,
-                 const Positions& positions);
+  WeightedDisplacements weighted_displacements(const nlohmann::ordered_json& weights,
+                                               const Recipe& recipe, const Positions& positions);
 
  private:
   const Job& job_;
   std::mutex mutex_;
   std::unique_ptr<const FaceShapes> shapes_;
-  Positions cached_face_;  ///< the face for which `cached_moves_` was computed
+  Positions cached_face_;  ///< the face for which `cached_displacements_` was computed
   /// displacements of each expression at weight 1
-  std::vector<Displacements> cached_moves_;
+  std::vector<Displacements> cached_displacements_;
 };
 
 }  // namespace crowdface

@@ -36,7 +36,7 @@ std::string with_spaces(std::string_view name) {
   return words;
 }
 
-std::string sentence(Reason reason, const Config& config) {
+std::string sentence(RejectionReason reason, const Config& config) {
   return describe_violation(reason, config.diversity, config.believability);
 }
 
@@ -107,10 +107,10 @@ EditSession::EditSession(Job job, const CacheFolder& cache, std::size_t preview_
       prepared_(prepare(job_.config, job_.inputs, job_.smoothing, cache)),
       builder_(job_.config, job_.inputs, prepared_),
       faults_(job_, builder_),
-      judging_(std::async(std::launch::async, [this] { return make_judging_data(); }).share()),
+      judging_data_(std::async(std::launch::async, [this] { return make_judging_data(); }).share()),
       casting_(casting_options(job_.config, job_.inputs,
                                job_.config.plane.layout == Layout::kSimilarity
-                                   ? judging_.get().space->face_space.head_distances()
+                                   ? judging_data_.get().space->face_space.head_distances()
                                    : Eigen::MatrixXd())),
       preview_(preview_future_.get()),
       vertex_faces_(job_.inputs.head_set.topology),
@@ -169,7 +169,8 @@ NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::
   NearestFaceSearch::NearestFace nearest;
   const auto search = [&](Index begin, Index end) {
     if (begin == end) return;
-    const auto found = judging_.get().crowd_search.nearest(point, nearest.distance_mm, begin, end);
+    const auto found =
+        judging_data_.get().crowd_search.nearest(point, nearest.distance_mm, begin, end);
     if (found.face >= 0) nearest = found;
   };
   Index begin = 0;
@@ -184,12 +185,12 @@ NearestFaceSearch::NearestFace EditSession::nearest_other_face(const FaceSpace::
 }
 
 double EditSession::distance_mm(const FacePlan& one, const FacePlan& other) const {
-  const FaceSpace& space = judging_.get().space->face_space;
+  const FaceSpace& space = judging_data_.get().space->face_space;
   return FaceSpace::distance(space.point(one.recipe), space.point(other.recipe));
 }
 
 FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& opened_id) const {
-  const JudgingData& judging = judging_.get();
+  const JudgingData& judging = judging_data_.get();
   const FaceJudge& judge = judging.judge;
   const FaceSpace::Point point = judge.space().point(recipe.recipe);
   FaceMeasures measures;
@@ -222,14 +223,14 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
   FaceMeasures measures = measure(recipe, opened_id);
   if (job_.config.believability.check &&
       builder_.gap_excess_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
-    measures.warnings.push_back(sentence(Reason::kGap, job_.config));
+    measures.warnings.push_back(sentence(RejectionReason::kGap, job_.config));
   }
   return measures;
 }
 
 FacePlan EditSession::steer(FacePlan face, const std::string& trait, double wanted,
                             const std::vector<std::size_t>& locked_bands) const {
-  const auto& traits = judging_.get().traits;
+  const auto& traits = judging_data_.get().traits;
   const auto measured = traits ? traits->trait_indices() : std::vector<std::size_t>();
   const auto found = find_measurement(trait);
   const auto at = std::ranges::find(measured, found.value_or(measurements().size()));
@@ -261,7 +262,7 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
 }
 
 std::vector<FacePlan> EditSession::sample_faces(const SampleRequest& request) const {
-  const JudgingData& judging = judging_.get();
+  const JudgingData& judging = judging_data_.get();
   return crowdface::sample_faces(casting_, judging.judge, judging.crowd_search, request);
 }
 

@@ -156,15 +156,15 @@ class EditSession {
   /// constructed.
   std::future<PreviewMesh> preview_future_;
   std::optional<std::vector<FacePlan>> crowd_;
-  Prepared prepared_;
+  PreparedHeads prepared_;
   /// Set only with `levels: exact`: the heads prepared with `levels: basis`, because the page needs
   /// displacement fields.
-  std::optional<Prepared> preview_prepared_;
+  std::optional<PreparedHeads> preview_prepared_;
   FaceBuilder builder_;
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;
   mutable FaceBuilder::PreviousFace previous_face_;
-  std::shared_future<JudgingData> judging_;
+  std::shared_future<JudgingData> judging_data_;
   CastingOptions casting_;
   PreviewMesh preview_;
   VertexFaces vertex_faces_;

@@ -33,7 +33,7 @@ void put_entry(const Entry& entry, std::vector<Entry>& entries) {
 /// Returns whether the crowd's folder has a copy of the review with this text. A run may have
 /// appended the keys `count` and `min_distance` to the copy.
 bool crowd_has_review(const Config& config, const std::string& text) {
-  const std::vector<fs::path> kept = CrowdDirectory{config.output.directory}.kept_reviews();
+  const std::vector<fs::path> kept = CrowdDirectory{config.output.directory}.stored_reviews();
   return std::ranges::any_of(
       kept, [&](const fs::path& file) { return read_file(file).starts_with(text); });
 }

@@ -32,10 +32,10 @@ std::vector<std::string> MeshFaults::faults_of(const Recipe& recipe, const Posit
     faults.emplace_back("gums, teeth or other parts stand out of the skin");
   }
   if (defects.exposed_back_face_mm2 > limits.max_exposed_mm2) {
-    faults.push_back(describe_violation(Reason::kExposed, job_.config.diversity, limits));
+    faults.push_back(describe_violation(RejectionReason::kExposed, job_.config.diversity, limits));
   }
   const auto why = exceeded_limit(limits, defects);
-  if (why && *why != Reason::kExposed) {
+  if (why && *why != RejectionReason::kExposed) {
     faults.push_back(describe_violation(*why, job_.config.diversity, limits));
   }
   return faults;

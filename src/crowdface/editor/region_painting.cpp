@@ -56,7 +56,7 @@ Digest hash_painting_base(const EditSession& session) {
 
 RegionPainting::RegionPainting(EditSession& session, const std::filesystem::path& strokes)
     : session_(session),
-      mean_(mean_head_shape(session.job().inputs.head_set)),
+      mean_head_(mean_head_shape(session.job().inputs.head_set)),
       strokes_(strokes, hash_painting_base(session)) {
   replay_strokes();
 }
@@ -77,7 +77,7 @@ void RegionPainting::replay_strokes() {
   }
 }
 
-void RegionPainting::store_stroke(const Json& step) {
+void RegionPainting::store_step(const Json& step) {
   try {
     strokes_.add(step);
   } catch (...) {  // restore the masks from the file
@@ -92,8 +92,8 @@ MaskPainter& RegionPainting::painter() {
     const Job& job = session_.job();
     const HeadAxes axes = head_axes(job.config);
     const Topology& topology = job.inputs.head_set.topology;
-    painter_.emplace(topology, mean_.positions,
-                     MirrorPlane{axes.side(), symmetry_offset(topology, mean_, axes)},
+    painter_.emplace(topology, mean_head_.positions,
+                     MirrorPlane{axes.side(), symmetry_offset(topology, mean_head_, axes)},
                      job.inputs.regions.alpha);
   }
   return *painter_;
@@ -108,7 +108,7 @@ SurfacePoint RegionPainting::surface_point_of(const Json& point) {
   const std::uint32_t* corners =
       preview.triangles.data() + 3 * static_cast<std::size_t>(std::floor(number));
   const auto corner = [&](int c) -> Eigen::Vector3d {
-    return mean_.positions.row(preview.vertices[corners[c]]).transpose();
+    return mean_head_.positions.row(preview.vertices[corners[c]]).transpose();
   };
   return painter().surface().nearest((1 - u - v) * corner(0) + u * corner(1) + v * corner(2));
 }
@@ -143,14 +143,14 @@ void RegionPainting::paint(const Json& body) {
 
 void RegionPainting::apply_stroke(const Json& body) {
   paint(body);
-  store_stroke(body);
+  store_step(body);
 }
 
 void RegionPainting::undo() {
   if (!differs_from_config()) throw UsageError("there is no stroke to undo");
   painter().undo();
   has_unapplied_paint_ = true;
-  store_stroke({{kUndo, true}});
+  store_step({{kUndo, true}});
 }
 
 std::vector<float> RegionPainting::masks() const {
@@ -189,9 +189,9 @@ PaintedRegions RegionPainting::changed_regions(const Json& change) {
       if (!name.is_string()) throw UsageError("propose: expected a list of names");
       wanted.push_back(name);
     }
-    const std::vector<Band> bands = parse_bands(join(wanted, ","));
+    const std::vector<MaskBand> bands = parse_bands(join(wanted, ","));
     const Config& config = session_.job().config;
-    regions = {names_of(bands), propose_regions(session_.job().inputs.head_set.topology, mean_,
+    regions = {names_of(bands), propose_regions(session_.job().inputs.head_set.topology, mean_head_,
                                                 {config.faces.up, config.faces.front}, bands)};
   }
   return regions;
@@ -202,7 +202,7 @@ std::vector<std::filesystem::path> RegionPainting::save(const PaintedRegions& re
   const HeadSet& head_set = session_.job().inputs.head_set;
   const int size = mask_side_texels(head_set.topology.vertex_count);
   const MaskFiles images = encode_masks(
-      paint_masks(head_set.topology, head_set.uvs, regions.alpha, mean_.is_skin, size), path);
+      paint_masks(head_set.topology, head_set.uvs, regions.alpha, mean_head_.is_skin, size), path);
   for (const auto& [file, bytes] : images.png_files) write_file(file, bytes);
   return images.mask_paths;
 }

@@ -74,10 +74,10 @@ class RegionPainting {
   void replay_strokes();
   /// Appends a brush stroke or an undo step to the file of strokes. If writing fails, restores the
   /// masks from the strokes that the file stores.
-  void store_stroke(const nlohmann::ordered_json& step);
+  void store_step(const nlohmann::ordered_json& step);
 
   EditSession& session_;
-  HeadShape mean_;
+  HeadShape mean_head_;
   std::optional<MaskPainter> painter_;  ///< created at the first stroke
   /// whether the painted masks have changed since the last call of `apply_masks`
   bool has_unapplied_paint_ = false;

@@ -25,10 +25,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Number of steps of a smoothness slider. See smoothness_at for the smoothness of each step.
-constexpr int kLevels = 256;
+constexpr int kSliderSteps = 256;
 
 double smoothness_at(int step) {
-  const double root = static_cast<double>(step) / kLevels;
+  const double root = static_cast<double>(step) / kSliderSteps;
   return root * root;
 }
 
@@ -148,7 +148,7 @@ Json EditSession::description() const {
   json["formats"] = EditedFolder::formats();
   json["limits"] = {{"head_mm", config.diversity.min_distance_to_heads_mm},
                     {"face_mm", config.diversity.min_distance_mm}};
-  for (int step = 0; step <= kLevels; ++step) {
+  for (int step = 0; step <= kSliderSteps; ++step) {
     const std::uint64_t level = iterations_of(smoothness_at(step), casting_.level_scale);
     json["levels"]["smoothness"].push_back(smoothness_at(step));
     json["levels"]["iterations"].push_back(level);
@@ -263,7 +263,7 @@ std::string EditSession::head_answer(Index head) const {
         quantize(std::span(std::as_const(values)).subspan(at, of_field), fields.data() + at));
   }
   std::vector<float> functions;
-  for (int step = 0; step <= kLevels; ++step) {
+  for (int step = 0; step <= kSliderSteps; ++step) {
     for (const double value :
          levels.functions(iterations_of(smoothness_at(step), casting_.level_scale))) {
       functions.push_back(static_cast<float>(value));

@@ -26,7 +26,7 @@ constexpr double kTimesNearer = 2.5;  // ratio of distances; beyond it, the head
 constexpr Index kPoints = 2000;
 
 /// Returns about `most` skin vertices, evenly spaced by index.
-std::vector<Index> some_skin(const Components& components, Index most) {
+std::vector<Index> spaced_skin_vertices(const Components& components, Index most) {
   const std::uint32_t skin = components.largest();
   const Index size = components.sizes[skin];
   const Index step = std::max<Index>(1, size / most);
@@ -86,7 +86,7 @@ double badness(const HeadPose& pose) {
 }  // namespace
 
 std::vector<HeadPose> head_poses(const HeadSet& heads, const Components& components) {
-  const std::vector<Index> chosen = some_skin(components, kPoints);
+  const std::vector<Index> chosen = spaced_skin_vertices(components, kPoints);
   const std::size_t count = heads.heads.size();
   if (chosen.size() < 3) return std::vector<HeadPose>(count);
   std::vector<Positions> points;
@@ -133,7 +133,7 @@ std::vector<std::string> align_heads(HeadSet& heads, const Components& component
   if (align == Align::kNone) return {};
   if (align == Align::kRigid) {
     const std::vector<Index> chosen =
-        some_skin(components, std::max<Index>(heads.topology.vertex_count, 1));
+        spaced_skin_vertices(components, std::max<Index>(heads.topology.vertex_count, 1));
     const Positions reference = heads.heads[0].positions(chosen, kAllColumns);
     if (chosen.size() >= 3) {
       parallel_for_each(heads.heads.size() - 1, [&](std::size_t h) {

@@ -25,8 +25,8 @@ using TilePlace = std::array<std::int32_t, 2>;
 
 /// Returns a warning if some materials name textures, but no polygon uses any of these materials.
 /// The textures are then not shown.
-std::optional<std::string> unused_materials(const NamedTextures& named, const ObjFile& file,
-                                            Index face_count) {
+std::optional<std::string> unused_materials_warning(const NamedTextures& named, const ObjFile& file,
+                                                    Index face_count) {
   const auto colours = named.paths_by_kind.find(TextureKind::kColour);
   if (colours == named.paths_by_kind.end()) return std::nullopt;
   std::vector<std::string> textured, used;
@@ -62,10 +62,10 @@ TilePlace tile_of(const HeadSet& heads, Index face) {
 /// \param of_material  for each material, its texture file
 /// \param ranges       materials of the polygons
 /// \param missing      receives the UDIM tiles that do not exist
-HeadTextureFiles attachments_of(const std::map<std::string, fs::path>& of_material,
-                                const std::vector<TilePlace>& tiles,
-                                const std::vector<MaterialRange>& ranges,
-                                std::vector<fs::path>& missing) {
+HeadTextureFiles texture_files_of(const std::map<std::string, fs::path>& of_material,
+                                  const std::vector<TilePlace>& tiles,
+                                  const std::vector<MaterialRange>& ranges,
+                                  std::vector<fs::path>& missing) {
   HeadTextureFiles placed;
   if (of_material.empty()) return placed;
   placed.file_of_face.assign(tiles.size(), kNoIndex);
@@ -185,15 +185,15 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
           h < heads.heads.size() ? heads.heads[h].name : files[h].path.stem().string();
       if (kind == TextureKind::kColour) {
         for (const std::string& text : of_head[h]->warnings) heads_of_warning[text].push_back(head);
-        const auto unused = unused_materials(*of_head[h], files[h], face_count);
+        const auto unused = unused_materials_warning(*of_head[h], files[h], face_count);
         if (unused) heads_of_warning[*unused].push_back(head);
       }
       std::vector<fs::path> missing;
       const auto named = of_head[h]->paths_by_kind.find(kind);
-      result.heads.push_back(attachments_of(named == of_head[h]->paths_by_kind.end()
-                                                ? std::map<std::string, fs::path>()
-                                                : named->second,
-                                            tile, files[h].materials, missing));
+      result.heads.push_back(texture_files_of(named == of_head[h]->paths_by_kind.end()
+                                                  ? std::map<std::string, fs::path>()
+                                                  : named->second,
+                                              tile, files[h].materials, missing));
       for (const fs::path& path : missing) {
         heads_of_warning[concat("texture ", quoted(path.string()), " is missing; renders omit it")]
             .push_back(head);

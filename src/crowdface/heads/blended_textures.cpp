@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Largest side length of images, in texels, if the config gives no size.
-constexpr int kLargestUnasked = 4096;
+constexpr int kMaxDefaultSide = 4096;
 
 /// For each image of the layout, the texture files of one head that are merged into this image, as
 /// indices into placed.files. Empty if the head has no texture for some polygon of the image.
@@ -178,7 +178,7 @@ void choose_sizes(const FoundTextureFiles& found, const std::map<fs::path, Image
       }
     }
     const int longer = std::max(picture.width, picture.height);
-    const int wanted = size ? static_cast<int>(*size) : std::min(longer, kLargestUnasked);
+    const int wanted = size ? static_cast<int>(*size) : std::min(longer, kMaxDefaultSide);
     const auto scaled = [&](int side) {
       return std::max(1, static_cast<int>(std::int64_t{side} * wanted / longer));
     };

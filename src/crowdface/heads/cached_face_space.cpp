@@ -37,7 +37,7 @@ Digest face_space_digest(const SampledHeads& heads, const std::vector<double>& w
 
 constexpr auto kFaceSpaceArrays = [](auto& arrays, auto& tables) {
   arrays("levels", tables.level_coefficients);
-  arrays("functions", tables.basis_functions);
+  arrays("functions", tables.basis_coefficients);
   arrays("directions", tables.principal_directions);
   for (std::size_t k = 0; k < tables.region_metrics.size(); ++k) {
     arrays(concat("metric ", k), tables.region_metrics[k]);

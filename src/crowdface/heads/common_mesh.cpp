@@ -29,7 +29,7 @@ using Vertices = std::vector<std::uint32_t>;
 constexpr double kUvTolerance = 1e-4;
 
 /// Distance below which two vertices have the same position.
-double same_place(const Positions& positions) {
+double position_tolerance(const Positions& positions) {
   constexpr double kOfSize = 1e-6;
   return kOfSize * (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).norm();
 }
@@ -131,7 +131,7 @@ std::optional<VertexMatch> match_vertices(const HeadFile& first, const HeadFile&
 }
 
 /// Gives a head the mesh of another head.
-void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& head) {
+void adopt_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& head) {
   const std::vector<std::uint32_t>& vertices = match.vertices;
   ColourRows colours = obj_colours(head.file.file.bytes(), head.file.positions.rows());
   if (colours.rows() > 0) colours = ColourRows(colours(vertices, kAllColumns));
@@ -151,7 +151,7 @@ void take_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& hea
 /// Whether, on a head, all polygon corners of the same set have the same position.
 bool has_one_position(DisjointSets& sets, const HeadFile& head) {
   const Topology& topology = head.mesh->topology;
-  const double near = same_place(head.file.positions);
+  const double near = position_tolerance(head.file.positions);
   for (std::uint32_t c = 0; c < topology.corner_vertices.size(); ++c) {
     const std::uint32_t vertex = topology.corner_vertices[c];
     const std::uint32_t other = topology.corner_vertices[sets.root(c)];
@@ -173,7 +173,7 @@ void join_corners_of_vertices(const Topology& topology, DisjointSets& sets) {
 }
 
 /// Number of vertices that have polygons.
-Index used_vertices(const Topology& topology) {
+Index used_vertex_count(const Topology& topology) {
   std::vector<bool> used(static_cast<std::size_t>(topology.vertex_count), false);
   for (const std::uint32_t vertex : topology.corner_vertices) used[vertex] = true;
   return std::ranges::count(used, true);
@@ -222,7 +222,7 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
   }
   made = with_vertices(*heads[0], std::move(roots));
   for (const HeadFile* head : united) {
-    if (used_vertices(head->mesh->topology) == made.mesh->topology.vertex_count) return *head;
+    if (used_vertex_count(head->mesh->topology) == made.mesh->topology.vertex_count) return *head;
   }
   return made;
 }
@@ -290,7 +290,7 @@ const HeadFile& find_common_mesh(const std::vector<HeadFile>& heads, HeadFile& m
 }
 
 /// A message that says how the export of a head changed the vertices; empty if nothing changed.
-std::string difference_made(const HeadFile& head, const Vertices& vertices) {
+std::string describe_vertex_change(const HeadFile& head, const Vertices& vertices) {
   const auto found = static_cast<std::size_t>(head.file.positions.rows());
   if (found > vertices.size()) {
     return concat(found - vertices.size(), " of its vertices are copies at seams; they are joined");
@@ -334,7 +334,7 @@ void replace_mesh(HeadFile& head, const HeadFile& mesh_source, const ColourRows&
 std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
     const Topology& expected, const Topology& found, const Positions& found_positions) {
   if (expected.face_offsets != found.face_offsets) return std::nullopt;
-  const double near = same_place(found_positions);
+  const double near = position_tolerance(found_positions);
   Vertices vertices(static_cast<std::size_t>(expected.vertex_count), kNoIndex);
   std::vector<bool> has_corner(static_cast<std::size_t>(found.vertex_count), false);
   for (std::size_t c = 0; c < expected.corner_vertices.size(); ++c) {
@@ -349,15 +349,15 @@ std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
   }
   // Vertices without a polygon cannot be matched by polygons. Match the n-th such vertex of one
   // mesh with the n-th such vertex of the other mesh.
-  std::uint32_t loose = 0;
+  std::uint32_t isolated = 0;
   for (std::uint32_t& vertex : vertices) {
     if (vertex != kNoIndex) continue;
-    while (loose < has_corner.size() && has_corner[loose]) ++loose;
-    if (loose == has_corner.size()) return std::nullopt;
-    vertex = loose++;
+    while (isolated < has_corner.size() && has_corner[isolated]) ++isolated;
+    if (isolated == has_corner.size()) return std::nullopt;
+    vertex = isolated++;
   }
-  while (loose < has_corner.size() && has_corner[loose]) ++loose;
-  if (loose < has_corner.size()) return std::nullopt;
+  while (isolated < has_corner.size() && has_corner[isolated]) ++isolated;
+  if (isolated < has_corner.size()) return std::nullopt;
   return vertices;
 }
 
@@ -370,8 +370,8 @@ void convert_to_common_mesh(std::vector<HeadFile>& heads) {
     if (head.mesh == common.mesh) return;
     const auto match = match_vertices(common, head);
     if (!match) return;
-    changes[h] = difference_made(head, match->vertices);
-    take_mesh_of(common, *match, head);
+    changes[h] = describe_vertex_change(head, match->vertices);
+    adopt_mesh_of(common, *match, head);
   });
   const std::string others = &common == &made ? "" : " as in " + common.file.path.string();
   for (std::size_t h = 0; h < heads.size(); ++h) {

@@ -40,7 +40,7 @@ std::vector<PictureName> face_picture_names(const Inputs& inputs) {
 
 FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
     : inputs_(inputs), are_blended_(config.textures.blend == TextureBlend::kAuto) {
-  blend_textures(config);
+  make_blenders(config);
   if (!inputs.heads_on_body) return;
   SeamColours seam(inputs, inputs.textures.are_blended() ? blenders_.front().get() : nullptr);
   if (!seam.has_colours()) return;
@@ -50,7 +50,7 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
                                               config.neck.body_texture);
 }
 
-void FaceTextures::blend_textures(const Config& config) {
+void FaceTextures::make_blenders(const Config& config) {
   const Inputs& inputs = inputs_;
   if (!has_own_textures(inputs) && inputs.vertex_colours.empty()) return;
   const Topology& topology = inputs.head_set.topology;

@@ -58,7 +58,7 @@ class FaceTextures {
 
  private:
   /// Makes the blenders of all kinds of textures, and computes the data for blending colours.
-  void blend_textures(const Config& config);
+  void make_blenders(const Config& config);
   /// The weight of each head in the mean colour of the whole face.
   std::vector<double> head_weights_in_mean_colour(const Recipe& recipe) const;
 

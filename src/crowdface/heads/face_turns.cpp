@@ -29,7 +29,7 @@ std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
   return evenly_spaced_items(above.size() < kFewest ? all : above, kPoints);
 }
 
-SampledHeads heads_above(const Inputs& inputs, const Prepared& prepared,
+SampledHeads heads_above(const Inputs& inputs, const PreparedHeads& prepared,
                          const RegionWeights& regions) {
   const std::vector<Index> columns = columns_above(inputs.heads_on_body->seam, prepared.samples);
   FaceSamples samples;
@@ -107,7 +107,8 @@ RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
 
 }  // namespace
 
-FacePoses::FacePoses(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions)
+FacePoses::FacePoses(const Inputs& inputs, const PreparedHeads& prepared,
+                     const RegionWeights& regions)
     : neck_(*inputs.heads_on_body),
       placed_heads_(heads_above(inputs, prepared, regions)),
       turned_heads_(placed_heads_) {

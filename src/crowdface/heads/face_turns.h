@@ -16,7 +16,7 @@ namespace crowdface {
 class FacePoses {
  public:
   /// \param inputs  must outlive this object; its heads are placed on a body
-  FacePoses(const Inputs& inputs, const Prepared& prepared, const RegionWeights& regions);
+  FacePoses(const Inputs& inputs, const PreparedHeads& prepared, const RegionWeights& regions);
   FacePoses(const FacePoses&) = delete;
   FacePoses& operator=(const FacePoses&) = delete;
 

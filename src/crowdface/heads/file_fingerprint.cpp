@@ -20,7 +20,7 @@ std::int64_t nanoseconds(const timespec& time) {
 }
 
 /// The key of the cache entry for a file. The file is identified by its device and inode.
-CacheKey seen_key(std::span<const std::int64_t> stamp) {
+CacheKey fingerprint_key(std::span<const std::int64_t> stamp) {
   return {"seen", Hasher().add(stamp[0]).add(stamp[1]).digest()};
 }
 
@@ -39,7 +39,7 @@ FileFingerprint::FileFingerprint(const CacheFolder& cache, const fs::path& file)
   stamp_ = stamp_of(file);
   if (!stamp_) return;
   try {
-    const auto entry = CacheEntry::open(cache_, seen_key(*stamp_));
+    const auto entry = CacheEntry::open(cache_, fingerprint_key(*stamp_));
     if (!entry) return;
     const ArrayReader arrays(*entry);
     Stamp seen;
@@ -65,7 +65,7 @@ void FileFingerprint::remember(const Digest& digest) const {
     ArrayWriter arrays;
     arrays("stamp", *stamp_);
     arrays("digest", digest);
-    write_entry(cache_, seen_key(*stamp_), arrays.arrays);
+    write_entry(cache_, fingerprint_key(*stamp_), arrays.arrays);
   } catch (const RecoverableError&) {  // the next run will hash the file again
   }
 }

@@ -26,7 +26,7 @@ LevelError in_mm(LevelError error, double mm) {
 /// The mean head, with some parts enlarged or reduced, because edge collapse keeps more triangles
 /// in enlarged parts. Eyes and the lids around them are nearly doubled in size; other rigid parts,
 /// such as teeth, are reduced to 30 %.
-Positions weighted(const Positions& mean, const PartList& parts) {
+Positions with_resized_parts(const Positions& mean, const PartList& parts) {
   constexpr double kEyes = 0.8, kTeeth = 0.3;
   Positions sizes = mean;
   for (const Part& part : parts.parts) {
@@ -97,14 +97,14 @@ void require_ring(const Inputs& inputs, const DetailLevel& level) {
 }
 
 /// Makes a level of detail, and measures its error on the heads and their shapes.
-/// \param typical  result of `weighted`, on which edges are collapsed
+/// \param resized_head  result of `with_resized_parts`, on which edges are collapsed
 /// \param share    fraction of the triangles to keep
 /// \param mm       millimetres per file unit
-MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, double share,
+MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& resized_head, double share,
                              double mm) {
   const Borders borders = inputs.heads_on_body ? Borders::kKeep : Borders::kCollapse;
-  DetailLevel level =
-      std::move(detail_levels(typical, inputs.materials.material_of_face, {&share, 1}, borders)[0]);
+  DetailLevel level = std::move(
+      detail_levels(resized_head, inputs.materials.material_of_face, {&share, 1}, borders)[0]);
   require_ring(inputs, level);
   const NearestLevelTriangles map =
       find_level_triangles(inputs.head_set.topology, inputs.adjacency, level, inputs.mean_head);
@@ -116,7 +116,7 @@ MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& typical, doubl
 }
 
 /// Hash of everything that a level of detail depends on. See measured_level for the parameters.
-Digest key_of(const Inputs& inputs, const HeadSet& typical, double share, double mm) {
+Digest key_of(const Inputs& inputs, const HeadSet& resized_head, double share, double mm) {
   Hasher key;
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
   key.add_array(std::span(inputs.head_set.topology.corner_uvs));
@@ -176,22 +176,22 @@ bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
 void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs) {
   if (config.output.lods.empty() || config.output.meshes.empty()) return;
   const double mm = mm_per(config.faces.units);
-  const HeadSet typical{inputs.head_set.topology,
-                        inputs.head_set.uvs,
-                        {{"mean", weighted(inputs.mean_head, inputs.parts)}}};
+  const HeadSet resized_head{inputs.head_set.topology,
+                             inputs.head_set.uvs,
+                             {{"mean", with_resized_parts(inputs.mean_head, inputs.parts)}}};
   inputs.detail_levels.resize(config.output.lods.size());
   parallel_for_each(inputs.detail_levels.size(), [&](std::size_t l) {
     const double share = config.output.lods[l] / 100;
     inputs.detail_levels[l] = read_or_make(
-        cache, {"level", key_of(inputs, typical, share, mm)},
-        [&] { return measured_level(inputs, typical, share, mm); }, kLevelArrays,
+        cache, {"level", key_of(inputs, resized_head, share, mm)},
+        [&] { return measured_level(inputs, resized_head, share, mm); }, kLevelArrays,
         [&](MeasuredLevel& found, const CacheEntry&) {
           return is_sound(found, inputs.head_set.topology, share);
         });
   });
 }
 
-std::string describe_levels(const Inputs& inputs) {
+std::string describe_detail_levels(const Inputs& inputs) {
   std::vector<std::string> lines;
   for (std::size_t l = 0; l < inputs.detail_levels.size(); ++l) {
     const auto& [level, heads, shapes] = inputs.detail_levels[l];

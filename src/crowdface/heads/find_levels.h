@@ -13,6 +13,6 @@ namespace crowdface {
 void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs);
 
 /// A readable line for each level; empty if there are none.
-std::string describe_levels(const Inputs& inputs);
+std::string describe_detail_levels(const Inputs& inputs);
 
 }  // namespace crowdface

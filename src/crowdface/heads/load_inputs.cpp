@@ -30,7 +30,7 @@ namespace crowdface {
 namespace {
 
 /// Reads the vertex colours of the heads, if any head has them.
-void take_colours(Inputs& inputs) {
+void read_vertex_colours(Inputs& inputs) {
   const std::size_t count = inputs.head_files.size();
   std::vector<ColourRows> colours(count);
   parallel_for_each(count, [&](std::size_t h) {
@@ -78,7 +78,7 @@ double mean_edge_length_mm(const Config& config, const Inputs& inputs) {
 }
 
 /// Returns a warning if output.surfaces names materials that no polygon has.
-std::optional<std::string> unknown_surfaces(const Config& config, const Inputs& inputs) {
+std::optional<std::string> unknown_surfaces_warning(const Config& config, const Inputs& inputs) {
   const std::vector<std::string>& known = inputs.materials.names;
   std::vector<std::string> unknown, materials;
   for (const auto& [name, surface] : config.output.surfaces) {
@@ -134,7 +134,7 @@ std::optional<std::string> single_texture_warning(const FoundTextureFiles& textu
 /// Loads textures. After each damaged image, loads again as if that file were missing.
 /// \param load  called with the textures found; returns the loaded textures, or throws DamagedImage
 template <class Load>
-HeadTextures load_sound(FoundTextureFiles& found, Inputs& inputs, const Load& load) {
+HeadTextures load_undamaged(FoundTextureFiles& found, Inputs& inputs, const Load& load) {
   // sorted, so that the order of messages is fixed
   std::map<std::filesystem::path, std::string> damaged;
   for (;;) {
@@ -185,13 +185,13 @@ void read_textures(const Config& config, const CacheFolder& cache, Inputs& input
       if (!textures.has_files()) none.warnings = textures.warnings;
       return none;
     };
-    inputs.textures = asked_for ? load_colours(found) : load_sound(found, inputs, load_colours);
+    inputs.textures = asked_for ? load_colours(found) : load_undamaged(found, inputs, load_colours);
     for (const std::string& text : inputs.textures.warnings) inputs.warn(text);
     for (std::size_t k = 1; blend && k < kinds.size(); ++k) {
       const bool pictured = shown && is_shown_in_previews(kinds[k].kind);
       if (!pictured && config.output.meshes.empty()) continue;
       for (std::string& text : leave_out_unreadable_files(kinds[k])) inputs.warn(std::move(text));
-      HeadTextures maps = load_sound(kinds[k], inputs, [&](const FoundTextureFiles& textures) {
+      HeadTextures maps = load_undamaged(kinds[k], inputs, [&](const FoundTextureFiles& textures) {
         return textures.heads_have_different_textures() ? load_blended(textures) : HeadTextures();
       });
       if (!kinds[k].heads_have_different_textures()) {
@@ -256,7 +256,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   cache_heads(heads, cache);
   Inputs inputs;
   take_heads(config, std::move(heads), inputs);
-  take_colours(inputs);
+  read_vertex_colours(inputs);
   inputs.materials =
       face_materials(inputs.head_files[0].materials, inputs.head_set.topology.face_count());
   inputs.cache = cache;
@@ -296,7 +296,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
                                axes_of(Orientation{config.faces.up, config.faces.front}))) {
     inputs.warn(std::move(text));
   }
-  if (auto text = unknown_surfaces(config, inputs)) inputs.warn(std::move(*text));
+  if (auto text = unknown_surfaces_warning(config, inputs)) inputs.warn(std::move(*text));
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {
     inputs.regions = load_regions(config, inputs);

@@ -120,14 +120,15 @@ struct Poses {
 };
 
 /// The body on which the heads are placed, and the heads' rotation.
-struct Goal {
+struct PlacementGoal {
   BodyBelowNeck body;
   Matrix3d rotation = Matrix3d::Identity();  ///< rotation of all heads from their common pose
 };
 
-Goal find_goal(const Config& config, const Inputs& inputs, const Rim& rim, const Poses& poses) {
+PlacementGoal find_goal(const Config& config, const Inputs& inputs, const Rim& rim,
+                        const Poses& poses) {
   const HeadSet& head_set = inputs.head_set;
-  Goal goal;
+  PlacementGoal goal;
   if (!config.neck.body.empty()) {
     const Positions ring = poses.mean(head_set, rim, rim);
     goal.body = read_body_below_neck(config, inputs, rim, ring);
@@ -170,7 +171,7 @@ void warn_of_visible_bends(const Config& config, const std::vector<HeadsOnBody::
 /// Places a head on the body. All heads get the same rotation: different rotations would change the
 /// differences between heads, and so the faces' identities. If the pose of a head differs from the
 /// common pose, the finished faces that contain this head are rotated instead.
-HeadsOnBody::Head place(const Rim& rim, const Goal& goal, const Matrix3d& turn, double mm,
+HeadsOnBody::Head place(const Rim& rim, const PlacementGoal& goal, const Matrix3d& turn, double mm,
                         Positions& head) {
   HeadsOnBody::Head placed;
   const Positions before = head(rim, kAllColumns);
@@ -226,10 +227,10 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
 }
 
 /// Unit normals at the ring of the neck, #rim by 3.
-/// \param areas, of_body  the area vectors around each vertex of the ring, on the heads and on the
+/// \param areas, body_areas  the area vectors around each vertex of the ring, on the heads and on the
 ///                        body
-Positions normals_of(Positions areas, const Positions& of_body) {
-  areas += of_body;
+Positions normals_of(Positions areas, const Positions& body_areas) {
+  areas += body_areas;
   for (Index i = 0; i < areas.rows(); ++i) areas.row(i) = row3(areas, i).normalized().transpose();
   return areas;
 }
@@ -240,7 +241,7 @@ void place_heads(const Config& config, Inputs& inputs) {
   const Rim rim = find_neck_rim(config, inputs);
   Positions mean_before_placement = mean_head(head_set);
   const Poses poses(config, head_set, skin_above(inputs, mean_before_placement, rim, falloff));
-  Goal goal = find_goal(config, inputs, rim, poses);
+  PlacementGoal goal = find_goal(config, inputs, rim, poses);
   std::vector<HeadsOnBody::Head> heads(head_set.heads.size());
   parallel_for_each(heads.size(), [&](std::size_t h) {
     heads[h] = place(rim, goal, poses.turns[h], mm, head_set.heads[h].positions);

@@ -24,7 +24,7 @@ namespace crowdface {
 namespace {
 
 /// The source of shape meshes, and the topology that they must have.
-struct Source {
+struct ShapeSource {
   const Config& config;
   const Topology& topology;
   const CacheFolder& cache;
@@ -34,7 +34,7 @@ struct Source {
 /// \param paths  paths of the meshes; empty paths are skipped
 /// \param take   called as take(i, positions of paths[i]) for each mesh that can be read
 template <class Take>
-void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& source,
+void read_meshes(const std::vector<std::filesystem::path>& paths, const ShapeSource& source,
                  Problems& problems, const Take& take) {
   std::vector<std::filesystem::path> files;
   std::vector<std::size_t> places;  // indices into `paths`
@@ -72,12 +72,12 @@ void read_meshes(const std::vector<std::filesystem::path>& paths, const Source& 
 
 /// Changes a shape's displacements smoothly, so that the ring of the neck does not move: all faces
 /// end in this ring.
-void hold_ring(const Inputs& inputs, Displacements& moves) {
+void keep_ring_still(const Inputs& inputs, Displacements& moves) {
   if (inputs.heads_on_body) inputs.heads_on_body->seam.keep_rim_still(moves);
 }
 
 /// Loads the template's shapes; skips shapes that the template lacks.
-ShapeSet load_template(const Source& source, const Inputs& inputs, double extent,
+ShapeSet load_template(const ShapeSource& source, const Inputs& inputs, double extent,
                        Problems& problems) {
   const Config::Shapes& asked = source.config.shapes;
   const std::size_t before = problems.size();
@@ -92,7 +92,7 @@ ShapeSet load_template(const Source& source, const Inputs& inputs, double extent
   for (std::size_t s = 0; s < meshes.size(); ++s) {
     if (asked.template_files[s].empty()) continue;
     set.shapes.push_back(make_shape(asked.names[s], set.neutral, meshes[s], extent));
-    hold_ring(inputs, set.shapes.back().moves);
+    keep_ring_still(inputs, set.shapes.back().moves);
   }
   return set;
 }
@@ -115,7 +115,7 @@ RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t
   return {std::move(mesh), motion};
 }
 
-void load_head(const Source& source, const Inputs& inputs, std::size_t head, double extent,
+void load_head(const ShapeSource& source, const Inputs& inputs, std::size_t head, double extent,
                std::vector<OwnShape>& shapes, Problems& problems) {
   const std::vector<std::filesystem::path>& files = source.config.shapes.head_files[head];
   const RestingHead rest = resting_head(source.config, inputs, head);
@@ -124,14 +124,14 @@ void load_head(const Source& source, const Inputs& inputs, std::size_t head, dou
     for (Index row = 0; row < moves.moves.rows(); ++row) {
       moves.moves.row(row) = rest.motion.apply_to_direction(row3(moves.moves, row)).transpose();
     }
-    hold_ring(inputs, moves);
+    keep_ring_still(inputs, moves);
     shapes[s] = make_own_shape(moves);
   });
 }
 
 /// Transfers the template's shapes to heads that lack them.
-void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_template,
-             ShapeSet& set) {
+void transfer_missing_shapes(const Config& config, const Inputs& inputs,
+                             const ShapeSet& of_template, ShapeSet& set) {
   std::optional<ShapeTransfer> transfer;
   for (std::size_t h = 0; h < set.head_shapes.size(); ++h) {
     const auto& files = config.shapes.head_files[h];
@@ -152,7 +152,7 @@ void fill_in(const Config& config, const Inputs& inputs, const ShapeSet& of_temp
 
 /// Loads the shapes of each head. The shapes of the mean head are the averages of the heads'
 /// shapes.
-void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
+void load_heads(const ShapeSource& source, Inputs& inputs, Problems& problems) {
   const Config& config = source.config;
   const Config::Shapes& asked = config.shapes;
   ShapeSet& set = inputs.shapes;
@@ -167,7 +167,7 @@ void load_heads(const Source& source, Inputs& inputs, Problems& problems) {
   if (!asked.neutral.empty()) {
     const ShapeSet of_template = load_template(source, inputs, extent, problems);
     if (problems.size() > before) return;
-    fill_in(config, inputs, of_template, set);
+    transfer_missing_shapes(config, inputs, of_template, set);
   }
   for (std::size_t s = 0; s < asked.names.size(); ++s) {
     set.shapes.push_back({asked.names[s], mean_displacements(set.head_shapes, s)});
@@ -208,7 +208,7 @@ Digest digest_of_shapes(const ShapeSet& set) {
 void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
                  Problems& problems) {
   if (config.shapes.names.empty()) return;
-  const Source source{config, inputs.head_set.topology, cache};
+  const ShapeSource source{config, inputs.head_set.topology, cache};
   const std::size_t before = problems.size();
   if (config.shapes.heads_directory.empty()) {
     inputs.shapes = load_template(source, inputs, 0, problems);

@@ -46,7 +46,7 @@ Rim read_rim(const std::filesystem::path& file, const Adjacency& adjacency) {
 /// The mesh reduced to some polygons and to the vertices of these polygons.
 /// \param kept  for each polygon, whether to keep it
 /// \param rim   renumbered with the vertices
-ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
+ObjFile restrict_to_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
   if (std::ranges::all_of(kept, [](bool keep) { return keep; })) return whole;
   FileMesh mesh;
   mesh.uvs = std::move(whole.uvs);
@@ -75,7 +75,7 @@ ObjFile with_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
 }
 
 /// Stores the body's mesh. \throws InvalidInput if the file holds a head instead of a body.
-void keep_body(ObjFile mesh, const Rim& rim, BodyBelowNeck& body) {
+void store_body(ObjFile mesh, const Rim& rim, BodyBelowNeck& body) {
   if (body.file_contains_head) {
     throw InvalidInput("body_texture, show_body and write_body need a body, found a head");
   }
@@ -148,11 +148,11 @@ BodyBelowNeck read_body_below_neck(const Config& config, const Inputs& inputs, c
     if (!neck.body_rim.empty()) {
       const std::vector<bool> below =
           polygons_below(mesh.topology, mesh.positions, found, unit_vector(config.faces.up));
-      mesh = with_polygons(below, std::move(mesh), found);
+      mesh = restrict_to_polygons(below, std::move(mesh), found);
     }
     body.area_vectors = area_vectors_around(mesh.topology, mesh.positions, found);
     if (body.file_contains_head) body.head_positions = mesh.positions;
-    if (neck.needs_body_mesh()) keep_body(std::move(mesh), found, body);
+    if (neck.needs_body_mesh()) store_body(std::move(mesh), found, body);
   } catch (const InvalidInput& error) {
     refuse_file(neck.body, error.what());
   }

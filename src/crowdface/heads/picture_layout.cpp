@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 /// The first 40 letters, digits, hyphens and underscores of a material's name, for use in file
 /// names.
-std::string part_name(const std::string& material) {
+std::string file_name_part(const std::string& material) {
   std::string name;
   for (const char c : material) {
     const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
@@ -55,7 +55,7 @@ std::vector<PictureName> picture_names(const FoundTextureFiles& found,
     const fs::path& file = found.heads[picture.head].files[picture.file_index].name;
     if (parts.contains(file)) continue;
     const auto face = static_cast<std::size_t>(picture.polygon);
-    std::string part = part_name(materials.names[materials.material_of_face[face]]);
+    std::string part = file_name_part(materials.names[materials.material_of_face[face]]);
     if (part.empty() || taken.contains(part)) part += std::to_string(parts.size() + 1);
     taken.insert(part);
     parts.emplace(file, part);

@@ -44,7 +44,7 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
 /// Maximum error of interpolating between the nodes (see LevelNodes), as a fraction of the
 /// displacement at L_max. With this limit, the interpolation uses about a tenth of the error
 /// tolerance (measured, docs/method.md). At the default tolerance of 0.05 mm, the limit is 2·10⁻⁴.
-double missed_by_nodes(const Config& config) {
+double max_node_residual(const Config& config) {
   constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
   if (config.smoothing.levels != LevelRepresentation::kBasis) return 2e-4;
   return std::min(kSharePerMm * config.smoothing.tolerance_mm, kLargest);
@@ -54,7 +54,7 @@ double missed_by_nodes(const Config& config) {
 class HeadPreparation {
  public:
   HeadPreparation(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                  Prepared& prepared)
+                  PreparedHeads& prepared)
       : config_(config), inputs_(inputs), smoothing_(smoothing), prepared_(prepared) {}
 
   const ChebyshevFilter& filter() {
@@ -87,12 +87,12 @@ class HeadPreparation {
   const Config& config_;
   const Inputs& inputs_;
   const SmoothingOperator& smoothing_;
-  Prepared& prepared_;
+  PreparedHeads& prepared_;
 };
 
 /// Removes temporary files of runs that were killed while writing to the cache. Errors only cause a
 /// warning.
-void clean(const std::filesystem::path& cache) {
+void clean_cache(const std::filesystem::path& cache) {
   try {
     remove_temporary_files(cache);
   } catch (const RecoverableError& error) {
@@ -100,8 +100,8 @@ void clean(const std::filesystem::path& cache) {
   }
 }
 
-Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
-  Prepared prepared;
+PreparedHeads shared_by_heads(const Config& config, const Inputs& inputs) {
+  PreparedHeads prepared;
   const auto chosen = [&](Index count) { return choose_samples(config, inputs, count); };
   if (inputs.mirror_map == nullptr) {
     prepared.trajectory_samples = prepared.samples = chosen(kSampleCount);
@@ -110,12 +110,13 @@ Prepared shared_by_heads(const Config& config, const Inputs& inputs) {
     prepared.trajectory_samples = samples_and_mirror_corners(prepared.samples, *inputs.mirror_map);
   }
   prepared.nodes = std::make_shared<const LevelNodes>(config.smoothing.operator_kind,
-                                                      inputs.max_level, missed_by_nodes(config));
+                                                      inputs.max_level, max_node_residual(config));
   return prepared;
 }
 
 /// The sizes that the cache entry of a prepared head must have.
-HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Prepared& prepared) {
+HeadCacheSizes expected_sizes(const Config& config, const Inputs& inputs,
+                              const PreparedHeads& prepared) {
   return {inputs.head_set.topology.vertex_count,
           static_cast<Index>(prepared.trajectory_samples.size()),
           static_cast<Index>(stored_smoothing_levels(inputs.max_level).size()),
@@ -125,7 +126,7 @@ HeadCacheSizes cache_shape(const Config& config, const Inputs& inputs, const Pre
 }
 
 /// Patches of all heads' fields, from the cache or computed.
-CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepared& prepared,
+CachedPatches patches_of(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                          const std::vector<Digest>& keys, const CacheFolder& cache) {
   const double tolerance = config.smoothing.tolerance_mm / mm_per(config.faces.units);
   double missed = 0;  // largest error of the heads' own fields
@@ -156,9 +157,9 @@ CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepa
 
 void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                    const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted) {
-  Prepared prepared = shared_by_heads(config, inputs);
-  const HeadCacheSizes shape = cache_shape(config, inputs, prepared);
-  clean(cache);
+  PreparedHeads prepared = shared_by_heads(config, inputs);
+  const HeadCacheSizes shape = expected_sizes(config, inputs, prepared);
+  clean_cache(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   for (std::size_t h = 0; h < inputs.head_set.heads.size(); ++h) {
     if (!is_wanted(h)) continue;
@@ -169,11 +170,11 @@ void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOp
   }
 }
 
-Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                 const CacheFolder& cache) {
-  Prepared prepared = shared_by_heads(config, inputs);
-  const HeadCacheSizes shape = cache_shape(config, inputs, prepared);
-  clean(cache);
+PreparedHeads prepare(const Config& config, const Inputs& inputs,
+                      const SmoothingOperator& smoothing, const CacheFolder& cache) {
+  PreparedHeads prepared = shared_by_heads(config, inputs);
+  const HeadCacheSizes shape = expected_sizes(config, inputs, prepared);
+  clean_cache(cache);
   HeadPreparation preparation(config, inputs, smoothing, prepared);
   bool cache_works = true;
   std::optional<Progress> progress;
@@ -218,7 +219,7 @@ Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOper
   return prepared;
 }
 
-void throw_if_truncated(const Prepared& prepared) {
+void throw_if_truncated(const PreparedHeads& prepared) {
   const auto was_truncated = [](const std::shared_ptr<const MappedFile>& mapped) {
     return mapped && mapped->was_truncated();
   };
@@ -229,7 +230,7 @@ void throw_if_truncated(const Prepared& prepared) {
   }
 }
 
-std::vector<HeadSmoothing> head_levels(const Config& config, const Prepared& prepared) {
+std::vector<HeadSmoothing> head_levels(const Config& config, const PreparedHeads& prepared) {
   std::vector<HeadSmoothing> result;
   for (const StoredLevels& stored : prepared.levels) {
     HeadSmoothing levels{stored.fields, {}};

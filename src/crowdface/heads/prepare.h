@@ -21,7 +21,7 @@
 namespace crowdface {
 
 /// All heads, ready for casting and blending.
-struct Prepared {
+struct PreparedHeads {
   FaceSamples samples;  ///< the vertices at which faces are compared and judged
   /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
   /// on which the samples' mirror images depend.
@@ -43,13 +43,13 @@ struct TruncatedWhileInUse : IoError {
 /// Checks that no cache entry was truncated while its fields were in use. Call this after using the
 /// fields and before using the results.
 /// \throws TruncatedWhileInUse.
-void throw_if_truncated(const Prepared& prepared);
+void throw_if_truncated(const PreparedHeads& prepared);
 
 /// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a
 /// warning; a cache that cannot be written only causes a warning.
 /// \param cache  see cache_directory
-Prepared prepare(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
-                 const CacheFolder& cache);
+PreparedHeads prepare(const Config& config, const Inputs& inputs,
+                      const SmoothingOperator& smoothing, const CacheFolder& cache);
 
 /// Prepares the wanted heads that the cache lacks, and stores them in the cache.
 /// \param is_wanted  called with the index of a head; returns whether to prepare the head
@@ -58,7 +58,7 @@ void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOp
                    const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);
 
 /// The fitted levels in the form that blending needs.
-std::vector<HeadSmoothing> head_levels(const Config& config, const Prepared& prepared);
+std::vector<HeadSmoothing> head_levels(const Config& config, const PreparedHeads& prepared);
 
 /// Calls `work`. If a cache entry was truncated while in use, warns and calls `work` again, at most
 /// three times in all. `work` must prepare the heads anew and skip what it has already finished.

@@ -30,7 +30,7 @@ bool is_topology(const Topology& topology) {
 }
 
 /// Names of material libraries, materials or groups, and the first polygon that has each name.
-struct KeptNames {
+struct StoredNames {
   std::vector<std::uint64_t> faces, sizes;
   std::vector<std::uint8_t> names;
 
@@ -59,10 +59,10 @@ struct KeptNames {
   }
 };
 
-struct KeptHead {
+struct StoredHead {
   Digest mesh;
   Positions positions;
-  KeptNames libraries, materials, groups;
+  StoredNames libraries, materials, groups;
 };
 
 constexpr auto kHeadArrays = [](auto& arrays, auto& head) {
@@ -124,12 +124,12 @@ CacheKey key_of_read_head(const Digest& text_digest) {
 
 std::optional<Digest> fill_head_from_cache(const CacheFolder& cache, const Digest& text_digest,
                                            ObjFile& head) {
-  auto kept = find_cached<KeptHead>(cache, key_of_read_head(text_digest), kHeadArrays,
-                                    [](const KeptHead& found, const CacheEntry&) {
-                                      return found.libraries.are_sound() &&
-                                             found.materials.are_sound() &&
-                                             found.groups.are_sound();
-                                    });
+  auto kept = find_cached<StoredHead>(cache, key_of_read_head(text_digest), kHeadArrays,
+                                      [](const StoredHead& found, const CacheEntry&) {
+                                        return found.libraries.are_sound() &&
+                                               found.materials.are_sound() &&
+                                               found.groups.are_sound();
+                                      });
   if (!kept) return std::nullopt;
   head.positions = std::move(kept->positions);
   head.material_libraries.clear();
@@ -150,7 +150,7 @@ std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_d
 
 void cache_head(const fs::path& cache, const Digest& text_digest, const Digest& mesh_digest,
                 const ObjFile& head) {
-  KeptHead kept{mesh_digest, head.positions, {}, {}, {}};
+  StoredHead kept{mesh_digest, head.positions, {}, {}, {}};
   for (const std::string& library : head.material_libraries) kept.libraries.add(library, 0);
   for (const MaterialRange& range : head.materials)
     kept.materials.add(range.name, range.first_face);

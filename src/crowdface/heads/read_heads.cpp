@@ -130,7 +130,7 @@ void note_reversed_faces(std::vector<std::optional<HeadFile>>& files) {
 }
 
 /// Logs the readers' notes on files; identical notes are merged.
-void tell_notes(const std::vector<std::optional<HeadFile>>& files) {
+void log_notes(const std::vector<std::optional<HeadFile>>& files) {
   std::vector<std::pair<std::string, std::vector<std::string>>> notes;
   for (const std::optional<HeadFile>& head : files) {
     if (!head) continue;
@@ -169,7 +169,7 @@ struct HeadReading {
 };
 
 /// Moves the data that was read to the head and to the head's mesh.
-void take_mesh(HeadReading& reading, ObjFile read, SharedMeshes& shared) {
+void store_mesh(HeadReading& reading, ObjFile read, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
   file =
       shared.winding() == Winding::kOutward ? with_outward_faces(std::move(read)) : std::move(read);
@@ -181,7 +181,7 @@ void take_mesh(HeadReading& reading, ObjFile read, SharedMeshes& shared) {
 
 void read_with_mesh(HeadReading& reading, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
-  take_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.summary), shared);
+  store_mesh(reading, read_obj(fs::path(file.path), std::move(file.file), reading.summary), shared);
 }
 
 /// A temporary folder outside the cache. It is removed when the program ends.
@@ -195,8 +195,8 @@ const fs::path& scratch_folder() {
 /// written.
 /// \return the head's new ObjFile::material_base, and the name of the material file in that folder;
 ///         empty if there are no textures
-std::pair<fs::path, std::string> keep_textures(const HeadFile& head, const CacheFolder& cache,
-                                               const FileMesh& mesh) {
+std::pair<fs::path, std::string> store_textures(const HeadFile& head, const CacheFolder& cache,
+                                                const FileMesh& mesh) {
   if (mesh.textures.empty()) return {};
   Hasher hasher;
   hasher.add(head.text_digest);
@@ -225,8 +225,8 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, SharedMes
   FileMesh mesh = read_mesh(file.path);
   reading.head.has_joined_vertices = join_split_vertices(mesh);
   if (mesh.topology.face_count() > 0) {
-    auto [material_base, library] = keep_textures(reading.head, cache, mesh);
-    take_mesh(reading, convert_to_obj(std::move(mesh), fs::path(file.path), library), shared);
+    auto [material_base, library] = store_textures(reading.head, cache, mesh);
+    store_mesh(reading, convert_to_obj(std::move(mesh), fs::path(file.path), library), shared);
     file.material_base = std::move(material_base);
     return;
   }
@@ -333,7 +333,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
   }
   restore_mirrored(files);
   note_reversed_faces(files);
-  tell_notes(files);
+  log_notes(files);
   return files;
 }
 

@@ -16,8 +16,8 @@ constexpr double kBandMm = 20;  ///< height of the band above the ring, along th
 
 /// The optical densities of a head's texture around each vertex, #vertices by 3: the mean of one
 /// sample from each polygon at the vertex. No rows if some vertex has no textured polygon.
-Positions sampled(const TextureSet& textures, const HeadSet& heads, const VertexFaces& around,
-                  const std::vector<std::uint32_t>& vertices) {
+Positions sampled_densities(const TextureSet& textures, const HeadSet& heads,
+                            const VertexFaces& around, const std::vector<std::uint32_t>& vertices) {
   constexpr float kOwn = 0.75F;  // weight of the vertex in a sample; the centroid has 1 − kOwn
   Positions densities(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -46,8 +46,8 @@ Positions sampled(const TextureSet& textures, const HeadSet& heads, const Vertex
 }
 
 /// Returns the low frequencies of a head's texture at vertices: #vertices by 3 optical densities.
-Positions coarse_of(const TextureBlender& blender, std::size_t head,
-                    const std::vector<std::uint32_t>& vertices) {
+Positions coarse_densities(const TextureBlender& blender, std::size_t head,
+                           const std::vector<std::uint32_t>& vertices) {
   Positions densities(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     densities.row(static_cast<Index>(i)) =
@@ -100,10 +100,10 @@ SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
   for (std::size_t h = 0; h < head_optical_densities_.size(); ++h) {
     if (picture != kNoIndex) {
       if (inputs.textures.blended.maps[picture][h])
-        head_optical_densities_[h] = coarse_of(*blended, h, vertices_);
+        head_optical_densities_[h] = coarse_densities(*blended, h, vertices_);
     } else if (!inputs.textures.texture_sets.empty()) {
       head_optical_densities_[h] =
-          sampled(inputs.textures.texture_sets[h], heads, around, vertices_);
+          sampled_densities(inputs.textures.texture_sets[h], heads, around, vertices_);
     } else if (!inputs.vertex_colours.empty()) {
       head_optical_densities_[h] = densities_at(inputs.vertex_colours[h], vertices_);
     }

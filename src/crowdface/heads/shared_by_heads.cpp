@@ -42,8 +42,8 @@ Hasher& add_skins(Hasher& hasher, const Inputs& inputs) {
 
 /// Whether the stored size of each component equals the number of vertices that are assigned to the
 /// component.
-bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
-               const std::vector<std::uint32_t>& sizes) {
+bool are_component_sizes(const std::vector<std::uint32_t>& of_vertex,
+                         const std::vector<std::uint32_t>& sizes) {
   if (!all_below(of_vertex, sizes.size())) return false;
   std::vector<std::uint32_t> counted(sizes.size(), 0);
   for (const std::uint32_t component : of_vertex) ++counted[component];
@@ -51,7 +51,7 @@ bool are_sizes(const std::vector<std::uint32_t>& of_vertex,
 }
 
 /// Whether all barycentric coordinates lie between 0 and 1, within rounding.
-bool are_shares(const std::array<double, 3>& shares) {
+bool are_barycentric(const std::array<double, 3>& shares) {
   constexpr double kRounding = 1e-9;
   return std::ranges::all_of(
       shares, [](double share) { return share >= -kRounding && share <= 1 + kRounding; });
@@ -103,7 +103,7 @@ bool are_neighbours(const Neighbours& found, std::size_t vertices) {
          offsets.back() == adjacency.items.size() && std::ranges::is_sorted(offsets) &&
          all_below(adjacency.items, vertices) && adjacency.boundary.size() == vertices &&
          components.component_of_vertex.size() == vertices &&
-         are_sizes(components.component_of_vertex, components.sizes);
+         are_component_sizes(components.component_of_vertex, components.sizes);
 }
 
 constexpr auto kMirrorArrays = [](auto& arrays, auto& found) {
@@ -123,7 +123,8 @@ bool is_mirror(const FoundMirror& found, std::size_t vertices) {
   const MirrorMap& map = found.map;
   const auto is_place = [&](const Triangle& triangle) { return all_below(triangle, vertices); };
   return map.corners.size() == vertices && std::ranges::all_of(map.corners, is_place) &&
-         map.barycentric.size() == vertices && std::ranges::all_of(map.barycentric, are_shares) &&
+         map.barycentric.size() == vertices &&
+         std::ranges::all_of(map.barycentric, are_barycentric) &&
          all_below(map.unpaired_vertices, vertices) &&
          map.unpaired_offsets.rows() == static_cast<Index>(map.unpaired_vertices.size());
 }

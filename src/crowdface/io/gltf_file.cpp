@@ -19,7 +19,7 @@ using namespace gltf;
 using GltfJson = GltfFile::Json;
 
 /// Largest absolute value that the matrix of a node may contain; as a translation, 1000 km.
-constexpr double kFarthestNode = 1e6;
+constexpr double kMaxMatrixEntry = 1e6;
 /// The reader may read at most this many numbers for each byte of the file's buffers.
 constexpr std::size_t kMaxNumbersPerByte = 4;
 
@@ -30,7 +30,7 @@ std::size_t size_of_type(int type) {
 }
 
 /// The number by which a normalized integer of this component type is divided; 1 for other types.
-double full_of_type(int type) {
+double max_of_type(int type) {
   if (type == kUnsignedByte) return 255;
   if (type == kByte) return 127;
   if (type == kUnsignedShort) return 65535;
@@ -289,7 +289,7 @@ std::vector<double> GltfFile::read_values(std::size_t accessor, std::size_t widt
     }
   }
   if (json.value("normalized", false)) {
-    for (double& number : numbers) number = std::max(number / full_of_type(type), -1.0);
+    for (double& number : numbers) number = std::max(number / max_of_type(type), -1.0);
   }
   if (!std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) {
     fail(concat("accessor ", accessor, " has numbers that are not finite"));
@@ -334,7 +334,7 @@ std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
       const std::uint32_t n = above.back(), parent = parents[n];
       const Eigen::Matrix4d local = local_matrix(*this, n);
       worlds[n] = parent == kNoIndex ? local : matrix_product(worlds[parent], local);
-      if (!(worlds[n].array().abs() < kFarthestNode).all()) {
+      if (!(worlds[n].array().abs() < kMaxMatrixEntry).all()) {
         fail(concat("the position of its node ", n, " is out of range"));
       }
       known[n] = true;

@@ -46,9 +46,9 @@ const ImageCodec& codec_of(std::string_view format) {
 }
 
 /// An open image and its header.
-struct OpenPicture {
+struct OpenImage {
   const ImageCodec& codec;
-  ImageHeader facts;
+  ImageHeader header;
   std::unique_ptr<void, void (*)(void*)> picture;
 };
 
@@ -114,9 +114,9 @@ void check_kind(const path& file, std::string_view format, const ImageHeader& sp
   }
 }
 
-std::size_t value_count(const ImageHeader& facts) {
-  return static_cast<std::size_t>(facts.width) * static_cast<std::size_t>(facts.height) *
-         static_cast<std::size_t>(facts.channels);
+std::size_t value_count(const ImageHeader& header) {
+  return static_cast<std::size_t>(header.width) * static_cast<std::size_t>(facts.height) *
+         static_cast<std::size_t>(header.channels);
 }
 
 template <class T>
@@ -126,29 +126,29 @@ void* make_room(Image& image, std::size_t values) {
   return pixels.data();
 }
 
-void* make_room(const path& file, const ImageHeader& facts, Image& image) {
-  const std::size_t values = value_count(facts);
+void* make_room(const path& file, const ImageHeader& header, Image& image) {
+  const std::size_t values = value_count(header);
   using ValueType = ImageHeader::ValueType;
-  if (facts.value_type == ValueType::kBytes) return make_room<std::uint8_t>(image, values);
-  if (facts.value_type == ValueType::kWords) return make_room<std::uint16_t>(image, values);
-  if (facts.value_type == ValueType::kFloats) return make_room<float>(image, values);
-  refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", facts.type_name));
+  if (header.value_type == ValueType::kBytes) return make_room<std::uint8_t>(image, values);
+  if (header.value_type == ValueType::kWords) return make_room<std::uint16_t>(image, values);
+  if (header.value_type == ValueType::kFloats) return make_room<float>(image, values);
+  refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", header.type_name));
 }
 
 /// Number of bytes of the decoded pixels. Integers keep the type that they have in the file.
-std::uint64_t pixel_bytes(const ImageHeader& facts) {
-  const bool bytes = facts.value_type == ImageHeader::ValueType::kBytes;
-  const bool words = facts.value_type == ImageHeader::ValueType::kWords;
-  return value_count(facts) * (bytes ? 1 : words ? 2 : sizeof(float));
+std::uint64_t pixel_bytes(const ImageHeader& header) {
+  const bool bytes = header.value_type == ImageHeader::ValueType::kBytes;
+  const bool words = header.value_type == ImageHeader::ValueType::kWords;
+  return value_count(header) * (bytes ? 1 : words ? 2 : sizeof(float));
 }
 
-std::mutex taking;
-std::uint64_t taken = 0;  ///< bytes reserved for all images
+std::mutex reservation_mutex;
+std::uint64_t reserved_bytes = 0;  ///< bytes reserved for all images
 
 /// Number of bytes that can still be reserved if the limit is `most`. The caller must hold the
 /// mutex.
-std::uint64_t free_of(std::uint64_t most) {
-  return most - std::min(taken, most);
+std::uint64_t unreserved_bytes(std::uint64_t most) {
+  return most - std::min(reserved_bytes, most);
 }
 
 void check_finite(const path& file, const Image& image) {
@@ -182,39 +182,39 @@ std::string encode(const std::string& format, const ImageToEncode& picture, std:
 }
 
 /// Opens a file. Rejects images that are unsafe to decode and images that are not supported.
-OpenPicture open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
+OpenImage open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
   const ImageCodec& codec = codec_of(format);
-  OpenPicture opened{codec, {}, {nullptr, codec.close}};
+  OpenImage opened{codec, {}, {nullptr, codec.close}};
   std::string error;
-  opened.picture.reset(codec.open(format, file.string(), mapped.bytes(), opened.facts, error));
+  opened.picture.reset(codec.open(format, file.string(), mapped.bytes(), opened.header, error));
   if (!opened.picture) refuse_file(file, error);
-  check_kind(file, format, opened.facts);
-  check_size(file, opened.facts, limits);
-  if (format == "png") check_png_claim(file, mapped.bytes(), opened.facts);
+  check_kind(file, format, opened.header);
+  check_size(file, opened.header, limits);
+  if (format == "png") check_png_claim(file, mapped.bytes(), opened.header);
   return opened;
 }
 
 /// Copies the pixels from the data window to the display window; pixels outside the data window are
 /// zero.
 template <class T>
-std::vector<T> in_display_window(const std::vector<T>& pixels, const ImageHeader& facts) {
-  const auto channels = static_cast<std::size_t>(facts.channels);
-  const auto width = static_cast<std::size_t>(facts.full_width);
-  std::vector<T> out(width * static_cast<std::size_t>(facts.full_height) * channels, T{});
+std::vector<T> in_display_window(const std::vector<T>& pixels, const ImageHeader& header) {
+  const auto channels = static_cast<std::size_t>(header.channels);
+  const auto width = static_cast<std::size_t>(header.full_width);
+  std::vector<T> out(width * static_cast<std::size_t>(header.full_height) * channels, T{});
   using Place = std::int64_t;  // windows may have any offset
-  const Place left = std::max(facts.x, facts.full_x);
+  const Place left = std::max(header.x, header.full_x);
   const Place right =
-      std::min(Place{facts.x} + facts.width, Place{facts.full_x} + facts.full_width);
+      std::min(Place{header.x} + header.width, Place{header.full_x} + header.full_width);
   const Place bottom =
-      std::min(Place{facts.y} + facts.height, Place{facts.full_y} + facts.full_height);
+      std::min(Place{header.y} + facts.height, Place{header.full_y} + header.full_height);
   if (left >= right) return out;
-  for (Place y = std::max(facts.y, facts.full_y); y < bottom; ++y) {
+  for (Place y = std::max(header.y, header.full_y); y < bottom; ++y) {
     const auto from =
-        static_cast<std::size_t>(y - facts.y) * static_cast<std::size_t>(facts.width) +
-        static_cast<std::size_t>(left - facts.x);
-    const auto to = static_cast<std::size_t>(y - facts.full_y) * width +
-                    static_cast<std::size_t>(left - facts.full_x);
+        static_cast<std::size_t>(y - header.y) * static_cast<std::size_t>(header.width) +
+        static_cast<std::size_t>(left - header.x);
+    const auto to = static_cast<std::size_t>(y - header.full_y) * width +
+                    static_cast<std::size_t>(left - header.full_x);
     std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(from * channels),
                 static_cast<std::size_t>(right - left) * channels,
                 out.begin() + static_cast<std::ptrdiff_t>(to * channels));
@@ -222,36 +222,36 @@ std::vector<T> in_display_window(const std::vector<T>& pixels, const ImageHeader
   return out;
 }
 
-void crop_to_display_window(const path& file, const ImageHeader& facts, const ImageLimits& limits,
+void crop_to_display_window(const path& file, const ImageHeader& header, const ImageLimits& limits,
                             Image& image) {
-  if (facts.x == facts.full_x && facts.y == facts.full_y && facts.width == facts.full_width &&
-      facts.height == facts.full_height) {
+  if (header.x == header.full_x && header.y == header.full_y && header.width == header.full_width &&
+      facts.height == header.full_height) {
     return;
   }
-  ImageHeader shown = facts;
-  shown.width = facts.full_width;
-  shown.height = facts.full_height;
+  ImageHeader shown = header;
+  shown.width = header.full_width;
+  shown.height = header.full_height;
   check_size(file, shown, limits);
   const ImageMemory memory =
       limits.is_crowdface_file ? nullptr : reserve_image_memory(file, pixel_bytes(shown));
-  std::visit([&](auto& pixels) { pixels = in_display_window(pixels, facts); }, image.pixels);
-  image.width = facts.full_width;
-  image.height = facts.full_height;
+  std::visit([&](auto& pixels) { pixels = in_display_window(pixels, header); }, image.pixels);
+  image.width = header.full_width;
+  image.height = header.full_height;
   image.memory = memory;
 }
 
 Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
-  const auto [codec, facts, picture] = open_checked(file, mapped, limits);
-  Image image{facts.width, facts.height, facts.channels,     facts.alpha_channel,
-              {},          {},           facts.channel_names};
-  if (!limits.is_crowdface_file) image.memory = reserve_image_memory(file, pixel_bytes(facts));
+  const auto [codec, header, picture] = open_checked(file, mapped, limits);
+  Image image{header.width, facts.height, header.channels,     header.alpha_channel,
+              {},           {},           header.channel_names};
+  if (!limits.is_crowdface_file) image.memory = reserve_image_memory(file, pixel_bytes(header));
   std::string error;
-  if (!codec.read(picture.get(), make_room(file, facts, image), error)) {
+  if (!codec.read(picture.get(), make_room(file, header, image), error)) {
     throw_if_interrupted();
     throw DamagedImage(file, concat(file.string(), ": is damaged or cut short: ", error));
   }
   check_finite(file, image);
-  crop_to_display_window(file, facts, limits, image);
+  crop_to_display_window(file, header, limits, image);
   return image;
 }
 
@@ -260,24 +260,24 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
 ImageMemory reserve_image_memory(const path& file, std::uint64_t bytes) {
   const std::uint64_t most = input_limits().image_bytes;
   {
-    const std::lock_guard lock(taking);
-    const std::uint64_t free = free_of(most);
+    const std::lock_guard lock(reservation_mutex);
+    const std::uint64_t free = unreserved_bytes(most);
     if (bytes > free) {
       refuse_file(file, concat("its pixels take ", format_bytes(bytes), ", and ",
                                format_bytes(free), " of the ", format_bytes(most),
                                " for all images together are free (--limit image_bytes=NUMBER)"));
     }
-    taken += bytes;
+    reserved_bytes += bytes;
   }
-  return {&taken, [bytes](const void*) {
-            const std::lock_guard lock(taking);
-            taken -= bytes;
+  return {&reserved_bytes, [bytes](const void*) {
+            const std::lock_guard lock(reservation_mutex);
+            reserved_bytes -= bytes;
           }};
 }
 
 std::uint64_t available_image_memory() {
-  const std::lock_guard lock(taking);
-  return free_of(input_limits().image_bytes);
+  const std::lock_guard lock(reservation_mutex);
+  return unreserved_bytes(input_limits().image_bytes);
 }
 
 Image read_image(const path& file, const ImageLimits& limits) {
@@ -298,10 +298,10 @@ Image read_image(const path& file, const ImageLimits& limits) {
 
 ImageSize read_image_size(const path& file, const ImageLimits& limits) {
   const MappedFile mapped(file);
-  const ImageHeader facts = open_checked(file, mapped, limits).facts;
-  return {facts.full_width, facts.full_height, facts.channels,
-          facts.value_type == ImageHeader::ValueType::kBytes,
-          facts.value_type == ImageHeader::ValueType::kFloats};
+  const ImageHeader header = open_checked(file, mapped, limits).header;
+  return {header.full_width, header.full_height, header.channels,
+          header.value_type == ImageHeader::ValueType::kBytes,
+          header.value_type == ImageHeader::ValueType::kFloats};
 }
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {

@@ -38,10 +38,10 @@ struct ImageCodec {
   /// Opens an image and reads its header.
   /// \param format  name of the reader in OpenImageIO.
   /// \param bytes  content of the file; must outlive the opened image.
-  /// \param facts  receives the header.
+  /// \param header  receives the header.
   /// \return null if the image cannot be opened; `error` gives the reason.
   void* (*open)(const std::string& format, const std::string& file, std::string_view bytes,
-                ImageHeader& facts, std::string& error);
+                ImageHeader& header, std::string& error);
   /// Reads all pixels of an open image.
   /// \param pixels  buffer for all pixels, of the type given by `ImageHeader::value_type`.
   /// \return whether the pixels could be read.

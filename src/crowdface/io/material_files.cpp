@@ -42,7 +42,7 @@ std::string with_forward_slashes(std::string_view text) {
 
 /// Whether a file with this name in the folder of the meshes could be one of crowdface's own output
 /// files: a mesh, or an array of the topology that all meshes share.
-bool is_name_of_ours(const fs::path& relative) {
+bool is_own_output_name(const fs::path& relative) {
   const fs::path normal = relative.lexically_normal();
   const bool is_mesh = std::ranges::any_of(
       normal, [&](const fs::path& part) { return mesh_format_of(part).has_value(); });
@@ -51,9 +51,9 @@ bool is_name_of_ours(const fs::path& relative) {
 }
 
 /// The reason why a file with this name is not copied; empty if it is copied.
-std::string_view objection_to(const fs::path& relative) {
+std::string_view reason_not_copied(const fs::path& relative) {
   if (!stays_inside(relative)) return "lies outside the head's folder";
-  if (is_name_of_ours(relative)) return "has a name that belongs to crowdface's own files";
+  if (is_own_output_name(relative)) return "has a name that belongs to crowdface's own files";
   // The ledger and the report of a run are UTF-8, so they cannot contain other names.
   if (!is_utf8(relative.native())) return "has a name that is not UTF-8";
   return {};
@@ -96,7 +96,7 @@ class Collector {
 
  private:
   /// A set of distinct file names (of material files or of textures) with a maximum size.
-  struct Names {
+  struct NameSet {
     std::set<fs::path> known;
     bool full = false;
   };
@@ -106,7 +106,7 @@ class Collector {
   /// \param what   "texture" or "material file", for the warning
   /// \param where  the file that contains the name
   NameStatus add_name(const fs::path& relative, std::string_view what, const fs::path& where,
-                      Names& names) {
+                      NameSet& names) {
     if (names.known.contains(relative)) return NameStatus::kKnown;
     if (names.known.size() < input_limits().textures) {
       names.known.insert(relative);
@@ -130,7 +130,7 @@ class Collector {
       files_.warnings.push_back(concat(what, " ", quoted(relative.string()), " ", why));
       return false;
     };
-    if (const std::string_view objection = objection_to(relative); !objection.empty()) {
+    if (const std::string_view objection = reason_not_copied(relative); !objection.empty()) {
       return refuse(concat(objection, " and is not copied"));
     }
     if (!exists(relative)) {
@@ -152,7 +152,7 @@ class Collector {
   /// Finds the file for a path that has backslashes or comes from another machine. Tries the path
   /// with forward slashes, then the path's file name in the mesh's folder.
   std::optional<fs::path> library_beside(std::string_view text) const {
-    for (const std::string& name : readings_of(text)) {
+    for (const std::string& name : possible_names(text)) {
       const fs::path path = with_forward_slashes(name);
       for (const fs::path& relative : {path, path.filename()}) {
         if (stays_inside(relative) && exists(relative)) return relative;
@@ -217,7 +217,7 @@ class Collector {
     // The path may come from another machine or have another encoding. First look for the file name
     // in the folder, then search the subfolders.
     for (const std::string_view suffix : suffixes) {
-      for (const std::string& name : readings_of(suffix)) {
+      for (const std::string& name : possible_names(suffix)) {
         const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
         if (beside.filename().empty() || beside.filename() == "." || beside.filename() == "..")
           continue;
@@ -225,7 +225,7 @@ class Collector {
         return known->second = beside;
       }
     }
-    for (const std::string& name : readings_of(has_options ? suffixes.back() : rest)) {
+    for (const std::string& name : possible_names(has_options ? suffixes.back() : rest)) {
       if (name.find('\0') != name.npos || ++searches_ > kMaxSearches) break;
       const auto found = search_texture(folder_ / folder, with_forward_slashes(name), mesh_.stem());
       if (found) return known->second = folder / *found;
@@ -235,7 +235,7 @@ class Collector {
 
   /// All names that the text may mean: first the text decoded from each possible encoding, then the
   /// unchanged text.
-  static std::vector<std::string> readings_of(std::string_view text) {
+  static std::vector<std::string> possible_names(std::string_view text) {
     std::vector<std::string> names = legacy_decodings(text);
     names.emplace_back(text);
     return names;
@@ -256,7 +256,7 @@ class Collector {
 
   fs::path mesh_, folder_;
   std::set<std::string> materials_;  ///< names of the materials that the material files define
-  Names libraries_, textures_;
+  NameSet libraries_, textures_;
   /// largest number of searches, each of which lists the folder and its subfolders
   static constexpr int kMaxSearches = 64;
   int searches_ = 0;

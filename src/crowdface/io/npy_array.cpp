@@ -73,8 +73,8 @@ std::optional<std::vector<std::size_t>> shape_of(std::string_view header) {
 }
 
 /// Converts values from Fortran order (first index fastest) to C order (last index fastest).
-std::vector<double> turned(const std::vector<double>& values,
-                           const std::vector<std::size_t>& shape) {
+std::vector<double> in_c_order(const std::vector<double>& values,
+                               const std::vector<std::size_t>& shape) {
   std::vector<double> out(values.size());
   std::vector<std::size_t> index(shape.size(), 0);
   for (double& value : out) {
@@ -136,7 +136,7 @@ NpyArray parse_npy(std::string_view bytes, const std::string& name) {
     array.values.push_back(read(raw));
   }
   if (value_of(header, "'fortran_order'").starts_with("True")) {
-    array.values = turned(array.values, array.shape);
+    array.values = in_c_order(array.values, array.shape);
   }
   return array;
 }

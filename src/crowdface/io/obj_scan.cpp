@@ -86,7 +86,7 @@ class Summariser {
     for (const std::string_view statement : {"g", "o", "usemtl", "mtllib"}) {
       if (!is_of(line, statement)) continue;
       add_run();
-      mark_place();
+      hash_counts();
       hasher_.add(statement);
       return;
     }
@@ -96,7 +96,7 @@ class Summariser {
   }
   ObjSummary end() {
     add_run();
-    mark_place();
+    hash_counts();
     summary_.mesh_digest = hasher_.digest();
     return summary_;
   }
@@ -111,7 +111,7 @@ class Summariser {
       return;
     }
     add_run();
-    mark_place();
+    hash_counts();
     run_ = line;
   }
   void add_run() {
@@ -120,7 +120,7 @@ class Summariser {
   }
   /// Adds to the hash the numbers of vertices and normals before the current line, because relative
   /// indices count backwards from these numbers.
-  void mark_place() { hasher_.add(summary_.vertex_count).add(summary_.normal_count); }
+  void hash_counts() { hasher_.add(summary_.vertex_count).add(summary_.normal_count); }
 
   ObjSummary summary_;
   Hasher hasher_;
@@ -150,12 +150,12 @@ class Scanner {
     for_each_line(text_, [&](std::string_view line) {
       ++line_number_;
       in_cut_line_ = line.data() + line.size() == text_.data() + text_.size();
-      if (line_selection_ == ObjLineSelection::kAll || !passes_over(line)) check(line);
+      if (line_selection_ == ObjLineSelection::kAll || !skips(line)) check(line);
     });
     in_cut_line_ = false;
-    if (total_.vertex_count == 0 && first_other_line_ != 0) {
-      line_number_ = first_other_line_;
-      fail(concat("expected an OBJ statement, found ", quoted(first_other_)));
+    if (total_.vertex_count == 0 && first_unknown_line_ != 0) {
+      line_number_ = first_unknown_line_;
+      fail(concat("expected an OBJ statement, found ", quoted(first_unknown_)));
     }
     if (total_.vertex_count == 0) {
       throw InvalidInput(concat(name_, ": expected a mesh, found no vertex ('v' line)"));
@@ -181,7 +181,7 @@ class Scanner {
 
   /// Whether the check can skip a line because the line belongs to the known mesh: `vt` and `f`.
   /// Counts the `f` lines.
-  bool passes_over(std::string_view line) {
+  bool skips(std::string_view line) {
     line = without_blanks_before(line);
     if (is_of(line, "vt")) return true;
     if (!is_of(line, "f")) return false;
@@ -211,19 +211,19 @@ class Scanner {
     } else if (statement == "mtllib") {
       scan_.material_libraries.push_back(name_after(line, statement));
     } else if (!is_obj_statement(statement)) {
-      other_statement(statement);
+      unknown_statement(statement);
     }
   }
 
   /// Handles a statement that OBJ does not define. Programs add such statements; readers ignore
   /// them.
-  void other_statement(std::string_view statement) {
+  void unknown_statement(std::string_view statement) {
     if (!is_name(lower_case(statement))) {
       fail(concat("expected an OBJ statement, found ", quoted(statement)));
     }
-    if (first_other_line_ != 0) return;
-    first_other_line_ = line_number_;
-    first_other_ = statement;
+    if (first_unknown_line_ != 0) return;
+    first_unknown_line_ = line_number_;
+    first_unknown_ = statement;
     scan_.notes.push_back(concat("unknown OBJ statement ", quoted(statement), " (line ",
                                  line_number_, "): such lines are ignored"));
   }
@@ -345,8 +345,8 @@ class Scanner {
   ObjLineSelection line_selection_;
   ObjSummary total_, seen_;  ///< counts in the whole text, and in the lines checked so far
   ObjScan scan_;
-  std::string_view first_other_;  ///< first statement that OBJ does not define
-  std::size_t first_other_line_ = 0;
+  std::string_view first_unknown_;  ///< first statement that OBJ does not define
+  std::size_t first_unknown_line_ = 0;
 };
 
 }  // namespace

@@ -32,30 +32,30 @@ OIIO::TypeDesc type_of(ValueType values) {
 }
 
 ImageHeader facts_of(const OIIO::ImageSpec& spec) {
-  ImageHeader facts;
-  facts.width = spec.width;
+  ImageHeader header;
+  header.width = spec.width;
   facts.height = spec.height;
-  facts.depth = spec.depth;
-  facts.channels = spec.nchannels;
-  facts.x = spec.x;
-  facts.y = spec.y;
-  facts.full_x = spec.full_x;
-  facts.full_y = spec.full_y;
-  facts.full_width = spec.full_width;
-  facts.full_height = spec.full_height;
-  facts.tile_width = spec.tile_width;
-  facts.tile_height = spec.tile_height;
-  facts.alpha_channel = spec.alpha_channel;
-  facts.is_deep = spec.deep;
-  facts.value_type = kind_of_values(spec.format);
-  facts.type_name = spec.format.c_str();
-  return facts;
+  header.depth = spec.depth;
+  header.channels = spec.nchannels;
+  header.x = spec.x;
+  header.y = spec.y;
+  header.full_x = spec.full_x;
+  header.full_y = spec.full_y;
+  header.full_width = spec.full_width;
+  header.full_height = spec.full_height;
+  header.tile_width = spec.tile_width;
+  header.tile_height = spec.tile_height;
+  header.alpha_channel = spec.alpha_channel;
+  header.is_deep = spec.deep;
+  header.value_type = kind_of_values(spec.format);
+  header.type_name = spec.format.c_str();
+  return header;
 }
 
 /// Pass the mapped bytes to the decoder. A decoder that reads the file itself would report a
 /// failing disk as a damaged file.
 void* open(const std::string& format, const std::string& file, std::string_view bytes,
-           ImageHeader& facts, std::string& error) {
+           ImageHeader& header, std::string& error) {
   auto picture = std::make_unique<Picture>(bytes);
   picture->input = OIIO::ImageInput::create(format);
   OIIO::ImageInput* input = picture->input.get();
@@ -74,9 +74,9 @@ void* open(const std::string& format, const std::string& file, std::string_view 
     error = "cannot be read as " + format + ": " + input->geterror();
     return nullptr;
   }
-  facts = facts_of(spec);
+  header = facts_of(spec);
   // In other formats than OpenEXR the order of channels is fixed and their names do not matter.
-  if (format == "openexr") facts.channel_names = spec.channelnames;
+  if (format == "openexr") header.channel_names = spec.channelnames;
   return picture.release();
 }
 
@@ -84,7 +84,7 @@ void* open(const std::string& format, const std::string& file, std::string_view 
 /// decoder that reads several strips at once does not report damage of a single strip. Exception:
 /// for a TIFF with separate planes, the decoder reports damage, and reading row by row would decode
 /// the rows again for each plane.
-bool by_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
+bool reads_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
   return std::string_view(input.format_name()) == "tiff" && spec.tile_width == 0 &&
          spec.get_string_attribute("planarconfig") != "separate";
 }
@@ -94,7 +94,7 @@ bool read(void* picture, void* pixels, std::string& error) {
   const OIIO::ImageSpec& spec = input.spec();
   const OIIO::TypeDesc type = type_of(kind_of_values(spec.format));
   bool read = true;
-  if (by_rows(input, spec)) {
+  if (reads_rows(input, spec)) {
     const std::size_t row = static_cast<std::size_t>(spec.width) *
                             static_cast<std::size_t>(spec.nchannels) * type.size();
     for (int y = 0; read && y < spec.height; ++y) {
@@ -116,7 +116,7 @@ void close(void* picture) {
 
 /// Sets the value type and attributes of an image to be encoded.
 /// \return name of the writer in OpenImageIO.
-const char* describe(Form form, OIIO::ImageSpec& spec) {
+const char* set_attributes(Form form, OIIO::ImageSpec& spec) {
   if (form == Form::kExr) {
     spec.set_format(OIIO::TypeDesc::HALF);
     spec.attribute("compression", "zip");
@@ -132,7 +132,7 @@ const char* describe(Form form, OIIO::ImageSpec& spec) {
 
 bool encode(const ImageToEncode& picture, std::string& bytes, std::string& error) {
   OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
-  const std::string format = describe(picture.form, spec);
+  const std::string format = set_attributes(picture.form, spec);
   const OIIO::TypeDesc type =
       picture.form == Form::kExr ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc(spec.format);
   std::vector<unsigned char> written;

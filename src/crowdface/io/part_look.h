@@ -11,7 +11,7 @@ namespace crowdface {
 struct PartLook {
   /// Factors by which the materials' colours are multiplied, linear RGB.
   std::array<float, 3> tint = {1, 1, 1};
-  /// Text that replaces `UsdaPart::kLookName` in the names of texture files.
+  /// Text that replaces `UsdaPart::kLookPlaceholder` in the names of texture files.
   std::string name = {};
   /// Content of a PNG texture that belongs to this face only; empty if there is no such texture.
   std::string_view image = {};

@@ -18,17 +18,17 @@ constexpr double kLongestSide = 14400;  // points, PDF 1.4's limit
 
 /// The compressed rows of pixels of a PNG. PDF's Flate filter with PNG predictors decodes them
 /// without conversion.
-struct PackedPicture {
+struct PngData {
   std::uint32_t width = 0, height = 0;
   std::string data;
 };
 
-PackedPicture unwrap(const std::string& png) {
+PngData unwrap(const std::string& png) {
   constexpr std::size_t kSignature = 8, kChunkFrame = 12, kHeader = 13;
   const auto check = [](bool sound) {
     require(sound, "a PDF's page needs a whole PNG of 8-bit RGB");
   };
-  PackedPicture picture;
+  PngData picture;
   for (std::size_t at = kSignature; at + kChunkFrame <= png.size();) {
     const std::size_t length = big_endian_at(png.data() + at);
     check(length <= png.size() - at - kChunkFrame);
@@ -75,7 +75,7 @@ class PdfWriter {
   std::vector<std::size_t> starts_;
 };
 
-void add_page(const PackedPicture& picture, std::size_t first_object, PdfWriter& pdf) {
+void add_page(const PngData& picture, std::size_t first_object, PdfWriter& pdf) {
   const double scale = kPointsAnInch / kPixelsAnInch;
   const double longest = scale * std::max(picture.width, picture.height);
   const double shrink = std::min(1.0, kLongestSide / longest);

@@ -30,7 +30,7 @@ void ignore_warning(png_structp /*png*/, png_const_charp /*warning*/) {}
 
 /// Called before each row of pixels. After a signal, ends libpng's work with an error; image.cpp
 /// then reports the interruption.
-void give_up_if_interrupted(png_structp png) {
+void fail_if_interrupted(png_structp png) {
   if (is_interrupted()) png_error(png, "interrupted by a signal");
 }
 
@@ -65,7 +65,7 @@ void take_bytes(png_structp png, png_bytep to, std::size_t count) {
 }
 
 void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::string_view bytes,
-               ImageHeader& facts, std::string& error) {
+               ImageHeader& header, std::string& error) {
   auto opened = std::make_unique<OpenPng>(bytes);
   const png_structp png = opened->png;
   const png_infop info = opened->info;
@@ -83,12 +83,12 @@ void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::
     error = std::string("cannot be read as png: ") + opened->error.text;
     return nullptr;
   }
-  facts.width = facts.full_width = static_cast<int>(png_get_image_width(png, info));
-  facts.height = facts.full_height = static_cast<int>(png_get_image_height(png, info));
-  facts.channels = png_get_channels(png, info);
-  facts.alpha_channel = facts.channels % 2 == 0 ? facts.channels - 1 : -1;
+  header.width = header.full_width = static_cast<int>(png_get_image_width(png, info));
+  facts.height = header.full_height = static_cast<int>(png_get_image_height(png, info));
+  header.channels = png_get_channels(png, info);
+  header.alpha_channel = header.channels % 2 == 0 ? header.channels - 1 : -1;
   const bool words = png_get_bit_depth(png, info) == 16;
-  facts.value_type = words ? ImageHeader::ValueType::kWords : ImageHeader::ValueType::kBytes;
+  header.value_type = words ? ImageHeader::ValueType::kWords : ImageHeader::ValueType::kBytes;
   return opened.release();
 }
 
@@ -102,7 +102,7 @@ bool read_png(void* picture, void* pixels, std::string& error) {
     const int passes = interlaced ? PNG_INTERLACE_ADAM7_PASSES : 1;
     for (int pass = 0; pass < passes; ++pass) {
       for (png_uint_32 y = 0; y < height; ++y) {
-        give_up_if_interrupted(png);
+        fail_if_interrupted(png);
         png_read_row(png, static_cast<png_bytep>(pixels) + y * row, nullptr);
       }
     }
@@ -144,7 +144,7 @@ void flush_nothing(png_structp /*png*/) {}
 
 /// Sets the compression. Files of face images are at most 7 % larger than with the highest
 /// compression levels of zlib, and encoding takes a quarter of the time.
-void set_packing(png_structp png, ImageToEncode::Form form) {
+void set_compression(png_structp png, ImageToEncode::Form form) {
   if (form == ImageToEncode::Form::kUncompressedPng) {
     png_set_compression_level(png, 0);
     return png_set_filter(png, 0, PNG_FILTER_NONE);
@@ -166,7 +166,7 @@ bool write_png(const ImageToEncode& picture, std::string& bytes, std::string& er
   const png_infop info = made.info;
   const bool written = info != nullptr && succeeds(png, [&] {
                          png_set_write_fn(png, &made.bytes, give_bytes, flush_nothing);
-                         set_packing(png, picture.form);
+                         set_compression(png, picture.form);
                          png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width),
                                       static_cast<png_uint_32>(picture.height), bits,
                                       kColourTypes[picture.channels - 1], PNG_INTERLACE_NONE,
@@ -175,7 +175,7 @@ bool write_png(const ImageToEncode& picture, std::string& bytes, std::string& er
                          png_write_info(png, info);
                          if (bits == 16) png_set_swap(png);
                          for (int y = 0; y < picture.height; ++y) {
-                           give_up_if_interrupted(png);
+                           fail_if_interrupted(png);
                            png_write_row(png, static_cast<png_const_bytep>(picture.pixels) +
                                                   static_cast<std::size_t>(y) * row);
                          }

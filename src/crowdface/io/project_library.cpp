@@ -38,54 +38,54 @@ std::atomic<const char*> current_dependents_phrase{"run"};
   ::_exit(static_cast<int>(ExitCode::kIoError));
 }
 
-constexpr unsigned kLongestStart = 60;  ///< seconds that loading a library may take
+constexpr unsigned kLoadTimeoutSeconds = 60;  ///< seconds that loading a library may take
 
 std::atomic<bool> handles_crashes = false;
-volatile std::sig_atomic_t starting = 0;
+volatile std::sig_atomic_t is_loading = 0;
 
 /// Handler of exit(): ends the process with a message if a library calls exit() while the library
 /// is being loaded. For example, libgfortran calls exit() if it cannot allocate memory.
-void end_if_starting() {
-  if (starting != 0) end_without_libraries(0);
+void end_if_loading() {
+  if (is_loading != 0) end_without_libraries(0);
 }
 
 /// Lives while a library is being loaded. If the library ends the process (for example for lack of
 /// memory) or hangs (for example a logger that waits for a thread that could not start), the
 /// program ends with an error message.
-class StartOfLibraries {
+class LoadingGuard {
  public:
-  explicit StartOfLibraries(const char* dependents_phrase) {
+  explicit LoadingGuard(const char* dependents_phrase) {
     current_dependents_phrase = dependents_phrase;
-    [[maybe_unused]] static const int registered = std::atexit(end_if_starting);
-    starting = 1;
+    [[maybe_unused]] static const int registered = std::atexit(end_if_loading);
+    is_loading = 1;
     struct sigaction action {};
     action.sa_handler = end_without_libraries;
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
-      ::sigaction(kSignals[i], &action, &before_[i]);
+      ::sigaction(kSignals[i], &action, &previous_actions_[i]);
     }
-    ::alarm(kLongestStart);
-    end_before_ = std::set_terminate([] { end_without_libraries(0); });
+    ::alarm(kLoadTimeoutSeconds);
+    previous_terminate_ = std::set_terminate([] { end_without_libraries(0); });
   }
-  ~StartOfLibraries() {
-    starting = 0;
-    std::set_terminate(end_before_);
+  ~LoadingGuard() {
+    is_loading = 0;
+    std::set_terminate(previous_terminate_);
     ::alarm(0);
     for (std::size_t i = 0; i < kSignals.size(); ++i) {
-      ::sigaction(kSignals[i], &before_[i], nullptr);
+      ::sigaction(kSignals[i], &previous_actions_[i], nullptr);
     }
   }
-  StartOfLibraries(const StartOfLibraries&) = delete;
-  StartOfLibraries& operator=(const StartOfLibraries&) = delete;
+  LoadingGuard(const LoadingGuard&) = delete;
+  LoadingGuard& operator=(const LoadingGuard&) = delete;
 
  private:
   static constexpr std::array kSignals = {SIGABRT, SIGALRM, SIGSEGV, SIGTRAP};
-  std::array<struct sigaction, kSignals.size()> before_ = {};
-  std::terminate_handler end_before_ = nullptr;
+  std::array<struct sigaction, kSignals.size()> previous_actions_ = {};
+  std::terminate_handler previous_terminate_ = nullptr;
 };
 
 void* open_library(const std::string& name, int flags, const char* dependents_phrase,
                    const char* failure_phrase) {
-  std::optional<StartOfLibraries> start;
+  std::optional<LoadingGuard> start;
   if (handles_crashes) start.emplace(dependents_phrase);
   try {
     return ::dlopen(name.c_str(), flags | RTLD_LAZY);

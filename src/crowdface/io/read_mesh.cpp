@@ -119,7 +119,7 @@ FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
 
 /// The usual extension of the file's format. The first bytes determine the format; if they match no
 /// known format, the file's own extension determines it.
-std::string kind_of(std::string_view bytes, const fs::path& path) {
+std::string format_extension(std::string_view bytes, const fs::path& path) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return ".ply";
   if (bytes.starts_with("glTF")) return ".glb";
   if (bytes.starts_with("Kaydara FBX")) return ".fbx";
@@ -147,7 +147,7 @@ const std::vector<std::string_view>& mesh_extensions() {
 
 FileMesh read_mesh(const fs::path& path) {
   const MappedFile file(path);
-  const std::string kind = kind_of(file.bytes(), path);
+  const std::string kind = format_extension(file.bytes(), path);
   if (kind != ".obj") refuse_non_mesh_file(file.bytes(), path);
   FileMesh mesh;
   if (kind == ".obj") {

@@ -125,19 +125,22 @@ std::uint64_t parts_of(std::uint64_t whole, std::uint64_t part) {
 
 /// The division of a TIFF image into pieces (strips or tiles). A strip is treated as a tile that is
 /// as wide as the image.
-struct Cut {
-  std::uint64_t width, height;  ///< size of the image
-  std::uint64_t across, down;   ///< size of a piece
-  std::uint64_t bits;           ///< bits per pixel in one plane
+struct PieceLayout {
+  std::uint64_t width, height;              ///< size of the image
+  std::uint64_t piece_width, piece_height;  ///< size of a piece
+  std::uint64_t bits;                       ///< bits per pixel in one plane
   std::uint64_t planes;
   std::vector<std::uint64_t> begins, sizes;
 
-  std::uint64_t pieces() const { return parts_of(width, across) * parts_of(height, down) * planes; }
+  std::uint64_t pieces() const {
+    return parts_of(width, piece_width) * parts_of(height, piece_height) * planes;
+  }
   /// Number of uncompressed bytes of a piece. The last strip may have fewer rows than the others.
   std::uint64_t bytes_of(std::uint64_t piece, bool tiled) const {
-    const std::uint64_t row = piece % parts_of(height, down);
-    const std::uint64_t rows = tiled ? down : std::min(down, height - row * down);
-    return (across * bits + 7) / 8 * rows;
+    const std::uint64_t row = piece % parts_of(height, piece_height);
+    const std::uint64_t rows =
+        tiled ? piece_height : std::min(piece_height, height - row * piece_height);
+    return (piece_width * bits + 7) / 8 * rows;
   }
 };
 
@@ -148,10 +151,11 @@ std::string defect_of(const Directory& directory, bool jpeg) {
   const std::vector<std::uint64_t> depths = directory.numbers(kBitsPerSample);
   const std::uint64_t depth = depths.empty() ? 1 : *std::ranges::max_element(depths);
   const bool tiled = directory.first(kTileWidth, 0) != 0;
-  const std::uint64_t across = tiled ? directory.first(kTileWidth, 0) : width;
-  const std::uint64_t down = tiled ? directory.first(kTileLength, 0)
-                                   : std::min(directory.first(kRowsPerStrip, height), height);
-  for (const std::uint64_t side : {width, height, across, down}) {
+  const std::uint64_t piece_width = tiled ? directory.first(kTileWidth, 0) : width;
+  const std::uint64_t piece_height = tiled
+                                         ? directory.first(kTileLength, 0)
+                                         : std::min(directory.first(kRowsPerStrip, height), height);
+  for (const std::uint64_t side : {width, height, piece_width, piece_height}) {
     if (side < 1 || side > kMaxSide) return concat("expected a picture, found a side of ", side);
   }
   if (depth < 1 || depth > kMaxBits || samples < 1 || samples > kMaxSamples) {
@@ -164,14 +168,14 @@ std::string defect_of(const Directory& directory, bool jpeg) {
                   compression, "; save it with one of these, or as PNG");
   }
   const bool planar = directory.first(kPlanarConfiguration, 1) == 2;
-  const Cut cut{width,
-                height,
-                across,
-                down,
-                depth * (planar ? 1 : samples),
-                planar ? samples : 1,
-                directory.numbers(tiled ? kTileOffsets : kStripOffsets),
-                directory.numbers(tiled ? kTileByteCounts : kStripByteCounts)};
+  const PieceLayout cut{width,
+                        height,
+                        piece_width,
+                        piece_height,
+                        depth * (planar ? 1 : samples),
+                        planar ? samples : 1,
+                        directory.numbers(tiled ? kTileOffsets : kStripOffsets),
+                        directory.numbers(tiled ? kTileByteCounts : kStripByteCounts)};
   const std::string_view pieces = tiled ? "tiles" : "strips";
   const std::uint64_t expected = cut.pieces();
   if (cut.begins.size() < expected || cut.sizes.size() < expected) {

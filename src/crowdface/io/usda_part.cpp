@@ -48,8 +48,8 @@ void UsdaPart::add_materials(EncodedFile& file, const std::string& root,
   for (UsdaSurface& surface : surfaces) {
     for (std::size_t c = 0; c < look.tint.size(); ++c) surface.colour[c] *= look.tint[c];
     for (std::string* name : {&surface.colour_map, &surface.opacity_map}) {
-      const std::size_t at = name->find(kLookName);
-      if (at != std::string::npos) name->replace(at, kLookName.size(), look.name);
+      const std::size_t at = name->find(kLookPlaceholder);
+      if (at != std::string::npos) name->replace(at, kLookPlaceholder.size(), look.name);
     }
   }
   file.add(usda_materials(root, name_ + "_materials", mesh_.materials(), surfaces));

@@ -21,7 +21,7 @@ namespace crowdface {
 class UsdaPart {
  public:
   /// Placeholder in the names of texture files. The `PartLook::name` of each face replaces it.
-  static constexpr std::string_view kLookName = "<LOOK>";
+  static constexpr std::string_view kLookPlaceholder = "<LOOK>";
 
   struct Material {
     std::string name;
@@ -46,7 +46,7 @@ class UsdaPart {
   void add_mesh(EncodedFile& file, const std::string& root, const Positions& positions,
                 std::span<const Displacements> moves, const std::string& what) const;
   /// Adds the part's materials below the root prim.
-  /// \param look  its `name` replaces kLookName in file names.
+  /// \param look  its `name` replaces kLookPlaceholder in file names.
   void add_materials(EncodedFile& file, const std::string& root, const PartLook& look) const;
 
   std::size_t memory_bytes() const { return mesh_.memory_bytes() + fans_.memory_bytes(); }

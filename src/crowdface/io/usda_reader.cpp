@@ -43,7 +43,7 @@ struct Prim {
 
 /// A rotation about axes by angles in degrees.
 /// \param order  order of the rotations; "XYZ" rotates about x first
-Eigen::Matrix3d turn_of(std::string_view order, const std::vector<double>& degrees) {
+Eigen::Matrix3d euler_rotation(std::string_view order, const std::vector<double>& degrees) {
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
   for (std::size_t i = 0; i < order.size(); ++i) {
     const int axis = order[i] - 'X';
@@ -73,7 +73,7 @@ Eigen::Matrix4d matrix_of(std::string_view step, const std::vector<double>& numb
     const std::string_view order = kind.substr(6);
     const bool is_known = order.find_first_not_of("XYZ") == order.npos && count == order.size() &&
                           (count == 1 || count == 3);
-    if (is_known) matrix.topLeftCorner<3, 3>() = turn_of(order, numbers);
+    if (is_known) matrix.topLeftCorner<3, 3>() = euler_rotation(order, numbers);
   }
   return matrix;
 }

@@ -21,7 +21,7 @@ constexpr std::string_view kIdentity = "[((1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 
 
 /// The text of a transform that rotates `up` to +Y and `front` to +Z. Empty if `up` can be the up
 /// axis of the USD stage.
-std::string turn_of(const GlbOptions& options) {
+std::string rotation_text(const GlbOptions& options) {
   const Axis up = options.up;
   if (up.sign > 0 && up.index > 0) return {};
   Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
@@ -119,7 +119,7 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
                            const GlbOptions& options, Subdivision subdivision)
     : mesh_(mesh_of(topology, uvs, options, subdivision)),
       layer_metadata_(usda_layer_metadata(options.unit, options.up)),
-      axis_transform_(turn_of(options)),
+      axis_transform_(rotation_text(options)),
       surfaces_(options.materials),
       shared_folder_(options.shared_folder) {
   UsdaNames names;

@@ -27,8 +27,8 @@ double distance_to(const Positions& rows, const Triangle& triangle, const Eigen:
 /// Walks along the surface of a level from a vertex towards `point`. Each step searches the
 /// polygons around the vertex nearest to `point` so far. Returns the smallest distance between
 /// `point` and the polygons that were searched.
-double walk(const DetailLevel& level, const VertexFaces& around, const Positions& rows,
-            std::uint32_t start, const Eigen::Vector3d& point) {
+double distance_by_walk(const DetailLevel& level, const VertexFaces& around, const Positions& rows,
+                        std::uint32_t start, const Eigen::Vector3d& point) {
   constexpr int kMaxSteps = 16;
   SurfacePoint best = nearest_point_around(level.topology, around, rows, start, point);
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -95,8 +95,8 @@ LevelError level_error(const DetailLevel& level, const NearestLevelTriangles& ma
     const double far = 4 * std::sqrt(mean_square());
     parallel_for_each(distances.size(), kVerticesPerBlock, [&](std::size_t i) {
       if (distances[i] <= far) return;
-      distances[i] =
-          std::min(distances[i], walk(level, around, rows, map.triangles[i][0], point(i)));
+      distances[i] = std::min(distances[i],
+                              distance_by_walk(level, around, rows, map.triangles[i][0], point(i)));
     });
     squares += mean_square() / static_cast<double>(meshes.size());
     for (const double distance : distances) error.max = std::max(error.max, distance);

@@ -49,6 +49,6 @@ Positions blend_with_mirrored(const Positions& positions, const Positions& image
 /// Weight of the mirror image in a head whose differences between left and right are scaled by the
 /// factor a = `asymmetry`: A' = (1 + a)/2·A + (1 − a)/2·M(A). If `mirrored` is true, A and M(A)
 /// swap their weights.
-double mirrored_weight(double asymmetry, bool mirrored);
+double mirror_image_weight(double asymmetry, bool mirrored);
 
 }  // namespace crowdface

@@ -128,8 +128,9 @@ std::string fault_of(const Positions& head, const Positions& body, const RigidFi
 /// Returns the order of a body's rim vertices with the best rigid fit to the heads' rim.
 /// \param orders  all orders of one direction around the rim, followed by all orders of the
 ///                opposite direction, if any
-/// \param of_one_direction  number of orders in the first direction
-const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t of_one_direction) {
+/// \param first_direction_count  number of orders in the first direction
+const OrderedRim& best_rigid_fit(const std::vector<OrderedRim>& orders,
+                                 std::size_t first_direction_count) {
   // A rim whose left and right halves are equal also fits in the wrong direction, after a rotation
   // that turns the rim upside down. So compare the best fits of both directions. If the larger
   // error is at most kMaxErrorRatio times the smaller error, choose the direction with the smaller
@@ -137,9 +138,10 @@ const OrderedRim& best_turned(const std::vector<OrderedRim>& orders, std::size_t
   constexpr double kMaxErrorRatio = 1.2;
   const std::span all(orders);
   const auto rms_mm = [](const OrderedRim& one) { return one.fit.rms_mm; };
-  const OrderedRim* best = &*std::ranges::min_element(all.first(of_one_direction), {}, rms_mm);
-  if (all.size() == of_one_direction) return *best;
-  const OrderedRim* other = &*std::ranges::min_element(all.subspan(of_one_direction), {}, rms_mm);
+  const OrderedRim* best = &*std::ranges::min_element(all.first(first_direction_count), {}, rms_mm);
+  if (all.size() == first_direction_count) return *best;
+  const OrderedRim* other =
+      &*std::ranges::min_element(all.subspan(first_direction_count), {}, rms_mm);
   if (other->fit.rms_mm < best->fit.rms_mm) std::swap(best, other);
   const bool alike = other->fit.rms_mm <= kMaxErrorRatio * best->fit.rms_mm + kRoundingMm;
   return alike && other->fit.degrees < best->fit.degrees ? *other : *best;
@@ -166,21 +168,21 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
   double longest = 0;
   for (const Rim& rim : rims) longest = std::max(longest, length_of(rim, positions));
   // The long rims, with the heights of their centroids.
-  std::vector<std::pair<double, const Rim*>> long_ones;
+  std::vector<std::pair<double, const Rim*>> long_rims;
   for (const Rim& rim : rims) {
     if (length_of(rim, positions) < kLong * longest) continue;
-    long_ones.emplace_back(centroid(positions(rim, kAllColumns)).dot(up), &rim);
+    long_rims.emplace_back(centroid(positions(rim, kAllColumns)).dot(up), &rim);
   }
-  if (long_ones.empty()) {
+  if (long_rims.empty()) {
     throw InvalidInput("the heads have no open rim; neck.rim can name the vertices of the seam");
   }
-  std::ranges::stable_sort(long_ones, {}, &std::pair<double, const Rim*>::first);
-  if (long_ones.size() > 1 && (long_ones[1].first - long_ones[0].first) * mm < kSameHeightMm) {
+  std::ranges::stable_sort(long_rims, {}, &std::pair<double, const Rim*>::first);
+  if (long_rims.size() > 1 && (long_rims[1].first - long_rims[0].first) * mm < kSameHeightMm) {
     throw InvalidInput(concat("the heads have two open rims at their lower end, of ",
-                              long_ones[0].second->size(), " and ", long_ones[1].second->size(),
+                              long_rims[0].second->size(), " and ", long_rims[1].second->size(),
                               " vertices; neck.rim can name the vertices of the seam"));
   }
-  return *long_ones.front().second;
+  return *long_rims.front().second;
 }
 
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
@@ -201,7 +203,7 @@ RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positi
     }
   }
   const OrderedRim* best = &*std::ranges::min_element(orders, {}, &OrderedRim::square_sum);
-  const OrderedRim& turned = best_turned(orders, is_free ? body_rim.size() : 1);
+  const OrderedRim& turned = best_rigid_fit(orders, is_free ? body_rim.size() : 1);
   if (turned.fit.rms_mm < kMuchBetter * best->fit.rms_mm - kRoundingMm) best = &turned;
   RimMatch match;
   match.rim = best->order;

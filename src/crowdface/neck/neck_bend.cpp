@@ -37,7 +37,7 @@ std::vector<Triangle> triangles_around(const Topology& topology, const Adjacency
 
 struct NeckBend::Factorisation {
   /// #moved by #rim: block of the bending energy's matrix that couples moved vertices with the rim
-  SparseMatrix from_rim;
+  SparseMatrix rim_block;
   Eigen::SimplicialLDLT<SparseMatrix> inner;
 };
 
@@ -76,7 +76,7 @@ NeckBend::NeckBend(const Topology& topology, const Adjacency& adjacency, const P
       laplacian(triangles, own), vertex_areas(triangles, own), Eigen::VectorXd::Ones(own.rows()));
   const auto inner = static_cast<Index>(vertices_.size());
   auto factorisation = std::make_unique<Factorisation>();
-  factorisation->from_rim = energy.block(0, inner, inner, static_cast<Index>(rim.size()));
+  factorisation->rim_block = energy.block(0, inner, inner, static_cast<Index>(rim.size()));
   factorisation->inner.compute(energy.topLeftCorner(inner, inner));
   if (factorisation->inner.info() != Eigen::Success) {
     throw Error(ExitCode::kBug, "the bending energy of the neck cannot be factorised");
@@ -89,7 +89,7 @@ NeckBend::NeckBend(NeckBend&&) noexcept = default;
 
 Positions NeckBend::bend(const Positions& rim_moves) const {
   if (vertices_.empty()) return Positions(0, 3);
-  const Eigen::MatrixXd right = -(factorisation_->from_rim * rim_moves);
+  const Eigen::MatrixXd right = -(factorisation_->rim_block * rim_moves);
   return factorisation_->inner.solve(right);
 }
 

@@ -127,7 +127,7 @@ struct LocalServer::State {
   std::mutex mutex;
   std::condition_variable changed;
   std::deque<std::pair<Connection*, HttpRequest>>
-      asked;              ///< requests to answer; guarded by `mutex`
+      queued_requests;    ///< requests to answer; guarded by `mutex`
   bool stopping = false;  ///< guarded by `mutex`
 
   std::optional<HttpAnswer> refusal(const HttpHead& head) const;
@@ -259,7 +259,7 @@ void LocalServer::State::take_request(Connection& client) {
   client.in.erase(0, client.head_bytes + client.body_bytes);
   client.state = Connection::State::kAnswering;
   const std::lock_guard lock(mutex);
-  asked.emplace_back(&client, std::move(request));
+  queued_requests.emplace_back(&client, std::move(request));
   changed.notify_one();
 }
 
@@ -334,10 +334,10 @@ void LocalServer::State::serve_once() {
 void LocalServer::State::work() {
   for (;;) {
     std::unique_lock lock(mutex);
-    changed.wait(lock, [&] { return stopping || !asked.empty(); });
+    changed.wait(lock, [&] { return stopping || !queued_requests.empty(); });
     if (stopping) return;
-    auto [client, request] = std::move(asked.front());
-    asked.pop_front();
+    auto [client, request] = std::move(queued_requests.front());
+    queued_requests.pop_front();
     lock.unlock();
     HttpAnswer given = answer(request);
     lock.lock();

@@ -15,23 +15,23 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the height of the eyes above the mouth, about 65 mm. The upper border runs under the brows,
-// the lower border between nose and lips. The transition between two regions extends by kSoft to
+// the lower border between nose and lips. The transition between two regions extends by kHalfTransition to
 // both sides of their border, so that the transition is about four centimetres wide. Adjacent
 // regions come from different people, whose surfaces are often a centimetre apart. A narrower
 // transition would therefore be visible as a ridge.
-constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kSoft = 0.3;
+constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kHalfTransition = 0.3;
 // How far from an ear the transition to the other regions begins, how far below the chin the border
 // of the neck lies, and how long a neck must be. Fractions as above.
 constexpr double kAroundEar = 0.1, kBelowChin = 0.3, kMinNeck = 0.24;
 
 // Fractions of the height of the eyes above the mouth. The search range for ears extends from
-// kBelow below the mouth to kAbove above the eyes. kMinEar is the
+// kSearchBelowMouth below the mouth to kSearchAboveEyes above the eyes. kMinEarProtrusion is the
 // smallest distance by which an ear protrudes from the head.
-constexpr double kAbove = 0.9, kBelow = 0.1, kMinEar = 0.06;
+constexpr double kSearchAboveEyes = 0.9, kSearchBelowMouth = 0.1, kMinEarProtrusion = 0.06;
 /// The vertical range of an ear consists of the heights at which the ear protrudes by more than
 /// this fraction of its maximum protrusion.
 constexpr double kMinProtrusionFraction = 0.4;
-constexpr int kBins = 96;
+constexpr int kHeightCount = 96;
 
 /// The border below which the neck begins. Its height is interpolated between a point below the
 /// chin and a point below the ears.
@@ -51,16 +51,16 @@ std::optional<Ears> find_ears(const Topology& topology, const HeadShape& head,
   const HeadAxes& axes = marks.axes;
   const Positions& positions = head.positions;
   const std::vector<bool>& skin = head.is_skin;
-  const double face = marks.eye_to_mouth(), low = marks.mouth_height - kBelow * face;
-  const double step = (marks.eyes_height + kAbove * face - low) / (kBins - 1);
+  const double face = marks.eye_to_mouth(), low = marks.mouth_height - kSearchBelowMouth * face;
+  const double step = (marks.eyes_height + kSearchAboveEyes * face - low) / (kHeightCount - 1);
   if (!(step > 0)) return std::nullopt;
   const Eigen::Vector3d side = axes.side();
   const auto breadth_at = [&](const Eigen::Vector3d& p) {
     return std::abs(p.dot(side) - marks.symmetry_offset);
   };
-  // Half breadth of the head at each of kBins heights, measured where the edges of the
+  // Half breadth of the head at each of kHeightCount heights, measured where the edges of the
   // skin mesh cross this height.
-  std::array<double, kBins> breadth{};
+  std::array<double, kHeightCount> breadth{};
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face_corners = topology.face(f);
     if (!skin[face_corners[0]]) continue;
@@ -69,8 +69,8 @@ std::optional<Ears> find_ears(const Topology& topology, const HeadShape& head,
       Eigen::Vector3d b = row3(positions, face_corners[(c + 1) % face_corners.size()]);
       if (a.dot(axes.up) > b.dot(axes.up)) std::swap(a, b);
       const double ha = (a.dot(axes.up) - low) / step, hb = (b.dot(axes.up) - low) / step;
-      if (!(hb >= 0) || !(ha <= kBins - 1)) continue;
-      const int last = static_cast<int>(std::floor(std::min<double>(hb, kBins - 1)));
+      if (!(hb >= 0) || !(ha <= kHeightCount - 1)) continue;
+      const int last = static_cast<int>(std::floor(std::min<double>(hb, kHeightCount - 1)));
       for (int i = std::max(0, static_cast<int>(std::ceil(ha))); i <= last; ++i) {
         const double t = hb > ha ? (i - ha) / (hb - ha) : 0;
         double& most = breadth[static_cast<std::size_t>(i)];
@@ -79,7 +79,7 @@ std::optional<Ears> find_ears(const Topology& topology, const HeadShape& head,
     }
   }
   const auto head_at = [&](double height) {  // half breadth without ears
-    const double t = std::clamp((height - low) / (step * (kBins - 1)), 0.0, 1.0);
+    const double t = std::clamp((height - low) / (step * (kHeightCount - 1)), 0.0, 1.0);
     return (1 - t) * breadth.front() + t * breadth.back();
   };
   // Find the height at which the ears protrude most.
@@ -88,17 +88,17 @@ std::optional<Ears> find_ears(const Topology& topology, const HeadShape& head,
   const auto stands_out = [&](int i) {
     return breadth[static_cast<std::size_t>(i)] - head_at(low + i * step);
   };
-  for (int i = 0; i < kBins; ++i) {
+  for (int i = 0; i < kHeightCount; ++i) {
     if (stands_out(i) <= most) continue;
     most = stands_out(i);
     at = i;
   }
-  if (most < kMinEar * face) return std::nullopt;
+  if (most < kMinEarProtrusion * face) return std::nullopt;
   // Find the range of heights around `at` in which the ears protrude by more than the fraction
   // kMinProtrusionFraction of their maximum protrusion.
   int bottom = at, top = at;
   while (bottom > 0 && stands_out(bottom - 1) > kMinProtrusionFraction * most) --bottom;
-  while (top < kBins - 1 && stands_out(top + 1) > kMinProtrusionFraction * most) ++top;
+  while (top < kHeightCount - 1 && stands_out(top + 1) > kMinProtrusionFraction * most) ++top;
   Ears ears{low + bottom * step,
             low + top * step,
             std::numeric_limits<double>::infinity(),
@@ -123,7 +123,7 @@ RegionWeights::Alpha horizontal_bands(const Eigen::VectorXd& heights, double eye
     throw InvalidInput(
         concat("expected eyes above the mouth, found eyes at ", eyes, " and the mouth at ", mouth));
   }
-  const double face = eyes - mouth, soft = kSoft * face;
+  const double face = eyes - mouth, soft = kHalfTransition * face;
   const double upper = mouth + kUpperBorder * face, lower = mouth + kLowerBorder * face;
   RegionWeights::Alpha alpha(heights.size(), 3);
   for (Index v = 0; v < heights.size(); ++v) {
@@ -135,14 +135,14 @@ RegionWeights::Alpha horizontal_bands(const Eigen::VectorXd& heights, double eye
 }
 
 RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& head,
-                                   const FaceMarks& marks, const std::vector<Band>& bands) {
+                                   const FaceMarks& marks, const std::vector<MaskBand>& bands) {
   const HeadAxes& axes = marks.axes;
   const Positions& positions = head.positions;
-  const auto column = [&](Band band) {
+  const auto column = [&](MaskBand band) {
     return static_cast<Index>(std::ranges::find(bands, band) - bands.begin());
   };
   const auto count = static_cast<Index>(bands.size());
-  const Index ear = column(Band::kEars), neck = column(Band::kNeck);
+  const Index ear = column(MaskBand::kEars), neck = column(MaskBand::kNeck);
   const bool with_ears = ear < count || neck < count;
   const auto found = with_ears ? find_ears(topology, head, marks) : std::nullopt;
   if (ear < count && !found) throw InvalidInput("no ears were found at the sides of the head");
@@ -154,7 +154,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
     least = std::min(least, heights[v]);
     middle_front += p.dot(axes.front) / static_cast<double>(positions.rows());
   }
-  const double face = marks.eye_to_mouth(), soft = kSoft * face;
+  const double face = marks.eye_to_mouth(), soft = kHalfTransition * face;
   if (neck < count && least > marks.chin_height - kMinNeck * face) {
     throw InvalidInput("no neck: the head ends at its chin");
   }
@@ -185,7 +185,7 @@ RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& he
       alpha(v, neck) = rest * smooth_step(height + soft, height - soft, heights[v]);
       rest -= alpha(v, neck);
     }
-    constexpr std::array kLevel = {Band::kBrow, Band::kNose, Band::kMouth};
+    constexpr std::array kLevel = {MaskBand::kBrow, MaskBand::kNose, MaskBand::kMouth};
     for (std::size_t k = 0; k < kLevel.size(); ++k) {
       alpha(v, column(kLevel[k])) = rest * level(v, static_cast<Index>(k));
     }

@@ -17,20 +17,20 @@ namespace crowdface {
 
 /// Mask regions that are horizontal bands of a head, or its ears or neck, and that can be computed
 /// from the head's shape. Unrelated to the bands of detail.
-enum class Band : std::uint8_t {
+enum class MaskBand : std::uint8_t {
   kBrow,   ///< brows and above
   kNose,   ///< eyes and nose
   kMouth,  ///< mouth and below
   kEars,
   kNeck,  ///< below chin and ears
 };
-/// The name of each mask region that a Band defines.
-inline constexpr std::array<std::pair<std::string_view, Band>, 5> kMaskBandNames = {
-    {{"brow", Band::kBrow},
-     {"nose", Band::kNose},
-     {"mouth", Band::kMouth},
-     {"ears", Band::kEars},
-     {"neck", Band::kNeck}}};
+/// The name of each mask region that a MaskBand defines.
+inline constexpr std::array<std::pair<std::string_view, MaskBand>, 5> kMaskBandNames = {
+    {{"brow", MaskBand::kBrow},
+     {"nose", MaskBand::kNose},
+     {"mouth", MaskBand::kMouth},
+     {"ears", MaskBand::kEars},
+     {"neck", MaskBand::kNeck}}};
 
 /// Both ears of a head: their vertices, and their extent along the head's axes.
 struct Ears {
@@ -58,6 +58,6 @@ RegionWeights::Alpha horizontal_bands(const Eigen::VectorXd& heights, double eye
 /// \throws InvalidInput if `bands` has kEars and no ears stand out at the sides of the head, or if
 ///     `bands` has kNeck and the head ends at the chin.
 RegionWeights::Alpha propose_bands(const Topology& topology, const HeadShape& head,
-                                   const FaceMarks& marks, const std::vector<Band>& bands);
+                                   const FaceMarks& marks, const std::vector<MaskBand>& bands);
 
 }  // namespace crowdface

@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double square_size)
-    : cell_size_(square_size) {
+DepthMap::DepthMap(const Positions& samples, const HeadAxes& axes, double cell_size)
+    : cell_size_(cell_size) {
   if (samples.rows() == 0) return;  // no surface anywhere
   const Eigen::Vector3d side = axes.side();
   Positions seen(samples.rows(), 3);

@@ -16,8 +16,8 @@ namespace crowdface {
 class DepthMap {
  public:
   /// \param samples      #S by 3: points of the surface
-  /// \param square_size  edge length of a cell
-  DepthMap(const Positions& samples, const HeadAxes& axes, double square_size);
+  /// \param cell_size  edge length of a cell
+  DepthMap(const Positions& samples, const HeadAxes& axes, double cell_size);
 
   /// Reduces noise: replaces the depth of each cell by the mean of the known depths in the three by
   /// three cells around this cell. Also fills empty cells next to the surface. The outermost cells

@@ -21,7 +21,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Coordinates along the axes of a head, in millimetres of a face of average size: across (0 in the
 /// symmetry plane, positive on the head's left), up and front.
-struct InHead {
+struct HeadPoint {
   double across = 0, up = 0, front = 0;
 };
 
@@ -49,14 +49,14 @@ class HeadRays {
     scene_.emplace(device_, std::move(points), quads_);
   }
 
-  InHead in_head(const Eigen::Vector3d& point) const {
+  HeadPoint head_point_of(const Eigen::Vector3d& point) const {
     return {(point.dot(side_) - marks_.symmetry_offset) / mm_, point.dot(marks_.axes.up) / mm_,
             point.dot(marks_.axes.front) / mm_};
   }
 
   struct Hit {
     SurfacePoint place;
-    InHead at;
+    HeadPoint at;
     bool is_skin = false;
   };
   /// The first surface point that a ray from the front meets.
@@ -70,7 +70,7 @@ class HeadRays {
   }
 
  private:
-  Eigen::Vector3d point_at(const InHead& at) const {
+  Eigen::Vector3d point_at(const HeadPoint& at) const {
     return (at.across * mm_ + marks_.symmetry_offset) * side_ + at.up * mm_ * marks_.axes.up +
            at.front * mm_ * marks_.axes.front;
   }
@@ -87,7 +87,7 @@ class HeadRays {
     hit.place.corners = t;
     hit.place.barycentric = {1 - u - v, u, v};
     hit.place.position = point_on(positions_, t, hit.place.barycentric);
-    hit.at = in_head(hit.place.position);
+    hit.at = head_point_of(hit.place.position);
     hit.is_skin = is_skin_[found->primitive];
     return hit;
   }
@@ -144,10 +144,10 @@ class LandmarkSearch {
     for (const char* name : names) found_.missing_reasons[name] = reason;
   }
   /// Head coordinates of a landmark; nothing if the landmark was not found.
-  std::optional<InHead> at(const std::string& name) const {
+  std::optional<HeadPoint> at(const std::string& name) const {
     const auto place = found_.points.find(name);
     if (place == found_.points.end()) return std::nullopt;
-    return rays_.in_head(place->second.position);
+    return rays_.head_point_of(place->second.position);
   }
 
   /// Points of the skin that are visible from the front, in the symmetry plane between two heights;
@@ -166,12 +166,12 @@ class LandmarkSearch {
     return *std::ranges::max_element(
         hits, {}, [&](const Hit& hit) { return static_cast<double>(measure(hit.at)); });
   }
-  static double front_of(const InHead& at) { return at.front; }
-  static double back_of(const InHead& at) { return -at.front; }
+  static double front_of(const HeadPoint& at) { return at.front; }
+  static double back_of(const HeadPoint& at) { return -at.front; }
   /// Returns a function that computes the distance by which a point lies behind the line through
   /// `a` and `b`, two points of the profile.
-  static auto behind(const InHead& a, const InHead& b) {
-    return [=](const InHead& p) {
+  static auto behind(const HeadPoint& a, const HeadPoint& b) {
+    return [=](const HeadPoint& p) {
       const double t = (p.up - a.up) / (b.up - a.up);
       return a.front + t * (b.front - a.front) - p.front;
     };
@@ -218,21 +218,21 @@ class LandmarkSearch {
       // front of straight down.
       keep("chin_lowest",
            best(skin_between(chin - kChinBelow, front->at.up),
-                [](const InHead& p) { return 0.5 * p.front - 0.8660254037844386 * p.up; }),
+                [](const HeadPoint& p) { return 0.5 * p.front - 0.8660254037844386 * p.up; }),
            reason);
     }
   }
 
   /// The opening between the lids of an eye.
-  struct Opening {
-    std::vector<InHead> points;  ///< points of the eyeball between the lids
-    double radius = 0;           ///< radius of the eyeball
+  struct EyeOpening {
+    std::vector<HeadPoint> points;  ///< points of the eyeball between the lids
+    double radius = 0;              ///< radius of the eyeball
   };
-  Opening opening_of(const ComponentShape& ball) const {
+  EyeOpening opening_of(const ComponentShape& ball) const {
     constexpr double kStep = 0.25, kFar = 1.2;
-    Opening opening;
+    EyeOpening opening;
     opening.radius = ball.radius / mm_;
-    const InHead centre = rays_.in_head(ball.centre);
+    const HeadPoint centre = rays_.head_point_of(ball.centre);
     const double reach = kFar * opening.radius;
     for (double x = -reach; x <= reach; x += kStep) {
       for (double y = -reach; y <= reach; y += kStep) {
@@ -247,7 +247,7 @@ class LandmarkSearch {
   }
   /// Walks from a point in the direction (`across`, `up`), and returns the first point of the skin
   /// that is visible from the front.
-  std::optional<Hit> skin_beside(const InHead& from, double across, double up) const {
+  std::optional<Hit> skin_beside(const HeadPoint& from, double across, double up) const {
     constexpr double kStep = 0.1, kReach = 8;
     for (double way = 0; way <= kReach; way += kStep) {
       auto hit = rays_.from_front(from.across + way * across, from.up + way * up);
@@ -260,9 +260,9 @@ class LandmarkSearch {
     std::array<bool, 2> seen{};
     for (const Part& part : parts_.parts) {
       if (!part.is_eyeball) continue;
-      const Opening opening = opening_of(parts_.shapes[part.ball_component]);
+      const EyeOpening opening = opening_of(parts_.shapes[part.ball_component]);
       if (opening.points.empty()) continue;
-      const bool left = rays_.in_head(parts_.shapes[part.ball_component].centre).across > 0;
+      const bool left = rays_.head_point_of(parts_.shapes[part.ball_component].centre).across > 0;
       seen[left ? 0 : 1] = true;
       eye(opening, left);
     }
@@ -274,28 +274,28 @@ class LandmarkSearch {
       }
     }
   }
-  void eye(const Opening& opening, bool left) {
+  void eye(const EyeOpening& opening, bool left) {
     constexpr double kHalfSlit = 0.5;
     const char* const reason = "no lid surrounds the eye";
     const std::string half = left ? "_left" : "_right";
     const double outwards = left ? 1 : -1;
     const auto by = [&](double sign) {
-      return [=](const InHead& p) { return sign * outwards * p.across; };
+      return [=](const HeadPoint& p) { return sign * outwards * p.across; };
     };
-    const InHead outer = *std::ranges::max_element(opening.points, {}, by(1));
-    const InHead inner = *std::ranges::max_element(opening.points, {}, by(-1));
+    const HeadPoint outer = *std::ranges::max_element(opening.points, {}, by(1));
+    const HeadPoint inner = *std::ranges::max_element(opening.points, {}, by(-1));
     keep("eye_outer" + half, skin_beside(outer, outwards, 0), reason);
     keep("eye_inner" + half, inner_corner(skin_beside(inner, -outwards, 0), -outwards), reason);
     const double between = (outer.across + inner.across) / 2;
-    std::vector<InHead> slit;
-    for (const InHead& p : opening.points) {
+    std::vector<HeadPoint> slit;
+    for (const HeadPoint& p : opening.points) {
       if (std::abs(p.across - between) <= kHalfSlit) slit.push_back(p);
     }
     if (slit.empty()) return;
-    keep("lid_upper" + half, skin_beside(*std::ranges::max_element(slit, {}, &InHead::up), 0, 1),
+    keep("lid_upper" + half, skin_beside(*std::ranges::max_element(slit, {}, &HeadPoint::up), 0, 1),
          reason);
-    keep("lid_lower" + half, skin_beside(*std::ranges::min_element(slit, {}, &InHead::up), 0, -1),
-         reason);
+    keep("lid_lower" + half,
+         skin_beside(*std::ranges::min_element(slit, {}, &HeadPoint::up), 0, -1), reason);
   }
 
   /// Finds the inner corner of the eye: follows the groove between the lids from the point at which
@@ -378,10 +378,10 @@ class LandmarkSearch {
     const char* const reason = "no groove between the lips ends in a corner";
     const auto middle = at("mouth_middle");
     if (!middle) return miss({"mouth_left", "mouth_right"}, reason);
-    std::vector<InHead> groove;  // `front` holds the depth of the groove
+    std::vector<HeadPoint> groove;  // `front` holds the depth of the groove
     double up = middle->up;
     for (double x = kFrom; x <= kTo; x += kStep) {
-      InHead deepest{x, up, 0};
+      HeadPoint deepest{x, up, 0};
       for (double y = up - kWander; y <= up + kWander; y += 0.1) {
         const auto here = depth(x, y), above = depth(x, y + kLip), below = depth(x, y - kLip);
         if (!here || !above || !below) continue;
@@ -392,14 +392,14 @@ class LandmarkSearch {
       up = deepest.up;
     }
     std::vector<double> depths;
-    for (const InHead& p : groove) {
+    for (const HeadPoint& p : groove) {
       if (p.across <= 15) depths.push_back(p.front);
     }
     std::ranges::nth_element(depths,
                              depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2));
     const double enough = kShallow * depths[depths.size() / 2];
     const auto end = std::ranges::find_if(
-        groove, [&](const InHead& p) { return p.across > 15 && p.front < enough; });
+        groove, [&](const HeadPoint& p) { return p.across > 15 && p.front < enough; });
     if (!(enough > 0) || end == groove.end()) return miss({"mouth_left", "mouth_right"}, reason);
     keep_pair("mouth", end->across, end->up, reason);
   }
@@ -407,7 +407,8 @@ class LandmarkSearch {
   /// Finds a pair of landmarks on the outline: the points on both sides at which the head is
   /// widest.
   /// \param from, to  range of heights and of depths to search
-  void widest(const std::string& name, const InHead& from, const InHead& to, const char* reason) {
+  void widest(const std::string& name, const HeadPoint& from, const HeadPoint& to,
+              const char* reason) {
     constexpr double kStep = 1;
     double most = 0;
     std::array<std::optional<Hit>, 2> best;
@@ -482,7 +483,7 @@ class LandmarkSearch {
     double top = -kNever, back = kNever;
     for (Index v = 0; v < head_.positions.rows(); ++v) {
       if (!head_.is_skin[static_cast<std::size_t>(v)]) continue;
-      const InHead p = rays_.in_head(row3(head_.positions, v));
+      const HeadPoint p = rays_.head_point_of(row3(head_.positions, v));
       top = std::max(top, p.up);
       if (p.up > height(marks_.eyes_height)) back = std::min(back, p.front);
     }
@@ -495,7 +496,7 @@ class LandmarkSearch {
     double high = -kNever, far = -kNever;
     for (Index v = 0; v < head_.positions.rows(); ++v) {
       if (!head_.is_skin[static_cast<std::size_t>(v)]) continue;
-      const InHead p = rays_.in_head(row3(head_.positions, v));
+      const HeadPoint p = rays_.head_point_of(row3(head_.positions, v));
       if (std::abs(p.across) > 6) continue;
       if (p.up > high) highest = static_cast<std::uint32_t>(v), high = p.up;
       if (p.up > eyes && -p.front > far) farthest = static_cast<std::uint32_t>(v), far = -p.front;

@@ -21,10 +21,10 @@ constexpr Index kHeights = 720;  // number of samples of a profile
 
 /// Profile of the skin near the symmetry plane: the front coordinate of the foremost skin at each
 /// of kHeights heights.
-class Outline {
+class Profile {
  public:
   /// \param mm  a millimetre on a face of average size, in the unit of the positions
-  Outline(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
+  Profile(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
           const HeadAxes& axes, double middle, double mm) {
     low_ = std::numeric_limits<double>::infinity();
     double high = -low_;
@@ -35,13 +35,13 @@ class Outline {
       high = std::max(high, height);
     }
     step_ = (high - low_) / static_cast<double>(kHeights - 1);
-    front_.assign(kHeights, kNothing);
+    front_.assign(kHeights, kNoSkin);
     if (!(step_ > 0)) return;
     // Take the median over several parallel planes, so that small holes and noise have no effect.
     constexpr std::array<double, 5> kBesideMm = {-6, -3, 0, 3, 6};
     std::array<std::vector<double>, kBesideMm.size()> fronts;
     for (std::size_t i = 0; i < fronts.size(); ++i) {
-      front_.assign(kHeights, kNothing);
+      front_.assign(kHeights, kNoSkin);
       cut(topology, positions, skin, axes, middle + kBesideMm[i] * mm);
       fill_gaps();
       fronts[i] = front_;
@@ -52,7 +52,7 @@ class Outline {
       std::ranges::nth_element(at, at.begin() + at.size() / 2);
       front_[h] = at[at.size() / 2];
     }
-    soften(kSoftMm * mm);
+    smooth(kSmoothingMm * mm);
   }
 
   double height(Index bin) const { return low_ + static_cast<double>(bin) * step_; }
@@ -63,8 +63,8 @@ class Outline {
     return (1 - t) * front_[bin] + t * front_[bin + 1];
   }
   /// Fills hollows of the profile that are narrower than `width`, such as a slightly open mouth.
-  Outline without_slits(double width) const {
-    Outline closed = *this;
+  Profile without_slits(double width) const {
+    Profile closed = *this;
     const auto reach = static_cast<std::ptrdiff_t>(width / (2 * step_));
     const auto extreme = [&](const std::vector<double>& values, const auto& pick) {
       std::vector<double> out(values.size());
@@ -82,10 +82,10 @@ class Outline {
     return closed;
   }
   /// The depth of the profile at `height`, measured from the straight line between the profile's
-  /// points at `height` + `way` and `height` − `way`. Negative where the profile is
+  /// points at `height` + `half_width` and `height` − `half_width`. Negative where the profile is
   /// convex.
-  double hollow(double height, double way) const {
-    return (at(height + way) + at(height - way)) / 2 - at(height);
+  double hollow(double height, double half_width) const {
+    return (at(height + half_width) + at(height - half_width)) / 2 - at(height);
   }
   /// The height between `from` and `to` at which `measure` is largest.
   template <class Measure>
@@ -102,8 +102,8 @@ class Outline {
   }
 
  private:
-  static constexpr double kNothing = -std::numeric_limits<double>::infinity();
-  static constexpr double kSoftMm = 1.5;
+  static constexpr double kNoSkin = -std::numeric_limits<double>::infinity();
+  static constexpr double kSmoothingMm = 1.5;
 
   /// Adds to `front_` the curve in which the plane at the lateral position `middle` cuts the skin.
   void cut(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
@@ -141,7 +141,7 @@ class Outline {
   void fill_gaps() {
     std::vector<std::size_t> known;
     for (std::size_t i = 0; i < front_.size(); ++i) {
-      if (front_[i] != kNothing) known.push_back(i);
+      if (front_[i] != kNoSkin) known.push_back(i);
     }
     if (known.empty()) return;
     for (std::size_t i = 0; i < known.front(); ++i) front_[i] = front_[known.front()];
@@ -156,7 +156,7 @@ class Outline {
   }
   /// Binomial smoothing.
   /// \param width  standard deviation
-  void soften(double width) {
+  void smooth(double width) {
     const auto rounds = static_cast<int>(std::ceil(2 * (width / step_) * (width / step_)));
     for (int round = 0; round < rounds; ++round) {
       const std::vector<double> before = front_;
@@ -175,23 +175,23 @@ class Outline {
 constexpr double kMaxSlitMm = 11;
 /// Heights of the bridge and of the tip of the nose above the eyes on the mean face.
 constexpr double kBridgeMm = 5, kTipMm = -34;
-/// kBridgeReachMm, kTipReachMm: half heights of the search ranges of the bridge and of the tip of
-/// the nose. kMouthReachMm: distance of the mouth from its height on the mean face at which the
+/// kBridgeSearchMm, kTipSearchMm: half heights of the search ranges of the bridge and of the tip of
+/// the nose. kMouthSpreadMm: distance of the mouth from its height on the mean face at which the
 /// penalty is prior / 2.
-constexpr double kBridgeReachMm = 10, kTipReachMm = 14, kMouthReachMm = 12;
+constexpr double kBridgeSearchMm = 10, kTipSearchMm = 14, kMouthSpreadMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.
-constexpr double kBridgeWayMm = 15, kLipWayMm = 5, kChinWayMm = 10;
+constexpr double kBridgeHalfWidthMm = 15, kLipHalfWidthMm = 5, kChinHalfWidthMm = 10;
 /// Penalty on a fine mesh for a height at the end of the search range. The search subtracts the
 /// penalty from the depth of a hollow of the profile.
 constexpr double kMaxHeightPenaltyMm = 3;
-/// kSameMiddleMm: maximum distance of the middle of the skin from the symmetry plane of the
-/// relief; beyond it, the symmetry plane of the relief is used. kEyesNearMm: maximum
+/// kMaxMiddleOffsetMm: maximum distance of the middle of the skin from the symmetry plane of the
+/// relief; beyond it, the symmetry plane of the relief is used. kMaxEyeOffsetMm: maximum
 /// difference in height of the eyeballs from the eyes of the relief; beyond it, the eyeballs are
 /// ignored.
-constexpr double kSameMiddleMm = 4, kEyesNearMm = 20;
-constexpr double kFineMm = 5;       ///< edges up to this length resolve the lips
-constexpr double kCoarsestMm = 18;  ///< longer edges do not show a face
+constexpr double kMaxMiddleOffsetMm = 4, kMaxEyeOffsetMm = 20;
+constexpr double kFineMm = 5;      ///< edges up to this length resolve the lips
+constexpr double kMaxEdgeMm = 18;  ///< longer edges do not show a face
 struct MouthAndChin {
   double mouth = 0, chin = 0;  ///< heights
 };
@@ -200,9 +200,9 @@ struct MouthAndChin {
 /// chin is convex. The mouth divides the distance from the tip of the nose to the chin in about the
 /// same ratio in all faces.
 /// \param tip    height of the tip of the nose
-/// \param prior  twice the penalty of a mouth at the distance kMouthReachMm from its height on the
+/// \param prior  twice the penalty of a mouth at the distance kMouthSpreadMm from its height on the
 ///               mean face
-MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, double stretch,
+MouthAndChin mouth_and_chin(const Profile& outline, double tip, double mm, double stretch,
                             double prior) {
   constexpr double kChinFromMm = 115, kChinToMm = 50, kMouthFromMm = 65, kMouthToMm = 18;
   constexpr double kStepMm = 0.5;
@@ -217,21 +217,21 @@ MouthAndChin mouth_and_chin(const Outline& outline, double tip, double mm, doubl
   // kMaxLipMm: upper limit of the measured convexity.
   constexpr double kToLipMm = 6, kMaxLipMm = 2;
   const auto lip = [&](double height) {
-    return std::clamp(-outline.hollow(height, kLipWayMm * mm), 0.0, kMaxLipMm * mm);
+    return std::clamp(-outline.hollow(height, kLipHalfWidthMm * mm), 0.0, kMaxLipMm * mm);
   };
   MouthAndChin best{tip - kMouthBelowTipMm * stretch * mm, tip - kMouthBelowTipMm / kRatio * mm};
   double most = -std::numeric_limits<double>::infinity();
   std::vector<double> of_mouth;
   for (double below = kMouthToMm; below <= kMouthFromMm; below += kStepMm) {
-    const double hollow = outline.hollow(tip - below * mm, kLipWayMm * mm);
+    const double hollow = outline.hollow(tip - below * mm, kLipHalfWidthMm * mm);
     const double deeper = std::max(hollow - kDeepMm * mm, 0.0);
     const double lips = lip(tip - (below - kToLipMm) * mm) + lip(tip - (below + kToLipMm) * mm);
-    const double off = (below - kMouthBelowTipMm * stretch) / kMouthReachMm;
+    const double off = (below - kMouthBelowTipMm * stretch) / kMouthSpreadMm;
     of_mouth.push_back(hollow - (1 - kDeeperShare) * deeper + lips - prior / 2 * off * off);
   }
   for (double to_chin = kChinToMm; to_chin <= kChinFromMm; to_chin += kStepMm) {
     const double convex =
-        std::min(-outline.hollow(tip - to_chin * mm, kChinWayMm * mm), kMaxConvexMm * mm);
+        std::min(-outline.hollow(tip - to_chin * mm, kChinHalfWidthMm * mm), kMaxConvexMm * mm);
     for (std::size_t i = 0; i < of_mouth.size(); ++i) {
       const double to_mouth = kMouthToMm + static_cast<double>(i) * kStepMm;
       const double off = (to_mouth / to_chin - kRatio) / kRatioSpread;
@@ -299,7 +299,7 @@ std::optional<ReliefMatch> find_face(const Topology& topology, const HeadShape& 
   auto match = match_relief(samples, {axes}, head.eyeball_centres);
   if (!match || match->score < kMinScore || match->rotation_degrees > kMaxRotationDegrees)
     return {};
-  if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return {};
+  if (edge_length_near(topology, head, *match) > kMaxEdgeMm * match->scale) return {};
   return match;
 }
 
@@ -311,13 +311,13 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   // if hair or a cap shifts this middle.
   marks.symmetry_offset = symmetry_offset(topology, head, marks.axes);
   const double of_relief = match.eye_midpoint.dot(match.axes.side());
-  if (std::abs(marks.symmetry_offset - of_relief) > kSameMiddleMm * mm)
+  if (std::abs(marks.symmetry_offset - of_relief) > kMaxMiddleOffsetMm * mm)
     marks.symmetry_offset = of_relief;
   // Heights in the profile are along the upright axis of the face, so that the orientation of the
   // head has no effect.
   const double across = match.eye_midpoint.dot(match.fitted_axes.side());
-  const Outline outline(topology, head.positions, head.is_skin, match.fitted_axes, across, mm);
-  const Outline closed = outline.without_slits(kMaxSlitMm * mm);
+  const Profile outline(topology, head.positions, head.is_skin, match.fitted_axes, across, mm);
+  const Profile closed = outline.without_slits(kMaxSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
   // penalty, and thus the mean face, has more weight on such a mesh.
@@ -330,9 +330,10 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
       return measure(h) - prior * off * off;
     });
   };
-  const double tip = best_near(kTipMm, kTipReachMm, [&](double h) { return closed.at(h); });
-  const double bridge = best_near(kBridgeMm, kBridgeReachMm,
-                                  [&](double h) { return outline.hollow(h, kBridgeWayMm * mm); });
+  const double tip = best_near(kTipMm, kTipSearchMm, [&](double h) { return closed.at(h); });
+  const double bridge = best_near(kBridgeMm, kBridgeSearchMm, [&](double h) {
+    return outline.hollow(h, kBridgeHalfWidthMm * mm);
+  });
   const auto [mouth, chin] = mouth_and_chin(outline, tip, mm, match.stretch, prior);
   const auto place = [&](double h) -> Eigen::Vector3d {
     return across * match.fitted_axes.side() + h * match.fitted_axes.up +
@@ -354,7 +355,7 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
     of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeball_centres.size());
   }
   const bool are_near =
-      std::abs(of_balls - match.eye_midpoint.dot(marks.axes.up)) < kEyesNearMm * mm;
+      std::abs(of_balls - match.eye_midpoint.dot(marks.axes.up)) < kMaxEyeOffsetMm * mm;
   if (!head.eyeball_centres.empty() && are_near) marks.eyes_height = of_balls;
   return marks;
 }
@@ -390,7 +391,7 @@ std::optional<Orientation> find_orientation(const Topology& topology, const Head
   const Positions samples = sample_skin(topology, head.positions, head.is_skin, kSkinSamples);
   const auto match = match_relief(samples, axes, head.eyeball_centres);
   if (!match || match->score < kMinScore) return std::nullopt;
-  if (edge_length_near(topology, head, *match) > kCoarsestMm * match->scale) return std::nullopt;
+  if (edge_length_near(topology, head, *match) > kMaxEdgeMm * match->scale) return std::nullopt;
   return orientations[match->nearest_orientation_index];
 }
 
@@ -400,9 +401,9 @@ std::optional<std::string> long_edges_message(const Topology& topology, const He
   const auto match = match_relief(samples, {axes}, head.eyeball_centres);
   if (!match || match->score < kMinScore) return std::nullopt;
   const double edge_mm = edge_length_near(topology, head, *match) / match->scale;
-  if (edge_mm <= kCoarsestMm) return std::nullopt;
+  if (edge_mm <= kMaxEdgeMm) return std::nullopt;
   return concat("the edges of its polygons are about ", format_fixed(edge_mm, 0),
-                " mm long; above ", kCoarsestMm,
+                " mm long; above ", kMaxEdgeMm,
                 " mm they do not show a face: use a mesh with more polygons");
 }
 

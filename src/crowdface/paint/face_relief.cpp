@@ -45,14 +45,14 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)) / kRadians;
 }
 
-/// The score of a match is its correlation plus kVoteOfEyes times the result of
-/// vote_of_eyes.
-constexpr double kVoteOfEyes = 0.15;
+/// The score of a match is its correlation plus kEyeAgreementWeight times the result of
+/// eye_agreement.
+constexpr double kEyeAgreementWeight = 0.15;
 
 /// Returns 1 if the midpoint of the known eyeballs is near the point between the eyes of a match,
 /// −1 if the two points are farther apart than kNearMm, and 0 if no eyeballs are known.
-int vote_of_eyes(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
-                 double height, double scale) {
+int eye_agreement(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
+                  double height, double scale) {
   constexpr double kNearMm = 20;
   if (eyes.empty()) return 0;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -97,8 +97,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
         const double across = box.center().x() + i * aside_mm * scale;
         const ReliefFit fit = map.fit(across, height, scale);
         if (!(fit.amplitude >= kMinAmplitude && fit.amplitude <= kMaxAmplitude)) continue;
-        const double score =
-            fit.correlation + kVoteOfEyes * vote_of_eyes(eyes, axes, across, height, scale);
+        const double score = fit.correlation +
+                             kEyeAgreementWeight * eye_agreement(eyes, axes, across, height, scale);
         if (score > best.score) best = {across, height, scale, 1, fit, score};
       }
     }
@@ -138,8 +138,8 @@ class Refinement {
       for (std::size_t i = 0; i * step < near.size(); ++i) near[i] = near[i * step];
       near.resize(near.size() / step);
     }
-    near_ = samples(near, kAllColumns);
-    square_ = kSquareMm * first.scale;
+    nearby_samples_ = samples(near, kAllColumns);
+    cell_size_ = kCellMm * first.scale;
     try_match(first);
   }
 
@@ -163,12 +163,12 @@ class Refinement {
       make_upright();
       if (angle_between(before, best_.fitted_axes) < kSteadyDegrees) break;
     }
-    place();
+    refine_placement();
     return best_;
   }
 
  private:
-  static constexpr double kSquareMm = 2, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
+  static constexpr double kCellMm = 2, kTurnDegrees = 8, kMoveMm = 6, kGrow = 0.08;
   static constexpr double kMaxStretch = 0.25;  // limit of the logarithm of the stretch
   static constexpr double kStretchPenalty = 1, kAmplitudePenalty = 0.2;
   static constexpr double kWorst = -2;
@@ -224,7 +224,7 @@ class Refinement {
   /// Rotates the axes of the best match by the pitch that the vertical slope of the depths shows.
   /// \return the absolute angle of the rotation in degrees
   double make_upright() {
-    place();
+    refine_placement();
     const double pitch = std::atan(slope_up_) / kRadians;
     restart(best_, turned(best_.fitted_axes, best_.fitted_axes.side(), pitch));
     return std::abs(pitch);
@@ -251,7 +251,7 @@ class Refinement {
   /// their mirror images to the right, seen along `axes`.
   std::vector<double> asymmetry(const HeadAxes& axes, const Eigen::Vector3d& middle) const {
     constexpr double kHighMm = 40, kLowMm = -100, kAsideMm = 60, kStepMm = 4;
-    DepthMap map(near_, axes, square_);
+    DepthMap map(nearby_samples_, axes, cell_size_);
     map.smooth();
     const double mm = best_.scale, across = middle.dot(axes.side()), height = middle.dot(axes.up);
     std::vector<double> differences;
@@ -317,7 +317,7 @@ class Refinement {
 
   /// Searches for better heights, sizes and stretches near those of the best match: first on a
   /// grid, then by pattern search.
-  void place() {
+  void refine_placement() {
     const ReliefMatch first = best_;
     for (int up = -3; up <= 3; ++up) {
       for (int grow = -3; grow <= 3; ++grow) {
@@ -371,7 +371,7 @@ class Refinement {
   void try_match(const ReliefMatch& match) {
     if (!map_ || match.fitted_axes.front != map_axes_.front ||
         match.fitted_axes.up != map_axes_.up) {
-      map_.emplace(near_, match.fitted_axes, square_).smooth();
+      map_.emplace(nearby_samples_, match.fitted_axes, cell_size_).smooth();
       map_axes_ = match.fitted_axes;
     }
     Candidate candidate{match.eye_midpoint.dot(match.fitted_axes.side()),
@@ -393,10 +393,10 @@ class Refinement {
     }
   }
 
-  Positions near_;
+  Positions nearby_samples_;
   std::optional<DepthMap> map_;  ///< depth map seen along map_axes_
   HeadAxes map_axes_;
-  double square_ = 1, slope_up_ = 0, score_ = kWorst;
+  double cell_size_ = 1, slope_up_ = 0, score_ = kWorst;
   ReliefMatch best_;
 };
 
@@ -439,7 +439,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   constexpr double kCoarser = 1.5;
   constexpr double kTurn = 25;  // angle of the rotated axes, in degrees
   // A face whose axes differ by less than this angle (in degrees) counts as aligned with the axes.
-  constexpr double kStraight = 5;
+  constexpr double kAlignedDegrees = 5;
   // A smaller pitch (in degrees) comes from posture or the form of the face.
   constexpr double kMinPitch = 10;
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
@@ -460,10 +460,10 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       if (one.score <= -1) return;
       ReliefMatch& match = refined[i];
       match = Refinement(samples, match_of(one, views[order[i]])).find();
-      match.score =
-          match.correlation +
-          kVoteOfEyes * vote_of_eyes(eyes, match.axes, match.eye_midpoint.dot(match.axes.side()),
-                                     match.eye_midpoint.dot(match.axes.up), match.scale);
+      match.score = match.correlation +
+                    kEyeAgreementWeight *
+                        eye_agreement(eyes, match.axes, match.eye_midpoint.dot(match.axes.side()),
+                                      match.eye_midpoint.dot(match.axes.up), match.scale);
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
@@ -481,7 +481,7 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     if (std::abs(pitch) < kMinPitch) {
       match.axes = turned(match.fitted_axes, match.fitted_axes.side(), -pitch);
     }
-    if (angle_between(match.axes, asked) < kStraight) match.axes = asked;
+    if (angle_between(match.axes, asked) < kAlignedDegrees) match.axes = asked;
     return match;
   };
   std::vector<HeadAxes> others;

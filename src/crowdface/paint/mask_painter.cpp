@@ -16,11 +16,11 @@ using Alpha = RegionWeights::Alpha;
 
 // Distances over which one call of `paint` smooths weights or grows a region, as fractions of the
 // brush's radius. These distances do not depend on the resolution of the mesh.
-constexpr double kSmoothReach = 0.25, kGrowReach = 0.125;
+constexpr double kSmoothDistance = 0.25, kGrowDistance = 0.125;
 constexpr int kMaxRounds = 400;
 
 /// A vertex under the brush, and the strength of the brush there.
-struct Touched {
+struct BrushedVertex {
   std::uint32_t vertex;
   double strength;
 };
@@ -38,7 +38,7 @@ void scale_to_one(Alpha& alpha, Index row) {
 /// Sets the weight of one region at a vertex. The remaining weight goes to the other regions in
 /// proportion to their weights. If all their weights are zero, the remaining weight goes to
 /// `receiver`.
-void set_share(Alpha& alpha, Index row, Index region, double share, Index receiver) {
+void set_weight(Alpha& alpha, Index row, Index region, double share, Index receiver) {
   const double others = 1 - alpha(row, region);
   if (others <= 0) {
     if (receiver == region) return;
@@ -53,13 +53,13 @@ void set_share(Alpha& alpha, Index row, Index region, double share, Index receiv
 
 /// Returns the region other than `region` with the largest total weight at the touched vertices. If
 /// several regions have the same total, returns the region with the lowest index.
-Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index region) {
+Index receiver_of(const Alpha& alpha, const std::vector<BrushedVertex>& touched, Index region) {
   Index receiver = region;
   double most = -1;
   for (Index k = 0; k < alpha.cols(); ++k) {
     if (k == region) continue;
     double sum = 0;
-    for (const Touched& t : touched) sum += alpha(t.vertex, k);
+    for (const BrushedVertex& t : touched) sum += alpha(t.vertex, k);
     if (sum <= most) continue;
     most = sum;
     receiver = k;
@@ -69,13 +69,13 @@ Index receiver_of(const Alpha& alpha, const std::vector<Touched>& touched, Index
 
 /// The vertices that share an edge with each vertex under the brush; one row per `touched`.
 CompressedRows<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
-                                            const std::vector<Touched>& touched) {
+                                            const std::vector<BrushedVertex>& touched) {
   CompressedRows<std::uint32_t> neighbours;
-  for (const Touched& t : touched) neighbours.add_group(surface.adjacent_vertices(t.vertex));
+  for (const BrushedVertex& t : touched) neighbours.add_group(surface.adjacent_vertices(t.vertex));
   return neighbours;
 }
 
-double edge_length(const Positions& positions, const std::vector<Touched>& touched,
+double edge_length(const Positions& positions, const std::vector<BrushedVertex>& touched,
                    const CompressedRows<std::uint32_t>& neighbours) {
   double sum = 0;
   for (std::size_t i = 0; i < touched.size(); ++i) {
@@ -92,7 +92,7 @@ int rounds(double edges) {
 }
 
 /// Moves the weights at each touched vertex towards the mean weights of the vertex's neighbours.
-void smooth_once(const std::vector<Touched>& touched,
+void smooth_once(const std::vector<BrushedVertex>& touched,
                  const CompressedRows<std::uint32_t>& neighbours, Alpha& alpha) {
   Alpha next(static_cast<Index>(touched.size()), alpha.cols());
   for (std::size_t i = 0; i < touched.size(); ++i) {
@@ -113,8 +113,8 @@ void smooth_once(const std::vector<Touched>& touched,
 
 /// Raises the region's weight at each touched vertex towards the largest weight at the vertex's
 /// neighbours.
-void grow_once(const std::vector<Touched>& touched, const CompressedRows<std::uint32_t>& neighbours,
-               Index region, Alpha& alpha) {
+void grow_once(const std::vector<BrushedVertex>& touched,
+               const CompressedRows<std::uint32_t>& neighbours, Index region, Alpha& alpha) {
   std::vector<double> share;
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const auto& [v, strength] = touched[i];
@@ -123,7 +123,7 @@ void grow_once(const std::vector<Touched>& touched, const CompressedRows<std::ui
     share.push_back(alpha(v, region) + strength * (most - alpha(v, region)));
   }
   for (std::size_t i = 0; i < touched.size(); ++i) {
-    set_share(alpha, touched[i].vertex, region, share[i], region);
+    set_weight(alpha, touched[i].vertex, region, share[i], region);
   }
 }
 
@@ -149,7 +149,7 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
     }
   }
   // The strength is constant in the core of the brush and decreases from there to the brush's rim.
-  std::vector<Touched> touched;
+  std::vector<BrushedVertex> touched;
   std::vector<std::uint32_t> rows;
   const double core = (1 - brush.falloff) * brush.radius;
   for (const auto& [vertex, distance] : surface_.vertices_within(all, brush.radius)) {
@@ -164,13 +164,13 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
     case BrushMode::kAdd:
       for (const auto& [v, strength] : touched) {
         const double share = alpha_(v, region);
-        set_share(alpha_, v, region, share + strength * (1 - share), region);
+        set_weight(alpha_, v, region, share + strength * (1 - share), region);
       }
       break;
     case BrushMode::kErase: {
       const Index receiver = receiver_of(alpha_, touched, region);
       for (const auto& [v, strength] : touched) {
-        set_share(alpha_, v, region, (1 - strength) * alpha_(v, region), receiver);
+        set_weight(alpha_, v, region, (1 - strength) * alpha_(v, region), receiver);
       }
       break;
     }
@@ -178,8 +178,8 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
     case BrushMode::kGrow: {
       const auto neighbours = neighbours_of(surface_, touched);
       const double edge = edge_length(surface_.positions(), touched, neighbours);
-      const double smooth = kSmoothReach * brush.radius / std::max(edge, 1e-300);
-      const double grow = kGrowReach * brush.radius / std::max(edge, 1e-300);
+      const double smooth = kSmoothDistance * brush.radius / std::max(edge, 1e-300);
+      const double grow = kGrowDistance * brush.radius / std::max(edge, 1e-300);
       const bool smooths = brush.mode == BrushMode::kSmooth;
       // Each round grows the region by one edge. Smoothing acts like diffusion: its distance is the
       // square root of the number of rounds.

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view kForm =
     "brow,nose,mouth and, if wanted, ears and neck, with commas between";
 
-Band band_of(std::string_view name) {
+MaskBand band_of(std::string_view name) {
   for (const auto& [known, band] : kMaskBandNames) {
     if (known == name) return band;
   }
@@ -20,25 +20,25 @@ Band band_of(std::string_view name) {
 
 }  // namespace
 
-std::vector<Band> parse_bands(std::string_view text) {
-  std::vector<Band> bands;
+std::vector<MaskBand> parse_bands(std::string_view text) {
+  std::vector<MaskBand> bands;
   for (const std::string_view name : split(text, ',')) {
-    const Band band = band_of(name);
+    const MaskBand band = band_of(name);
     if (contains(bands, band)) {
       throw UsageError(concat("--bands: ", name, " stands there twice"));
     }
     bands.push_back(band);
   }
-  for (const Band band : {Band::kBrow, Band::kNose, Band::kMouth}) {
+  for (const MaskBand band : {MaskBand::kBrow, MaskBand::kNose, MaskBand::kMouth}) {
     if (contains(bands, band)) continue;
     throw UsageError(concat("--bands: expected ", kForm, ", found ", join(names_of(bands))));
   }
   return bands;
 }
 
-std::vector<std::string> names_of(const std::vector<Band>& bands) {
+std::vector<std::string> names_of(const std::vector<MaskBand>& bands) {
   std::vector<std::string> names;
-  for (const Band band : bands) {
+  for (const MaskBand band : bands) {
     names.emplace_back(kMaskBandNames[static_cast<std::size_t>(band)].first);
   }
   return names;
@@ -51,7 +51,7 @@ int mask_side_texels(Index vertex_count) {
 
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
                                      const Orientation& orientation,
-                                     const std::vector<Band>& bands) {
+                                     const std::vector<MaskBand>& bands) {
   const auto marks = find_face_marks(topology, mean, axes_of(orientation));
   if (!marks) {
     throw InvalidInput(concat("no face is found that looks along ", name_of(orientation.front),
@@ -63,7 +63,7 @@ RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& 
 }
 
 PaintedMasks propose_masks(const HeadSet& heads, const HeadShape& mean,
-                           const Orientation& orientation, const std::vector<Band>& bands,
+                           const Orientation& orientation, const std::vector<MaskBand>& bands,
                            int size) {
   if (heads.topology.corner_uvs.empty()) {
     throw InvalidInput(

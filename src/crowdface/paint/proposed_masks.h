@@ -10,12 +10,12 @@
 
 namespace crowdface {
 
-/// Parses a list of regions such as "brow,nose,mouth" (see Band). The list must contain brow,
+/// Parses a list of regions such as "brow,nose,mouth" (see MaskBand). The list must contain brow,
 /// nose and mouth.
 /// \throws UsageError otherwise.
-std::vector<Band> parse_bands(std::string_view text);
+std::vector<MaskBand> parse_bands(std::string_view text);
 /// Returns the names of mask regions, see kMaskBandNames.
-std::vector<std::string> names_of(const std::vector<Band>& bands);
+std::vector<std::string> names_of(const std::vector<MaskBand>& bands);
 
 /// Width and height in texels that are sufficient for masks of soft regions on a mesh with this
 /// number of vertices: 1024 or 2048.
@@ -26,14 +26,14 @@ int mask_side_texels(Index vertex_count);
 ///     found; the message then gives the reason, see why_no_face_found.
 RegionWeights::Alpha propose_regions(const Topology& topology, const HeadShape& mean,
                                      const Orientation& orientation,
-                                     const std::vector<Band>& bands);
+                                     const std::vector<MaskBand>& bands);
 
 /// Computes the regions of propose_regions as mask images in the texture coordinates of the heads.
 /// \param size  width and height in texels.
 /// \throws InvalidInput in the same cases as propose_regions and paint_masks, and if the heads have
 ///     no texture coordinates.
 PaintedMasks propose_masks(const HeadSet& heads, const HeadShape& mean,
-                           const Orientation& orientation, const std::vector<Band>& bands,
+                           const Orientation& orientation, const std::vector<MaskBand>& bands,
                            int size);
 
 }  // namespace crowdface

@@ -19,21 +19,21 @@ namespace {
 constexpr std::size_t kMaxVertices = 2500;
 /// Largest number of pairs in a cluster.
 constexpr std::size_t kClusterPairs = 16;
-/// Safety factor of Cluster::slack: on a new face, the height differences within a cluster may be
+/// Safety factor of Cluster::height_margin: on a new face, the height differences within a cluster may be
 /// larger than on any head.
-constexpr double kSlackFactor = 1.5;
-/// Heights (signed distances from the skin), as fractions of the reach (about 4 mm). kNear: the
-/// exact height is measured only for vertices whose approximate height is less than kNear. kFree:
+constexpr double kHeightMarginFactor = 1.5;
+/// Heights (signed distances from the skin), as fractions of the reach (about 4 mm). kMaxNearHeight: the
+/// exact height is measured only for vertices whose approximate height is less than kMaxNearHeight. kMinOutsideHeight:
 /// vertices above this height count as outside the skin.
-constexpr double kNear = 0.5, kFree = -0.005;
-/// Fractions of the reach. kFar: all later steps ignore vertices above this height. kDone: the
+constexpr double kMaxNearHeight = 0.5, kMinOutsideHeight = -0.005;
+/// Fractions of the reach. kMaxLaterHeight: all later steps ignore vertices above this height. kMaxViolation: the
 /// iteration ends when no height is below its lower bound by more than this.
-constexpr double kFar = 0.15, kDone = 0.002;
-/// Costs of a rotation (kHoldTurn) and of a change of size (kHoldSize), relative to a translation
+constexpr double kMaxLaterHeight = 0.15, kMaxViolation = 0.002;
+/// Costs of a rotation (kRotationCost) and of a change of size (kSizeCost), relative to a translation
 /// that moves the vertices by the same distance.
-constexpr double kHoldTurn = 1, kHoldSize = 2;
-/// Largest decrease (kSmaller) and increase (kLarger) of a part's size, as fractions of the size.
-constexpr double kSmaller = 0.06, kLarger = 0.01;
+constexpr double kRotationCost = 1, kSizeCost = 2;
+/// Largest decrease (kMaxShrink) and increase (kMaxGrowth) of a part's size, as fractions of the size.
+constexpr double kMaxShrink = 0.06, kMaxGrowth = 0.01;
 /// Penalties for violated constraints, as multiples of the reach. kOutsidePenalty: for vertices
 /// that are outside the skin in all heads; these vertices have priority. kInsidePenalty: for all
 /// other vertices.
@@ -162,7 +162,8 @@ void PartContact::find_clusters(const Positions& positions, const std::vector<He
       };
       const double here = rough(cluster.middle());
       for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
-        cluster.slack = std::max(cluster.slack, kSlackFactor * (here - rough(i)));
+        cluster.height_margin =
+            std::max(cluster.height_margin, kHeightMarginFactor * (here - rough(i)));
       }
     }
   }
@@ -219,9 +220,10 @@ RigidMotion PartContact::keep_out_of_skin(const Positions& target, const RigidMo
   };
   std::vector<std::uint32_t> near;
   for (const Cluster& cluster : clusters_) {
-    if (rough(pairs_[cluster.middle()]) - cluster.slack >= kNear * reach_) continue;
+    if (rough(pairs_[cluster.middle()]) - cluster.height_margin >= kMaxNearHeight * reach_)
+      continue;
     for (std::size_t i = cluster.begin; i < cluster.end; ++i) {
-      if (rough(pairs_[i]) >= kNear * reach_) continue;
+      if (rough(pairs_[i]) >= kMaxNearHeight * reach_) continue;
       near.push_back(static_cast<std::uint32_t>(i));
     }
   }
@@ -246,14 +248,14 @@ bool PartContact::step(const Positions& target, const RigidMotion& start,
     const Pair& pair = pairs_[i];
     const Eigen::Vector3d point = motion.apply(target.row(pair.vertex).transpose());
     const Height now = height(i, point, moved_face);
-    if (now.height > kFar * reach_) continue;
+    if (now.height > kMaxLaterHeight * reach_) continue;
     near[kept++] = i;
     const Eigen::Vector3d from = point - middle;
     const Eigen::Vector3d arm = from.cross(now.outward) / radius;
-    const bool never = pair.min_height > kFree * reach_;
+    const bool never = pair.min_height > kMinOutsideHeight * reach_;
     const double least =
         never ? std::clamp(pair.min_height, 0.2 * margin, margin) : pair.min_height;
-    missing = missing || now.height < least - kDone * reach_;
+    missing = missing || now.height < least - kMaxViolation * reach_;
     QuadraticProgram::Vector a = {now.outward.x(),
                                   now.outward.y(),
                                   now.outward.z(),
@@ -268,11 +270,11 @@ bool PartContact::step(const Positions& target, const RigidMotion& start,
   if (!missing) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     program.add_target(kShift + i, -shifted(static_cast<Index>(i)), 1);
-    program.add_target(kTurn + i, 0, kHoldTurn);
+    program.add_target(kTurn + i, 0, kRotationCost);
   }
   // Keep the total change of size small, and within fixed limits.
-  program.add_target(kSize, -grown, kHoldSize);
-  program.add_bounds(kSize, -kSmaller * radius - grown, kLarger * radius - grown);
+  program.add_target(kSize, -grown, kSizeCost);
+  program.add_bounds(kSize, -kMaxShrink * radius - grown, kMaxGrowth * radius - grown);
   program.add_slack(kOutsideSlack, kOutsidePenalty * reach_);
   program.add_slack(kInsideSlack, kInsidePenalty * reach_);
   const QuadraticProgram::Vector x = program.solve(1e-5 * reach_);

@@ -69,11 +69,11 @@ class PartContact {
     SearchStarts search_starts;
     double min_height;  ///< smallest height of the pair in all heads
   };
-  /// Pairs that are close together. The height of the middle pair, minus `slack`, is a lower bound
+  /// Pairs that are close together. The height of the middle pair, minus `height_margin`, is a lower bound
   /// for the heights of all pairs of the cluster.
   struct Cluster {
     std::size_t begin, end;  ///< range of `pairs_`
-    double slack;            ///< estimated limit of the height differences
+    double height_margin;    ///< estimated limit of the height differences
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
   void find_search_starts(const Positions& positions, std::span<const std::uint32_t> skin,

@@ -20,8 +20,8 @@ constexpr double kDirectionReach = 4, kUpReach = 1.5;
 
 /// Returns the direction, perpendicular to `up`, in which the midpoints of the pairs near a point
 /// are spread most.
-Eigen::Vector3d course(const FacingGroup& group, const Eigen::Vector3d& middle, double reach,
-                       const Eigen::Vector3d& up) {
+Eigen::Vector3d gap_direction(const FacingGroup& group, const Eigen::Vector3d& middle, double reach,
+                              const Eigen::Vector3d& up) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FacingPair& pair : group) {
     const Eigen::Vector3d from = pair.middle - middle;
@@ -77,7 +77,8 @@ std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double
       if (distance <= kUpReach * spacing) up += group[i].up;
     }
     up = up.normalized();
-    sections.push_back({middle, up, course(group, middle, kDirectionReach * spacing, up), {}, {}});
+    sections.push_back(
+        {middle, up, gap_direction(group, middle, kDirectionReach * spacing, up), {}, {}});
     next = static_cast<std::size_t>(std::ranges::max_element(nearest) - nearest.begin());
   }
   return sections;
@@ -147,7 +148,7 @@ std::vector<Clearance::OppositePoints> Clearance::opposite_points(
   };
   std::vector<std::array<double, 2>> ranges_of_high;
   for (const Segment& high : high_) ranges_of_high.push_back(depth_range(high));
-  std::vector<OppositePoints> opposites;
+  std::vector<OppositePoints> opposite_pairs;
   OppositePoints nearest{};
   double least = std::numeric_limits<double>::max();
   for (const Segment& low : low_) {
@@ -160,21 +161,23 @@ std::vector<Clearance::OppositePoints> Clearance::opposite_points(
         return OppositePoints{low, high, weights_at(low, depth), weights_at(high, depth)};
       };
       if (from <= to) {
-        opposites.push_back(at(from));
-        if (from < to) opposites.push_back(at(to));
+        opposite_pairs.push_back(at(from));
+        if (from < to) opposite_pairs.push_back(at(to));
       } else if (from - to < least) {
         least = from - to;
         nearest = at(from);
       }
     }
   }
-  if (opposites.empty()) opposites.push_back(nearest);
-  return opposites;
+  if (opposite_pairs.empty()) opposite_pairs.push_back(nearest);
+  return opposite_pairs;
 }
 
-double Clearance::gap(std::span<const OppositePoints> opposites, std::span<const double> heights) {
+double Clearance::gap(std::span<const OppositePoints> opposite_pairs,
+                      std::span<const double> heights) {
   double least = std::numeric_limits<double>::max();
-  for (const OppositePoints& opposite : opposites) least = std::min(least, opposite.gap(heights));
+  for (const OppositePoints& opposite : opposite_pairs)
+    least = std::min(least, opposite.gap(heights));
   return least;
 }
 

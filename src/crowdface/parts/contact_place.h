@@ -103,7 +103,8 @@ class Clearance {
     return coordinates(inward_, positions);
   }
   /// Returns the smallest gap of the given pairs of points; negative if the profiles intersect.
-  static double gap(std::span<const OppositePoints> opposites, std::span<const double> heights);
+  static double gap(std::span<const OppositePoints> opposite_pairs,
+                    std::span<const double> heights);
   /// Returns the smallest gap of the section on a head.
   double gap(const Positions& positions) const;
 

@@ -19,7 +19,7 @@ constexpr double kLidReach = 0.3;
 // smallest cosine between a rim vertex's direction and the front
 constexpr double kMinFront = 0.35;
 /// Number of sectors around the axis of the eye; the rim has at most one vertex in each sector.
-constexpr std::size_t kDirections = 60;
+constexpr std::size_t kRimSectors = 60;
 /// Largest number of lid vertices that are used; more vertices are subsampled evenly.
 constexpr std::size_t kMaxLids = 2500;
 
@@ -27,12 +27,12 @@ constexpr std::size_t kMaxLids = 2500;
 /// the gaps at the rim. kMeanGapTolerance: tolerance of the mean gap, as a fraction of the radius;
 /// about 0.05 mm.
 constexpr double kMeanGapWeight = 20, kMeanGapTolerance = 0.004;
-/// Costs of translation (kHold) and of a change of size (kHoldBallSize), relative to the cost of
+/// Costs of translation (kTranslationCost) and of a change of size (kBallSizeCost), relative to the cost of
 /// errors of the gaps.
-constexpr double kHold = 0.02, kHoldBallSize = 0.2;
-/// Largest decrease (kSmallerBall) and increase (kLargerBall) of an eyeball's size, as fractions of
+constexpr double kTranslationCost = 0.02, kBallSizeCost = 0.2;
+/// Largest decrease (kMaxBallShrink) and increase (kMaxBallGrowth) of an eyeball's size, as fractions of
 /// the size.
-constexpr double kSmallerBall = 0.08, kLargerBall = 0.03;
+constexpr double kMaxBallShrink = 0.08, kMaxBallGrowth = 0.03;
 /// Gap that is kept at lid vertices that are outside the eyeball in all heads, as a fraction of the
 /// radius; about 0.025 mm.
 constexpr double kMargin = 0.002;
@@ -61,13 +61,13 @@ enum BallUnknown : std::size_t {
   kBallUnknowns
 };
 
-/// The plane is divided into kDirections equal sectors. Returns the index of the sector that
+/// The plane is divided into kRimSectors equal sectors. Returns the index of the sector that
 /// contains the direction (x, y).
 std::size_t sector(double x, double y) {
   constexpr double kTurn = 6.283185307179586, kRound = 1e9;
   const double turn = std::round((std::atan2(y, x) / kTurn + 0.5) * kRound) / kRound;
-  const auto number = static_cast<std::size_t>(turn * static_cast<double>(kDirections));
-  return std::min(number, kDirections - 1);
+  const auto number = static_cast<std::size_t>(turn * static_cast<double>(kRimSectors));
+  return std::min(number, kRimSectors - 1);
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
     std::uint32_t vertex = kNoIndex;
     double cosine = kMinFront;
   };
-  std::array<Innermost, kDirections> innermost;
+  std::array<Innermost, kRimSectors> innermost;
   std::vector<std::uint32_t> near;
   for (const std::uint32_t v : skin) {
     const Eigen::Vector3d point = positions.row(v).transpose();
@@ -225,12 +225,13 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
   }
   // Keep the total shift small.
   for (std::size_t i = 0; i < 3; ++i) {
-    program.add_target(kBallShift + i, -shifted(static_cast<Index>(i)), kHold);
+    program.add_target(kBallShift + i, -shifted(static_cast<Index>(i)), kTranslationCost);
   }
   // Keep the total change of size small.
-  program.add_target(kBallSize, size_mode == SizeMode::kFree ? -grown : 0, kHoldBallSize);
+  program.add_target(kBallSize, size_mode == SizeMode::kFree ? -grown : 0, kBallSizeCost);
   if (size_mode == SizeMode::kFree) {
-    program.add_bounds(kBallSize, -kSmallerBall * radius - grown, kLargerBall * radius - grown);
+    program.add_bounds(kBallSize, -kMaxBallShrink * radius - grown,
+                       kMaxBallGrowth * radius - grown);
   }
   program.add_slack(kMeanGapSlack, kMeanGapPenalty * radius);
   program.add_slack(kNewLidSlack, kNewLidPenalty * radius);

@@ -28,17 +28,19 @@ constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 // Largest overlap of facing skin. An overlap is allowed because touching lips overlap a little on
 // the mean head. The limit is less than the thickness of an eyelid.
 constexpr double kOverlap = 0.0005;
-constexpr double kAside = 0.0035;  // the test of kSideways replaces smaller gaps by this gap
-constexpr double kMinAway = 0.02;  // smallest distance along the surface
-// pairs whose midpoints are at most this far apart belong to the same group; kEdgesTogether is the
+constexpr double kMinSidewaysGap =
+    0.0035;  // the test of kSideways replaces smaller gaps by this gap
+constexpr double kMinSurfaceDistance = 0.02;  // smallest distance along the surface
+// pairs whose midpoints are at most this far apart belong to the same group; kGroupDistanceInEdges is the
 // limit for a coarse mesh
-constexpr double kTogether = 0.015;
+constexpr double kGroupDistance = 0.015;
 // smallest distance of a pair's vertices along the surface, as a multiple of their distance in
 // space
-constexpr double kTimesAway = 3;
-constexpr double kOpposed = -0.3;       // largest cosine between the normals
-constexpr double kEdgesTogether = 2.5;  // the limit kTogether in a coarse mesh, in edge lengths
-constexpr double kSideways = 0.75;      // largest sideways offset, as a fraction of the gap
+constexpr double kMinSurfaceRatio = 3;
+constexpr double kMaxNormalCosine = -0.3;  // largest cosine between the normals
+constexpr double kGroupDistanceInEdges =
+    2.5;                            // the limit kGroupDistance in a coarse mesh, in edge lengths
+constexpr double kSideways = 0.75;  // largest sideways offset, as a fraction of the gap
 /// kBlock: smallest number of vertices in a parallel block. kSearches: largest number of blocks
 /// that search along the surface.
 constexpr Index kBlock = 1024, kSearches = 16;
@@ -87,20 +89,22 @@ struct Candidate {
 };
 
 /// Returns the vertices that may face a given vertex, nearest first.
-std::vector<Candidate> opposite(const Positions& positions, const Positions& normals, double side,
-                                const PointGrid& grid, std::uint32_t v, double extent) {
+std::vector<Candidate> facing_candidates(const Positions& positions, const Positions& normals,
+                                         double side, const PointGrid& grid, std::uint32_t v,
+                                         double extent) {
   const Eigen::Vector3d here = positions.row(v).transpose(), normal = normals.row(v).transpose();
   std::vector<Candidate> found;
   for (const std::uint32_t w : grid.vertices_near(here, kReach * extent)) {
     const Eigen::Vector3d other = normals.row(w).transpose();
-    if (normal.dot(other) > kOpposed) continue;
+    if (normal.dot(other) > kMaxNormalCosine) continue;
     const Eigen::Vector3d from = positions.row(w).transpose() - here;
     const double distance = from.norm();
     if (distance > kReach * extent) continue;
     const Eigen::Vector3d across = side * (normal - other).normalized();
     const double gap = from.dot(across);
     const double aside = (from - gap * across).norm();
-    if (gap < -kOverlap * extent || aside > kSideways * std::max(gap, kAside * extent)) continue;
+    if (gap < -kOverlap * extent || aside > kSideways * std::max(gap, kMinSidewaysGap * extent))
+      continue;
     found.push_back({distance, w, across});
   }
   std::ranges::sort(found, [](const Candidate& a, const Candidate& b) {
@@ -135,7 +139,7 @@ double mean_edge(const Adjacency& adjacency, const Positions& positions, const F
 }
 
 /// Groups the pairs: pairs whose midpoints are at most `reach` apart are in the same group.
-std::vector<FacingGroup> compressed_rows(const FacingGroup& pairs, double reach) {
+std::vector<FacingGroup> group_facing_pairs(const FacingGroup& pairs, double reach) {
   if (pairs.empty()) return {};
   Positions middles(static_cast<Index>(pairs.size()), 3);
   std::vector<std::uint32_t> rows;
@@ -169,8 +173,8 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   const PointGrid grid(positions, some);
   std::vector<std::vector<Candidate>> candidates(some.size());
   parallel_for_each(some.size(), kBlock, [&](std::size_t i) {
-    // Find candidates that are near in space and have opposite normals.
-    candidates[i] = opposite(positions, normals, side, grid, some[i], extent);
+    // Find candidates that are near in space and have facing normals.
+    candidates[i] = facing_candidates(positions, normals, side, grid, some[i], extent);
   });
 
   std::vector<std::optional<FacingPair>> found(some.size());
@@ -186,10 +190,12 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
       for (const Candidate& candidate : candidates[i]) goals.push_back(candidate.vertex);
       // Consider only candidates that are far away along the surface. Keep the candidate that is
       // nearest in space.
-      along.search_for(some[i], goals,
-                       std::max(kTimesAway * candidates[i].back().distance, kMinAway * extent));
+      along.search_for(
+          some[i], goals,
+          std::max(kMinSurfaceRatio * candidates[i].back().distance, kMinSurfaceDistance * extent));
       for (const Candidate& candidate : candidates[i]) {
-        const double least = std::max(kTimesAway * candidate.distance, kMinAway * extent);
+        const double least =
+            std::max(kMinSurfaceRatio * candidate.distance, kMinSurfaceDistance * extent);
         if (along.distance(candidate.vertex) <= least) continue;
         found[i] = {some[i], candidate.vertex,
                     (positions.row(some[i]) + positions.row(candidate.vertex)).transpose() / 2,
@@ -202,8 +208,9 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   for (const auto& pair : found) {
     if (pair) pairs.push_back(*pair);
   }
-  return compressed_rows(
-      pairs, std::max(kTogether * extent, kEdgesTogether * mean_edge(adjacency, positions, pairs)));
+  return group_facing_pairs(
+      pairs, std::max(kGroupDistance * extent,
+                      kGroupDistanceInEdges * mean_edge(adjacency, positions, pairs)));
 }
 
 }  // namespace crowdface

@@ -20,7 +20,7 @@ namespace {
 
 /// A coordinate plane is preferred if its error is at most this factor times the error of the best
 /// plane.
-constexpr double kAsGood = 1.05;
+constexpr double kCoordinatePlaneFactor = 1.05;
 /// Largest number of seeds of a component. A seed is a vertex at which a walk over the polygons of
 /// the component and of the mirrored component starts.
 constexpr std::size_t kMaxMirrorSeeds = 24;
@@ -91,10 +91,10 @@ Vertices component_partners(const Positions& mean, const std::vector<Vertices>& 
 
 /// Finds the mirror partners of a component's vertices, on another component or on the same
 /// component.
-class PlaceFinder {
+class PartnerFinder {
  public:
-  PlaceFinder(const Topology& topology, const VertexFaces& around, const Positions& mean,
-              const MirrorPlane& plane, double extent)
+  PartnerFinder(const Topology& topology, const VertexFaces& around, const Positions& mean,
+                const MirrorPlane& plane, double extent)
       : topology_(topology),
         vertex_faces_(around),
         mean_(mean),
@@ -105,7 +105,8 @@ class PlaceFinder {
   /// Matches vertices by walking over the polygons of both components.
   ///
   /// \return  Nothing if the components do not match.
-  std::optional<std::vector<MirroredPair>> by_faces(const Vertices& here, const Vertices& there) {
+  std::optional<std::vector<MirroredPair>> match_by_walk(const Vertices& here,
+                                                         const Vertices& there) {
     if (here.size() != there.size() || here.size() < 3) return std::nullopt;
     const PointGrid grid(mean_, there);
     struct Seed {
@@ -155,7 +156,7 @@ class PlaceFinder {
 
   /// Matches each vertex of `here` separately with the point of `there` that is nearest to the
   /// vertex's mirror image.
-  void by_nearness(const Vertices& here, const Vertices& there, FoundMirror& found) const {
+  void match_by_nearness(const Vertices& here, const Vertices& there, FoundMirror& found) const {
     const PointGrid grid_there(mean_, there), grid_here(mean_, here);
     const double reach = kMatchReach * extent_;
     std::vector<double> distances(here.size());
@@ -217,7 +218,8 @@ class PlaceFinder {
 };
 
 /// Returns the mean square distance of the mean head from its mirror image.
-double mean_square(const MirrorMap& map, const Positions& mean, double* largest = nullptr) {
+double mean_square_distance(const MirrorMap& map, const Positions& mean,
+                            double* largest = nullptr) {
   const Positions image = mirrored(map, mean);
   double squares = 0, most = 0;
   for (Index v = 0; v < mean.rows(); ++v) {
@@ -238,12 +240,13 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
     if (map.has_mirror_vertex(v)) fit.add(row3(mean, v), row3(mean, map.corners[v][0]));
   }
   if (fit.pair_count() * 2 >= skin.size()) map.plane = fit.plane(side);
-  const double best = mean_square(map, mean);
+  const double best = mean_square_distance(map, mean);
   const MirrorPlane fitted = map.plane;
   Index axis = 0;
   side.cwiseAbs().maxCoeff(&axis);
   map.plane = {Eigen::Vector3d::Unit(axis), 0};
-  const bool as_good = std::sqrt(mean_square(map, mean)) <= kAsGood * std::sqrt(best) + 1e-12;
+  const bool as_good = std::sqrt(mean_square_distance(map, mean)) <=
+                       kCoordinatePlaneFactor * std::sqrt(best) + 1e-12;
   return as_good ? map.plane : fitted;
 }
 
@@ -251,7 +254,7 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
 /// of the mean head at these vertices. Mirroring alone would move such a vertex of the mean head by
 /// a distance d. The offset moves the vertex back by d − `reach`, or by 0 if d < `reach`; so the
 /// surface has no step where vertices with and without partner meet.
-void keep_form(const Positions& mean, double reach, MirrorMap& map) {
+void set_unpaired_offsets(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
   map.unpaired_offsets.resize(static_cast<Index>(map.unpaired_vertices.size()), 3);
   for (std::size_t i = 0; i < map.unpaired_vertices.size(); ++i) {
@@ -285,21 +288,22 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
   map.plane = find_mirror_plane(topology, around, mean, skin,
                                 {side, side.dot(0.5 * (box.min() + box.max()))});
   {
-    PlaceFinder finder(topology, around, mean, map.plane, extent);
+    PartnerFinder finder(topology, around, mean, map.plane, extent);
     // Match components, then the vertices of each pair of components.
     const Vertices partners = component_partners(mean, of_component, map.plane, kBoxReach * extent);
     for (std::size_t c = 0; c < of_component.size(); ++c) {
       const Vertices& here = of_component[c];
       if (partners[c] == kNoIndex) {
-        for (const std::uint32_t v : here) PlaceFinder::set_partner(map, v, v);
+        for (const std::uint32_t v : here) PartnerFinder::set_partner(map, v, v);
         map.unpaired_vertices.insert(map.unpaired_vertices.end(), here.begin(), here.end());
         continue;
       }
       const Vertices& there = of_component[partners[c]];
-      if (const auto pairs = finder.by_faces(here, there)) {
-        for (const auto [vertex, partner] : *pairs) PlaceFinder::set_partner(map, vertex, partner);
+      if (const auto pairs = finder.match_by_walk(here, there)) {
+        for (const auto [vertex, partner] : *pairs)
+          PartnerFinder::set_partner(map, vertex, partner);
       } else {
-        finder.by_nearness(here, there, found);
+        finder.match_by_nearness(here, there, found);
       }
     }
   }
@@ -307,14 +311,14 @@ FoundMirror find_mirror(const Topology& topology, const Components& components,
     // Keep only mutual partners.
     const std::uint32_t partner = map.corners[v][0];
     const bool agreed = map.has_mirror_vertex(partner) && map.corners[partner][0] == v;
-    if (map.has_mirror_vertex(v) && !agreed) PlaceFinder::mark_unpaired(map, v);
+    if (map.has_mirror_vertex(v) && !agreed) PartnerFinder::mark_unpaired(map, v);
   }
   std::ranges::sort(map.unpaired_vertices);
   map.unpaired_offsets.setZero(static_cast<Index>(map.unpaired_vertices.size()), 3);
   // Improve the plane with the pairs of partners.
   map.plane = plane_of_partners(map, skin, mean, side);
-  keep_form(mean, kMatchReach * extent, map);
-  found.rms_distance = std::sqrt(mean_square(map, mean, &found.max_distance));
+  set_unpaired_offsets(mean, kMatchReach * extent, map);
+  found.rms_distance = std::sqrt(mean_square_distance(map, mean, &found.max_distance));
   for (std::uint32_t v = 0; v < map.corners.size(); ++v) {
     if (std::ranges::binary_search(map.unpaired_vertices, v)) continue;
     ++(map.has_mirror_vertex(v) ? found.paired_vertex_count : found.surface_mirrored_vertex_count);

@@ -133,8 +133,8 @@ struct PartFollower::State {
   };
   PartMotion find_motion(const RigidPart& part, std::size_t target, const Positions& result) const;
   /// Gives all eyeballs of the head the same change of size.
-  void even_sizes(std::size_t target, const Positions& result,
-                  std::vector<PartMotion>& found) const;
+  void equalize_eyeball_sizes(std::size_t target, const Positions& result,
+                              std::vector<PartMotion>& found) const;
   void place(const RigidPart& part, std::size_t target, const PartMotion& found,
              Positions& result) const;
 };
@@ -201,8 +201,8 @@ PartFollower::State::PartMotion PartFollower::State::find_motion(const RigidPart
   return found;
 }
 
-void PartFollower::State::even_sizes(std::size_t target, const Positions& result,
-                                     std::vector<PartMotion>& found) const {
+void PartFollower::State::equalize_eyeball_sizes(std::size_t target, const Positions& result,
+                                                 std::vector<PartMotion>& found) const {
   double sum = 0, count = 0;
   for (std::size_t p = 0; p < rigid.size(); ++p) {
     if (!rigid[p].is_eyeball) continue;
@@ -250,7 +250,7 @@ void PartFollower::move_parts(Index target, Positions& result) const {
   parallel_for_each(found.size(), [&](std::size_t p) {
     found[p] = state_->find_motion(state_->rigid[p], t, result);
   });
-  state_->even_sizes(t, result, found);
+  state_->equalize_eyeball_sizes(t, result, found);
   parallel_for_each(found.size(),
                     [&](std::size_t p) { state_->place(state_->rigid[p], t, found[p], result); });
   for (std::size_t p = 0; p < found.size(); ++p) {

@@ -22,15 +22,15 @@ namespace {
 
 // smallest extent of a component that counts as skin; the largest component always counts as skin
 constexpr double kSkinExtent = 0.5;
-constexpr double kOpen = 0.7;            // isoperimetric ratio: a hemisphere has 0.5, a disc 1
+constexpr double kMinOpenRatio = 0.7;    // isoperimetric ratio: a hemisphere has 0.5, a disc 1
 constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
 // largest distance of components that nearly touch, such as teeth
-constexpr double kTouch = 0.006;
+constexpr double kTouchDistance = 0.006;
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
-/// Smallest diagonal (kWhole) and thickness (kThick) of an eyeball's bounding box, in radii. The
+/// Smallest diagonal (kMinBallDiagonal) and thickness (kMinBallThickness) of an eyeball's bounding box, in radii. The
 /// diagonal is 3.5 radii for a ball and 3 radii for half a ball. Both are at least one radius
 /// thick. A row of teeth also fits a sphere, but is only half as thick.
-constexpr double kWhole = 2.6, kThick = 0.8;
+constexpr double kMinBallDiagonal = 2.6, kMinBallThickness = 0.8;
 // largest root mean square distance of an eyeball's surface from the fitted sphere, in radii; not
 // zero, because the cornea bulges out of the sphere
 constexpr double kMaxRoughness = 0.1;
@@ -38,14 +38,15 @@ static_assert(kBoundDistance < kFarFromSkin);
 
 PartClass class_by_shape(const ComponentShape& shape, double extent) {
   if (shape.polygon_count == 0 || shape.extent > kSkinExtent * extent) return PartClass::kSkin;
-  const bool open = shape.isoperimetric_ratio > kOpen;
+  const bool open = shape.isoperimetric_ratio > kMinOpenRatio;
   return open && shape.skin_distance < kBoundDistance * extent ? PartClass::kBound
                                                                : PartClass::kRigid;
 }
 
 bool is_eyeball(const ComponentShape& shape, double extent) {
   return shape.radius > kEyeRadius[0] * extent && shape.radius < kEyeRadius[1] * extent &&
-         shape.extent > kWhole * shape.radius && shape.thickness > kThick * shape.radius &&
+         shape.extent > kMinBallDiagonal * shape.radius &&
+         shape.thickness > kMinBallThickness * shape.radius &&
          shape.roughness < kMaxRoughness * shape.radius;
 }
 
@@ -76,7 +77,7 @@ double overlap(const Box& a, const Box& b, Index axis) {
 /// mid-heights of successive components separates the two rows of teeth. Returns 0 if the
 /// components are not two rows of teeth: the mid-heights of each row must span less than the gap,
 /// and the bounding boxes of the rows must overlap in width and depth, but hardly in height.
-std::size_t lower_row(const std::vector<std::pair<Box, std::uint32_t>>& lowest_first) {
+std::size_t lower_jaw_size(const std::vector<std::pair<Box, std::uint32_t>>& lowest_first) {
   std::size_t lower = 0;
   double widest = 0;
   for (std::size_t i = 1; i < lowest_first.size(); ++i) {
@@ -145,7 +146,7 @@ void split_jaws(const Positions& positions, const std::vector<std::vector<std::u
     std::vector<std::pair<Box, std::uint32_t>> boxes;
     for (const std::uint32_t c : group) boxes.emplace_back(box_of(positions, members[c], axes), c);
     std::ranges::stable_sort(boxes, {}, [](const auto& box) { return box_height(box.first); });
-    const std::size_t lower = lower_row(boxes);
+    const std::size_t lower = lower_jaw_size(boxes);
     if (lower == 0) continue;
     for (const std::uint32_t c : group) grouping.release(c);
     for (std::size_t i = 0; i + 1 < boxes.size(); ++i) {
@@ -172,10 +173,10 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
   const std::vector<std::vector<std::uint32_t>> members = vertices_of_components(components);
   DisjointSets grouping(count);
   // Join the components that the user assigned to one part.
-  std::vector<bool> by_hand(count, false);
+  std::vector<bool> is_user_assigned(count, false);
   for (const auto& together : overrides.joined_components) {
     for (const std::uint32_t c : together) {
-      by_hand[c] = true;
+      is_user_assigned[c] = true;
       grouping.join(together.front(), c);
     }
   }
@@ -184,11 +185,11 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
   for (std::uint32_t c = 0; c < count; ++c) {
     if (list.classes[c] != PartClass::kRigid) continue;
     eyeball[c] = is_eyeball(list.shapes[c], extent);
-    if (!by_hand[c]) rigid.push_back(c);
+    if (!is_user_assigned[c]) rigid.push_back(c);
   }
   // Join the rigid components that the user did not assign, by position.
   join_inside(list, rigid, eyeball, grouping);
-  join_touching(positions, components, members, rigid, eyeball, kTouch * extent, grouping);
+  join_touching(positions, components, members, rigid, eyeball, kTouchDistance * extent, grouping);
   split_jaws(positions, members, axes, rigid, eyeball, grouping);
 
   // Create one part for each group.

@@ -35,7 +35,7 @@ Vector backward(const Matrix& l, const Vector& b, std::size_t n) {
 /// The active constraints, which hold with equality, and the multiplier of each.
 struct Active {
   std::array<Vector, QuadraticProgram::kMaxUnknowns> normals = {};
-  Vector forces = {};
+  Vector multipliers = {};
   std::size_t count = 0;
 
   /// Returns the coefficients of the combination of active normals that is nearest to `a` in the
@@ -52,12 +52,12 @@ struct Active {
   }
   void add(const Vector& normal, double force) {
     normals[count] = normal;
-    forces[count++] = force;
+    multipliers[count++] = force;
   }
   void drop(std::size_t which) {
     for (std::size_t i = which; i + 1 < count; ++i) {
       normals[i] = normals[i + 1];
-      forces[i] = forces[i + 1];
+      multipliers[i] = multipliers[i + 1];
     }
     --count;
   }
@@ -78,8 +78,8 @@ bool move_onto(Active& active, const Vector& a, double lower, Vector& x, std::si
     double blocked = kInfinity;
     std::size_t blocker = 0;
     for (std::size_t j = 0; j < active.count; ++j) {
-      if (shares[j] > 0 && active.forces[j] / shares[j] < blocked) {
-        blocked = active.forces[j] / shares[j];
+      if (shares[j] > 0 && active.multipliers[j] / shares[j] < blocked) {
+        blocked = active.multipliers[j] / shares[j];
         blocker = j;
       }
     }
@@ -89,7 +89,7 @@ bool move_onto(Active& active, const Vector& a, double lower, Vector& x, std::si
     if (blocked == kInfinity && whole == kInfinity) return false;
     const double length = blocked < whole ? blocked : whole;
     if (!std::isfinite(length)) return false;  // positions are not finite
-    for (std::size_t j = 0; j < active.count; ++j) active.forces[j] -= length * shares[j];
+    for (std::size_t j = 0; j < active.count; ++j) active.multipliers[j] -= length * shares[j];
     force += length;
     if (!depends) {
       for (std::size_t i = 0; i < n; ++i) x[i] += length * step[i];

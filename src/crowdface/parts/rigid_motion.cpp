@@ -19,7 +19,7 @@ Eigen::Matrix3d rotation_of(double w, double x, double y, double z) {
 /// Returns the rotation R that maximises Σ w b·(R a) over pairs of vectors (a, b) with weights w,
 /// given s = Σ w a bᵀ. Its quaternion is the eigenvector of the largest eigenvalue of Horn's
 /// matrix.
-Eigen::Matrix3d best_turn(const Eigen::Matrix3d& s) {
+Eigen::Matrix3d horn_rotation(const Eigen::Matrix3d& s) {
   Eigen::MatrixXd n(4, 4);
   n(0, 0) = s(0, 0) + s(1, 1) + s(2, 2);
   n(1, 1) = s(0, 0) - s(1, 1) - s(2, 2);
@@ -100,7 +100,7 @@ RigidMotion fit_rigid_motion(const Positions& source, const Positions& target,
     s += weighted * b.transpose();
     variance += weights[i] * a.squaredNorm();
   }
-  motion.rotation = best_turn(s);
+  motion.rotation = horn_rotation(s);
   double along = 0;  // trace(Rᵀ Σ w b aᵀ)
   for (Index r = 0; r < 3; ++r) {
     for (Index c = 0; c < 3; ++c) along += motion.rotation(r, c) * s(c, r);

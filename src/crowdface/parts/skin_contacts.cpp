@@ -14,15 +14,15 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 43 cm.
-constexpr double kSectionSpacing = 0.008;  // spacing of the sections
-constexpr double kProfile = 0.015;         // length of a profile to either side of a section
-constexpr double kMotionReach = 0.07;      // radius of the skin that moves around a section
+constexpr double kSectionSpacing = 0.008;     // spacing of the sections
+constexpr double kProfileHalfLength = 0.015;  // length of a profile to either side of a section
+constexpr double kMotionReach = 0.07;         // radius of the skin that moves around a section
 // vertices within this distance of the contact, measured along the surface, are assigned to one of
 // the contact's two sides (such as upper and lower lip)
 constexpr double kSideReach = 0.09;
-constexpr double kRounding = 0.006;  // width of the smoothing of the sides' borders
-constexpr double kTolerance = 1e-5;  // tolerance of a gap
-constexpr double kMinWeight = 1e-3;  // vertices with smaller weights do not move
+constexpr double kSideSmoothing = 0.006;  // width of the smoothing of the sides' borders
+constexpr double kTolerance = 1e-5;       // tolerance of a gap
+constexpr double kMinWeight = 1e-3;       // vertices with smaller weights do not move
 constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices per parallel block
 // profile points per parallel block: their derivatives fit into a core's L1 cache
 constexpr std::size_t kPointsPerBlock = 256;
@@ -30,14 +30,14 @@ constexpr int kSweeps = 200;  // largest number of Gauss-Seidel sweeps in a roun
 constexpr int kRounds = 3;    // largest number of rounds of fit_gaps
 /// Regularisation: the gap of a section may miss its range by this fraction of the section's
 /// amplitude (the size of its correction), so that neighbouring sections get similar amplitudes.
-constexpr double kEvenness = 0.001;
+constexpr double kGapCompliance = 0.001;
 /// Largest amplitude of a section (the size of the section's correction), as a multiple of the
 /// largest deviation of any gap from its range before the correction.
-constexpr double kMaxCorrection = 4;
+constexpr double kMaxAmplitudeFactor = 4;
 
 /// Smooth kernel: 1 at distance 0, and 0 at distances of 1 or more (Wendland 1995, C² in three
 /// dimensions). The kernel is positive definite, so amplitudes exist for any wanted gaps.
-double bump(double distance) {
+double wendland_kernel(double distance) {
   if (distance >= 1) return 0;
   const double rest = 1 - distance;
   return rest * rest * rest * rest * (4 * distance + 1);
@@ -145,14 +145,15 @@ void SkinContacts::add(const FacingGroup& group, const Adjacency& adjacency, con
   SectionGroup section_group;
   section_group.begin = sections_.size();
   for (GapSection& section : distribute_gap_sections(group, kSectionSpacing * extent)) {
-    cut_profiles(adjacency, mean, sides.vertices, sides.side_weights, kProfile * extent, section);
+    cut_profiles(adjacency, mean, sides.vertices, sides.side_weights, kProfileHalfLength * extent,
+                 section);
     if (section.low_profile.empty() || section.high_profile.empty()) continue;
     clearances_.emplace_back(section, adjacency);
     sections_.push_back(std::move(section));
   }
   section_group.end = sections_.size();
   if (section_group.begin == section_group.end) return;
-  smooth_sides(adjacency, mean, kRounding * extent, sides);
+  smooth_sides(adjacency, mean, kSideSmoothing * extent, sides);
   compute_kernels(mean, sides.vertices, sides.side_weights, extent, section_group);
   compute_point_motions(section_group);
   section_groups_.push_back(std::move(section_group));
@@ -167,7 +168,7 @@ void SkinContacts::compute_kernels(const Positions& mean_head,
     std::vector<KernelValue> kernels;
     for (std::size_t p = section_group.begin; p < section_group.end; ++p) {
       const double distance = (row3(mean_head, v) - sections_[p].middle).norm() / reach;
-      const double weight = side_weights[v] * bump(distance);
+      const double weight = side_weights[v] * wendland_kernel(distance);
       if (std::abs(weight) > kMinWeight) {
         kernels.push_back({static_cast<std::uint32_t>(p), weight});
       }
@@ -246,8 +247,8 @@ std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_kernel_amplitudes(
     for (std::size_t i = 0; i < amplitudes.size(); ++i) {
       const Range& range = ranges[section_group.begin + i];
       const double rest = amplitudes[i] - profiles.gap(i);
-      const double wanted = std::clamp(0.0, (range.min + rest) / (1 + kEvenness),
-                                       (range.max + rest) / (1 + kEvenness));
+      const double wanted = std::clamp(0.0, (range.min + rest) / (1 + kGapCompliance),
+                                       (range.max + rest) / (1 + kGapCompliance));
       const double change = std::clamp(wanted, -max_amplitude, max_amplitude) - amplitudes[i];
       if (change == 0) continue;
       amplitudes[i] += change;
@@ -272,7 +273,7 @@ void SkinContacts::move_depths(const SectionGroup& section_group,
 }
 
 double SkinContacts::Profiles::gap(std::size_t section) const {
-  return Clearance::gap(opposites[section], std::span(heights).subspan(begins[section]));
+  return Clearance::gap(opposite_pairs[section], std::span(heights).subspan(begins[section]));
 }
 
 void SkinContacts::move(const SectionGroup& section_group, std::span<const double> amplitudes,
@@ -312,10 +313,11 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
       // Update the depths, and find the opposite points again.
       move_depths(section_group, changes, profiles.depths);
       double largest_deviation = 0;
-      profiles.opposites.clear();
+      profiles.opposite_pairs.clear();
       for (std::size_t i = 0; i < amplitudes.size(); ++i) {
         const std::span depths = std::span(profiles.depths).subspan(profiles.begins[i]);
-        profiles.opposites.push_back(clearances_[section_group.begin + i].opposite_points(depths));
+        profiles.opposite_pairs.push_back(
+            clearances_[section_group.begin + i].opposite_points(depths));
         const auto [least, widest] = ranges[section_group.begin + i];
         const double gap = profiles.gap(i);
         largest_deviation =
@@ -323,7 +325,7 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
       }
       if (largest_deviation <= tolerance_) break;
       // The first round sets the limit for all rounds.
-      if (round == 0) max_amplitude = kMaxCorrection * largest_deviation;
+      if (round == 0) max_amplitude = kMaxAmplitudeFactor * largest_deviation;
       // Solve for the amplitudes with these opposite points.
       changes = find_kernel_amplitudes(section_group, ranges, max_amplitude, profiles, amplitudes);
     }

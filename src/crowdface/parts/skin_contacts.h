@@ -78,7 +78,7 @@ class SkinContacts {
     std::vector<double> heights, depths;
     std::vector<std::size_t> begins;  ///< index of each section's first point
     /// for each section: opposite points of the two profiles
-    std::vector<std::vector<Clearance::OppositePoints>> opposites;
+    std::vector<std::vector<Clearance::OppositePoints>> opposite_pairs;
 
     /// Returns the smallest gap of a section; `section` counts within the group.
     double gap(std::size_t section) const;

@@ -17,10 +17,10 @@ namespace {
 
 /// Largest distance between a found landmark and the same landmark of the template in the estimated
 /// pose.
-constexpr double kFarMm = 25;
+constexpr double kMaxPoseDistanceMm = 25;
 /// Largest distance between a found landmark and the same landmark of the template, after a fit to
 /// all landmarks. The differences between people's faces are smaller than this distance.
-constexpr double kOffMm = 14;
+constexpr double kMaxFitDistanceMm = 14;
 /// Assumed error of a found landmark: about twice the error that scripts/measure_wrap.sh measures
 /// (1.3 to 2.4 mm), because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
@@ -43,7 +43,7 @@ std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Position
 }
 
 /// Repeatedly removes the worst landmark, until a similarity transform fits all remaining landmarks
-/// to within kOffMm.
+/// to within kMaxFitDistanceMm.
 void drop_outliers(const WrapTemplate& wrap_template, std::vector<WrapLandmark>& landmarks) {
   while (landmarks.size() > kMinLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(wrap_template.positions, landmarks));
@@ -53,7 +53,7 @@ void drop_outliers(const WrapTemplate& wrap_template, std::vector<WrapLandmark>&
           .norm();
     };
     const auto worst = std::ranges::max_element(landmarks, {}, off);
-    if (off(*worst) <= kOffMm) return;
+    if (off(*worst) <= kMaxFitDistanceMm) return;
     landmarks.erase(worst);
   }
 }
@@ -67,12 +67,12 @@ std::vector<WrapLandmark> find_landmarks(
   PoseHint hint = given;
   if (!hint.face) hint.face = find_scan_face(scan, hint);
   // Estimate the pose of the template on the scan.
-  const SkinMesh& bent =
+  const SkinMesh& skin_mesh =
       wrap_template.reduced_skin ? wrap_template.reduced_skin->mesh : wrap_template.skin;
   Positions rest = wrap_template.skin.rows_of(wrap_template.positions);
-  if (wrap_template.reduced_skin) rest = bent.rows_of(rest);
-  const Similarity pose =
-      guess_pose(bent, rest, wrap_template.axes, ScanSurface(scan), hint, wrap_template.face_match);
+  if (wrap_template.reduced_skin) rest = skin_mesh.rows_of(rest);
+  const Similarity pose = guess_pose(skin_mesh, rest, wrap_template.axes, ScanSurface(scan), hint,
+                                     wrap_template.face_match);
   const Positions placed = inverse(pose).apply(scan.positions);
   std::optional<ReliefMatch> face = hint.face;
   if (face) {
@@ -82,11 +82,11 @@ std::vector<WrapLandmark> find_landmarks(
   // Search with two sets of head axes, and keep the result with more landmarks. The axes of the
   // hint are inexact if the scan is rotated. The axes of the fitted pose are tilted if the scan
   // differs much from the template.
-  const std::array ways = {
+  const std::array candidates = {
       propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
       propose_on(scan, placed, wrap_template.axes)};
   std::vector<WrapLandmark> most;
-  for (const auto& of_scan : ways) {
+  for (const auto& of_scan : candidates) {
     std::vector<WrapLandmark> landmarks;
     for (const LandmarkDefinition& known : suggested_landmarks()) {
       const std::string name(known.name);
@@ -95,7 +95,8 @@ std::vector<WrapLandmark> find_landmarks(
           found == of_scan.end())
         continue;
       const std::uint32_t vertex = of_template->second, there = found->second;
-      if ((row3(placed, there) - row3(wrap_template.positions, vertex)).norm() > kFarMm) continue;
+      if ((row3(placed, there) - row3(wrap_template.positions, vertex)).norm() > kMaxPoseDistanceMm)
+        continue;
       landmarks.push_back({name, vertex, row3(scan.positions, there), true, kFoundErrorMm});
     }
     drop_outliers(wrap_template, landmarks);

@@ -169,7 +169,7 @@ HttpAnswer PickApi::answer(const HttpRequest& request) {
       return asked.method == method && asked.path == path;
     };
     const std::shared_ptr<OpenScan> now = scans_.current();
-    if (is("GET", "api/job")) return job_answer(now->session);
+    if (is("GET", "api/job")) return page_data_answer(now->session);
     if (is("GET", "api/mesh/template")) {
       return mesh_answer(now->session.template_mesh(), {}, now->shown_template);
     }
@@ -197,7 +197,7 @@ HttpAnswer PickApi::open_scan(const Json& body) {
   return json_answer({{"scan", scans_.current_index()}});
 }
 
-HttpAnswer PickApi::job_answer(const PickSession& session) const {
+HttpAnswer PickApi::page_data_answer(const PickSession& session) const {
   const PickInputs& inputs = session.inputs();
   const HeadAxes& axes = inputs.wrap_template.axes;
   Json names = Json::array(), landmarks = Json::array();

@@ -32,7 +32,7 @@ class PickApi {
   using Json = nlohmann::ordered_json;
   /// All data of the page except meshes: the list of scans, the orientations of the template and
   /// the open scan, and the landmarks.
-  HttpAnswer job_answer(const PickSession& session) const;
+  HttpAnswer page_data_answer(const PickSession& session) const;
   HttpAnswer open_scan(const Json& body);
   /// \param shown  keeps the reduced mesh for further requests
   HttpAnswer mesh_answer(const PickableMesh& whole, const ColourRows& colours,

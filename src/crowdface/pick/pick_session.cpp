@@ -19,7 +19,7 @@ namespace {
 
 /// Tries all axis-aligned orientations. The user or the first landmarks correct the orientation of
 /// a tilted scan.
-PoseHint guess_bearing(const Scan& scan) {
+PoseHint guess_orientation(const Scan& scan) {
   constexpr std::size_t kEnough = 30000;
   const std::vector<Triangle> reduced = reduce_triangles(scan.triangles, scan.positions, kEnough);
   HeadShape head;
@@ -31,7 +31,7 @@ PoseHint guess_bearing(const Scan& scan) {
 }
 
 /// The largest power of ten that is at most a millionth of the mesh's bounding box diagonal.
-double step_of(const PickableMesh& mesh) {
+double coordinate_step(const PickableMesh& mesh) {
   const double size = (mesh.box_max() - mesh.box_min()).norm();
   return size > 0 ? std::pow(10.0, std::floor(std::log10(size)) - 6) : 1e-6;
 }
@@ -66,8 +66,8 @@ PickSession::PickSession(PickInputs inputs)
       scan_(inputs_.scan.positions, inputs_.scan.triangles),
       symmetry_plane_(symmetry_plane(inputs_.wrap_template, inputs_.template_positions)),
       proposed_vertices_(propose_landmarks(inputs_.wrap_template)),
-      scan_orientation_(inputs_.hint ? *inputs_.hint : guess_bearing(inputs_.scan)),
-      last_file_text_(text_on_disk()) {
+      scan_orientation_(inputs_.hint ? *inputs_.hint : guess_orientation(inputs_.scan)),
+      last_file_text_(landmark_file_text()) {
   LandmarkFile file;
   if (!inputs_.template_landmark_file.empty()) {
     file.template_places = read_landmarks(inputs_.template_landmark_file).template_places;
@@ -90,7 +90,7 @@ bool PickSession::saving_deletes_comments() const {
   return has_comments_after_header(last_file_text_);
 }
 
-std::string PickSession::text_on_disk() const {
+std::string PickSession::landmark_file_text() const {
   return path_exists(inputs_.landmark_file) ? read_file(inputs_.landmark_file) : std::string();
 }
 
@@ -106,7 +106,7 @@ std::optional<PickedPlace> PickSession::pick_on_scan(const Eigen::Vector3d& orig
                                                      const Eigen::Vector3d& direction) const {
   auto place = scan_.cast_ray(origin, direction, 0);
   if (!place) return std::nullopt;
-  const double step = step_of(scan_);
+  const double step = coordinate_step(scan_);
   for (double& x : place->point) {
     // Rounds to a decimal text and back, so that the saved number equals the displayed number.
     const int decimals = std::clamp(static_cast<int>(std::lround(-std::log10(step))), 0, 15);
@@ -121,7 +121,7 @@ SuggestedPlaces PickSession::suggest(const std::vector<PickedLandmark>& landmark
 
 void PickSession::save(const std::vector<PickedLandmark>& landmarks) {
   const std::lock_guard lock(mutex_);
-  const std::string before = text_on_disk();
+  const std::string before = landmark_file_text();
   if (before != last_file_text_) {
     last_file_text_ = before;
     throw UsageError(concat(

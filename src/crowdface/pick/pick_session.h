@@ -67,7 +67,7 @@ class PickSession {
 
  private:
   /// The content of the landmark file now; empty if there is no file.
-  std::string text_on_disk() const;
+  std::string landmark_file_text() const;
 
   PickInputs inputs_;
   PickableMesh template_, scan_;

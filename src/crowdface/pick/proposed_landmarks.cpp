@@ -41,8 +41,8 @@ SkinRegions face_regions(const WrapTemplate& wrap_template) {
   if (!wrap_template.face_match) return {};
   const HeadShape head = head_shape(wrap_template);
   const FaceMarks marks = marks_of_face(wrap_template.topology, head, *wrap_template.face_match);
-  std::vector<Band> bands = {Band::kBrow, Band::kNose, Band::kMouth};
-  for (const Band more : {Band::kEars, Band::kNeck}) {
+  std::vector<MaskBand> bands = {MaskBand::kBrow, MaskBand::kNose, MaskBand::kMouth};
+  for (const MaskBand more : {MaskBand::kEars, MaskBand::kNeck}) {
     bands.push_back(more);
     try {
       propose_bands(wrap_template.topology, head, marks, bands);
@@ -52,7 +52,7 @@ SkinRegions face_regions(const WrapTemplate& wrap_template) {
   }
   const auto alpha = propose_bands(wrap_template.topology, head, marks, bands);
   SkinRegions regions;
-  for (const Band band : bands) {
+  for (const MaskBand band : bands) {
     for (const auto& [name, known] : kMaskBandNames) {
       if (known == band) regions.names.emplace_back(name);
     }

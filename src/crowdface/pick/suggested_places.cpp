@@ -32,7 +32,7 @@ std::vector<Pair> pairs_of(const std::vector<PickedLandmark>& landmarks,
 }
 
 /// Whether the points determine a rotation. Points on one line do not.
-bool spread_out(const Positions& places) {
+bool determine_rotation(const Positions& places) {
   constexpr double kMinRatio = 0.1;
   const Positions centred = places.rowwise() - places.colwise().mean();
   const Eigen::Vector3d values = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues();
@@ -55,7 +55,7 @@ std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<
     from.row(r) = pair.from.transpose();
     to.row(r) = pair.to.transpose();
   }
-  if (!spread_out(from) || !spread_out(to)) return std::nullopt;
+  if (!determine_rotation(from) || !determine_rotation(to)) return std::nullopt;
   return fit_similarity(from, to, ScaleFit::kUniform);
 }
 

@@ -54,7 +54,7 @@ std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const H
 
 /// Returns, for each vertex, the displacement of the blend shape that moves the vertex farthest
 /// down. Images must leave room for an open jaw, which reaches below the neutral head.
-Positions lowest_moves(const ShapeSet& set, const Eigen::Vector3d& up) {
+Positions lowest_displacements(const ShapeSet& set, const Eigen::Vector3d& up) {
   Positions lowest = Positions::Zero(set.neutral.rows(), 3);
   for (const Shape& shape : set.shapes) {
     Positions moves = Positions::Zero(set.neutral.rows(), 3);
@@ -81,7 +81,7 @@ std::vector<Camera> fit_to_heads(const Config& config, const Config::ContactShee
   for (const Head& head : inputs.head_set.heads) heads.push_back(&head.positions);
   std::vector<Positions> acting;
   if (sheet.face_count_on_shape_pages > 0 && !inputs.shapes.shapes.empty()) {
-    const Positions moves = lowest_moves(inputs.shapes, unit_vector(config.faces.up));
+    const Positions moves = lowest_displacements(inputs.shapes, unit_vector(config.faces.up));
     for (const Head& head : inputs.head_set.heads) acting.emplace_back(head.positions + moves);
   }
   for (const Positions& head : acting) heads.push_back(&head);

@@ -29,8 +29,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMaxOnPlane = 2000;
 
 /// Returns the data of the crowd's script that do not belong to a single face.
-Json head_of_script(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
-                    const std::vector<std::vector<double>>& head_traits, bool has_textures) {
+Json crowd_wide_json(const Config& config, const ShapeSet& shapes, const CrowdLikeness& likeness,
+                     const std::vector<std::vector<double>>& head_traits, bool has_textures) {
   const PlanNames names = config.plan_names();
   Json json;
   json["name"] = config.crowd.name;
@@ -92,7 +92,7 @@ std::string list_of(std::size_t faces, const Of& of) {
 /// Returns the JSON object {"0": of(face 0), "1": of(face 1), …}, keyed by the index of the face,
 /// without faces whose value is null.
 template <class Of>
-Json some_of_them(const std::vector<FacePlan>& crowd, const Of& of) {
+Json sparse_column(const std::vector<FacePlan>& crowd, const Of& of) {
   Json json = Json::object();
   for (std::size_t i = 0; i < crowd.size(); ++i) {
     Json value = of(crowd[i]);
@@ -143,17 +143,17 @@ std::string columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
     traits.push_back(concat(Json(names.traits[t]).dump(), ':', list_of(crowd.size(), value)));
   }
   if (!traits.empty()) text += concat(",\n\"traits\":{", join(traits, ",\n"), '}');
-  const Json parents = some_of_them(crowd, [](const FacePlan& face) {
+  const Json parents = sparse_column(crowd, [](const FacePlan& face) {
     return face.parents.empty() ? Json()
                                 : Json{{"mother", face.parents[0]}, {"father", face.parents[1]}};
   });
-  const Json by_hand = some_of_them(
+  const Json by_hand = sparse_column(
       crowd, [](const FacePlan& face) { return face.index || face.family ? Json() : Json(true); });
-  const Json changes = some_of_them(crowd, [](const FacePlan& face) {
+  const Json changes = sparse_column(crowd, [](const FacePlan& face) {
     return face.notes.changes.empty() ? Json() : Json(face.notes.changes.size());
   });
   if (!changes.empty()) text += concat(",\n\"changes\":", changes.dump());
-  const Json notes = some_of_them(crowd, [](const FacePlan& face) {
+  const Json notes = sparse_column(crowd, [](const FacePlan& face) {
     return face.notes.review ? Json(*face.notes.review) : Json();
   });
   return text + concat(",\n\"parents\":", parents.dump(), ",\n\"by_hand\":", by_hand.dump(),
@@ -190,26 +190,28 @@ Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const 
 void CrowdPictures::write_scripts(const std::vector<FacePlan>& crowd,
                                   const CrowdLikeness& likeness) const {
   const PlanNames names = config_.plan_names();
-  Json head = head_of_script(config_, inputs_.shapes, likeness, head_traits_,
-                             inputs_.textures.digest != Digest());
+  Json head = crowd_wide_json(config_, inputs_.shapes, likeness, head_traits_,
+                              inputs_.textures.digest != Digest());
   std::set<std::filesystem::path> pages;
   std::string script;
-  if (const auto a_page = static_cast<std::size_t>(directory_.faces_per_folder); a_page == 0) {
+  if (const auto faces_per_page = static_cast<std::size_t>(directory_.faces_per_folder);
+      faces_per_page == 0) {
     script = whole_crowd(std::move(head), crowd, names, settings_digest_, likeness.likeness).dump();
   } else {
     make_directories(directory_.gallery_pages());
     const auto file = [&](std::size_t page) {
       return directory_.gallery_pages() / concat(zero_padded(page, 3), ".js");
     };
-    const std::size_t count = (crowd.size() + a_page - 1) / a_page;
+    const std::size_t count = (crowd.size() + faces_per_page - 1) / faces_per_page;
     for (std::size_t page = 0; page < count; ++page) pages.insert(file(page));
     parallel_for_each(count, [&](std::size_t page) {
       throw_if_interrupted();
-      const std::size_t begin = page * a_page, end = std::min(begin + a_page, crowd.size());
+      const std::size_t begin = page * faces_per_page,
+                        end = std::min(begin + faces_per_page, crowd.size());
       write_file(file(page),
                  page_script(crowd, begin, end, page, names, settings_digest_, likeness.likeness));
     });
-    head["faces_per_page"] = a_page;
+    head["faces_per_page"] = faces_per_page;
     head["on_plane"] = on_plane(crowd, names, settings_digest_);
     const std::vector<std::size_t> rank = ranks(likeness.likeness, crowd.size());
     script = head.dump();

@@ -94,11 +94,11 @@ std::vector<const Positions*> positions_of(const HeadSet& head_set) {
 
 /// Returns the coordinate frame for packing positions: a box that encloses all heads, the body and
 /// all attachments, because long hair reaches outside the bounding box of the heads.
-PackingFrame frame_of(const Inputs& inputs, const Positions& body) {
+PackingGrid frame_of(const Inputs& inputs, const Positions& body) {
   std::vector<const Positions*> all = positions_of(inputs.head_set);
   if (body.rows() > 0) all.push_back(&body);
   for (const Attachment& item : inputs.attachments.items) all.push_back(&item.file.positions);
-  return PackingFrame::enclosing(all);
+  return PackingGrid::enclosing(all);
 }
 
 Json axis_to_json(Axis axis) {
@@ -182,7 +182,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   colours_ =
       surface_colours(topology, surfaces, mean, config.faces.front)(mesh_.vertices, kAllColumns);
   for (std::size_t v = 0; v < mesh_.uvs.size() / 2; ++v) {
-    texture_places_.push_back({mesh_.face_of_vertex[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
+    texture_points_.push_back({mesh_.face_of_vertex[v], {mesh_.uvs[2 * v], mesh_.uvs[2 * v + 1]}});
   }
   const std::vector<const Positions*> heads = positions_of(head_set);
   // The bounding box of all heads and the shoulders.
@@ -273,7 +273,7 @@ std::string GalleryMeshes::pack_roughness(const TextureSet& texture_set) const {
   std::string bytes;
   if (texture_set.roughness.texture_of_face.empty()) return bytes;
   constexpr float kSkin = 0.56F;  // roughness that the page uses for skin without a roughness map
-  for (const TexturePlace& place : texture_places_) {
+  for (const TexturePoint& place : texture_points_) {
     const float rough = roughness_at(texture_set, place).value_or(kSkin);
     bytes += static_cast<char>(static_cast<std::uint8_t>(std::lround(255 * rough)));
   }

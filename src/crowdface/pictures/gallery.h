@@ -68,7 +68,7 @@ class GalleryMeshes {
   /// triangles of a coarser mesh, which uses the vertices of `mesh_`; see draft_triangles
   std::vector<std::uint32_t> draft_triangles_;
   VertexFaces vertex_faces_;
-  PackingFrame packing_frame_;
+  PackingGrid packing_frame_;
   ShownAttachments attachments_;
   /// colours of surfaces without textures, per vertex of the reduced mesh
   VertexColours colours_;
@@ -76,7 +76,7 @@ class GalleryMeshes {
   std::vector<float> sky_visibility_;
   /// for each vertex of the reduced mesh: the vertex's position in the face's textures; empty if
   /// there are no textures
-  std::vector<TexturePlace> texture_places_;
+  std::vector<TexturePoint> texture_points_;
   Eigen::Vector3d box_min_, box_max_;  ///< bounding box of all heads and the shoulders of the body
 
   /// The vertices of the gallery's reduced mesh that a blend shape visibly moves.

@@ -68,10 +68,12 @@ std::string landmark_picture(const CrowdRenders& renders, const Topology& topolo
   for (const Camera& camera : renders.cameras()) {
     Rgb8Image& image = views.emplace_back(renders.render(head, camera));
     for (const LabelledPoint& labelled : points) {
-      const SurfacePoint& place = labelled.place;
-      const Eigen::Vector3d point = point_on(head, place.corners, place.barycentric);
+      const SurfacePoint& surface_point = labelled.surface_point;
+      const Eigen::Vector3d point =
+          point_on(head, surface_point.corners, surface_point.barycentric);
       const Eigen::Vector3d to_camera = (camera.position() - point).normalized();
-      const Eigen::Vector3d normal = point_on(normals, place.corners, place.barycentric);
+      const Eigen::Vector3d normal =
+          point_on(normals, surface_point.corners, surface_point.barycentric);
       if (normal.dot(to_camera) < kTurnedAway) continue;
       const Pixel at = project(camera, point, image.width);
       draw_dot(at, image.width / 250.0, image);

@@ -12,7 +12,7 @@ namespace crowdface {
 /// A point on a head, and the text beside the point in images.
 struct LabelledPoint {
   std::string label;
-  SurfacePoint place;
+  SurfacePoint surface_point;
 };
 
 /// Draws an image of a head with labelled points: all views of `renders` side by side. Returns the

@@ -30,8 +30,8 @@ std::vector<double> above_chest(const Config& config, const Inputs& inputs, cons
 }
 
 /// Returns, for each polygon corner at a vertex of the neck ring, the corner's texture position.
-std::vector<TexturePlace> places_at(const Rim& rim, const HeadSet& head_set) {
-  std::vector<TexturePlace> places;
+std::vector<TexturePoint> texture_points_at(const Rim& rim, const HeadSet& head_set) {
+  std::vector<TexturePoint> places;
   const VertexFaces around(head_set.topology);
   for (const std::uint32_t vertex : rim) {
     for (const std::uint32_t face : around.items_of(vertex)) {
@@ -91,7 +91,7 @@ PicturedMesh::PicturedMesh(const Config& config, const Inputs& inputs, const Fac
     body.topology.add_face(corners, with_uvs ? uvs : std::vector<std::uint32_t>());
   }
   body.points = bust.positions(rows, kAllColumns);
-  body.ring_places = places_at(neck.seam.rim, inputs.head_set);
+  body.ring_texture_points = texture_points_at(neck.seam.rim, inputs.head_set);
   body.topology.vertex_count += body.points.rows();
   body_.emplace(std::move(body));
 }
@@ -138,7 +138,7 @@ TextureSet PicturedMesh::add_body(TextureSet textures, const BlendedPicture* bod
   TextureLayer& roughness = textures.roughness;
   if (roughness.texture_of_face.empty()) return textures;
   float sum = 0, count = 0;
-  for (const TexturePlace& place : body_->ring_places) {
+  for (const TexturePoint& place : body_->ring_texture_points) {
     if (const auto rough = roughness_at(textures, place)) {
       sum += *rough;
       count += 1;

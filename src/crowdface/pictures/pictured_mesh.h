@@ -63,7 +63,7 @@ class PicturedMesh {
     /// at this vertex; kNoIndex if the body has no texture
     std::vector<std::uint32_t> uv_rows;
     /// positions of the neck ring's polygon corners in the face's textures
-    std::vector<TexturePlace> ring_places;
+    std::vector<TexturePoint> ring_texture_points;
   };
   const Config& config_;
   const Inputs& inputs_;

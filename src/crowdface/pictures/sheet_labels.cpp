@@ -29,8 +29,8 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
 
 /// The names of the regions that the face inherits from `parent`. If only some wavelength bands of
 /// a region come from this parent, the list names these bands: "brow/skin".
-std::vector<std::string> given_by(std::string_view parent, const FacePlan& face,
-                                  const PlanNames& names) {
+std::vector<std::string> inherited_regions(std::string_view parent, const FacePlan& face,
+                                           const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});
   require(face.inherited_from.size() == names.regions.size() * bands, "a child of ",
           face.inherited_from.size(), " parts where there are ", names.regions.size(),
@@ -110,7 +110,7 @@ std::string inheritance_label(const FacePlan& face, const PlanNames& names) {
   }
   if (face.inherited_from.empty()) return label;
   for (const std::string_view parent : {"mother", "father"}) {
-    const std::vector<std::string> given = given_by(parent, face, names);
+    const std::vector<std::string> given = inherited_regions(parent, face, names);
     if (!given.empty()) label += concat("\n", parent, ": ", join(given));
   }
   return label;

@@ -25,7 +25,7 @@ constexpr int kMaxAttachmentTexels = 512;
 /// indices (4 bytes each), then the displacements.
 /// \param shown  rows of the full mesh that the page shows
 std::string packed_moves(std::span<const std::uint32_t> shown, const Displacements& shape,
-                         const PackingFrame& frame, double min_displacement) {
+                         const PackingGrid& frame, double min_displacement) {
   std::vector<std::uint32_t> vertices;
   std::string moves;
   for (std::uint32_t v = 0; v < shown.size(); ++v) {
@@ -62,11 +62,12 @@ Json part_to_json(const PreviewMesh& mesh, const Positions& positions,
 
 }  // namespace
 
-const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) const {
-  return parts_.get(&item, [&] {
+const ShownAttachments::MaterialMeshes& ShownAttachments::material_meshes(
+    const Attachment& item) const {
+  return meshes_.get(&item, [&] {
     const ObjFile& file = item.file;
     const FaceMaterials named = face_materials(file.materials, file.topology.face_count());
-    auto parts = std::make_unique<Parts>();
+    auto material_meshes = std::make_unique<MaterialMeshes>();
     const std::size_t materials = std::max<std::size_t>(1, named.names.size());
     for (std::uint32_t m = 0; m < materials; ++m) {
       std::vector<bool> drawn;
@@ -74,16 +75,16 @@ const ShownAttachments::Parts& ShownAttachments::parts(const Attachment& item) c
       const auto faces = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), true));
       const std::size_t most =
           kMaxAttachmentTriangles * faces / std::max<std::size_t>(1, drawn.size());
-      parts->push_back(preview_mesh(file.topology, file.uvs, file.positions, drawn,
-                                    std::max<std::size_t>(1, most / 2)));
+      material_meshes->push_back(preview_mesh(file.topology, file.uvs, file.positions, drawn,
+                                              std::max<std::size_t>(1, most / 2)));
     }
-    return parts;
+    return material_meshes;
   });
 }
 
 std::string ShownAttachments::appearance_as_json(const ColouredAttachment& look,
                                                  const AttachmentSurface& surface) const {
-  const Parts& meshes = parts(*look.item);
+  const MaterialMeshes& meshes = material_meshes(*look.item);
   Json json = Json::array();
   for (std::size_t m = 0; m < meshes.size(); ++m) {
     json.push_back(part_to_json(meshes[m], look.item->file.positions, surface.materials()[m]));
@@ -93,10 +94,10 @@ std::string ShownAttachments::appearance_as_json(const ColouredAttachment& look,
 }
 
 std::string ShownAttachments::positions_as_json(const PlacedAttachment& placed,
-                                                const PackingFrame& frame,
+                                                const PackingGrid& frame,
                                                 double min_displacement) const {
   std::vector<std::uint32_t> shown;
-  for (const PreviewMesh& part : parts(*placed.item)) {
+  for (const PreviewMesh& part : material_meshes(*placed.item)) {
     shown.insert(shown.end(), part.vertices.begin(), part.vertices.end());
   }
   const std::string points = base64(pack_points(shown, frame, placed.positions));
@@ -110,7 +111,7 @@ std::string ShownAttachments::positions_as_json(const PlacedAttachment& placed,
 
 std::vector<float> ShownAttachments::vertex_positions(const PlacedAttachment& placed) const {
   std::vector<float> points;
-  for (const PreviewMesh& part : parts(*placed.item)) {
+  for (const PreviewMesh& part : material_meshes(*placed.item)) {
     for (const std::uint32_t v : part.vertices) {
       for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(placed.positions(v, c)));
     }

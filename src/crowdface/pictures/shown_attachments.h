@@ -24,17 +24,17 @@ class ShownAttachments {
   /// material by material. For each shape of the face, the JSON also has the vertices that the
   /// shape moves, and the displacements of these vertices.
   /// \param min_displacement  shortest displacement to store, in the unit of the positions
-  std::string positions_as_json(const PlacedAttachment& placed, const PackingFrame& frame,
+  std::string positions_as_json(const PlacedAttachment& placed, const PackingGrid& frame,
                                 double min_displacement) const;
   /// An attachment's vertex positions on a face, three numbers per vertex.
   std::vector<float> vertex_positions(const PlacedAttachment& placed) const;
 
  private:
   /// One mesh per material. A mesh has no triangles if no face has its material.
-  using Parts = std::vector<PreviewMesh>;
-  const Parts& parts(const Attachment& item) const;
+  using MaterialMeshes = std::vector<PreviewMesh>;
+  const MaterialMeshes& material_meshes(const Attachment& item) const;
 
-  mutable LazyMap<const Attachment*, Parts> parts_;
+  mutable LazyMap<const Attachment*, MaterialMeshes> meshes_;
 };
 
 }  // namespace crowdface

@@ -7,7 +7,7 @@ namespace crowdface {
 namespace {
 
 /// Returns the texture of `layer` that covers `place`; null if no texture covers `place`.
-const Texture* picture_at(const TextureLayer& layer, const TexturePlace& place) {
+const Texture* picture_at(const TextureLayer& layer, const TexturePoint& place) {
   if (place.face < 0 || layer.texture_of_face.empty()) return nullptr;
   const std::uint32_t picture = layer.texture_of_face[static_cast<std::size_t>(place.face)];
   return picture == TextureLayer::kNone ? nullptr : layer.textures[picture].get();
@@ -28,7 +28,7 @@ LinearRgb mean_around(const Texture& texture, const Eigen::Vector2f& uv) {
 
 }  // namespace
 
-std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePlace& place) {
+std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePoint& place) {
   const Texture* roughness = picture_at(texture_set.roughness, place);
   if (roughness == nullptr) return std::nullopt;
   return std::clamp(mean_around(*roughness, place.uv)[0], 0.0F, 1.0F);

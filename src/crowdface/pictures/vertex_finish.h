@@ -11,13 +11,13 @@
 namespace crowdface {
 
 /// A position in the textures of the full mesh, such as the position of a reduced mesh's vertex.
-struct TexturePlace {
+struct TexturePoint {
   Index face = -1;  ///< polygon of the full mesh, which selects the texture; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 
 /// The roughness map's value at a vertex, 0 … 1; nothing if there is no roughness map. The map is
 /// averaged around the vertex, because detail finer than the reduced mesh would appear as noise.
-std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePlace& place);
+std::optional<float> roughness_at(const TextureSet& texture_set, const TexturePoint& place);
 
 }  // namespace crowdface

@@ -38,7 +38,7 @@ Eigen::Vector3d normal_at(const Topology& topology, const Positions& positions,
 
 }  // namespace
 
-PackingFrame PackingFrame::enclosing(std::span<const Positions* const> heads) {
+PackingGrid PackingGrid::enclosing(std::span<const Positions* const> heads) {
   Eigen::AlignedBox3d box;
   for (const Positions* head : heads) {
     if (head->rows() == 0) continue;
@@ -50,7 +50,7 @@ PackingFrame PackingFrame::enclosing(std::span<const Positions* const> heads) {
   return {box.center() - Eigen::Vector3d::Constant(half), 2 * half / kSteps};
 }
 
-std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFrame& frame,
+std::string pack_points(std::span<const std::uint32_t> vertices, const PackingGrid& frame,
                         const Positions& positions) {
   std::string bytes;
   bytes.reserve(10 * vertices.size());  // space for the normals too
@@ -63,7 +63,7 @@ std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFr
 }
 
 std::string pack_face(const Topology& topology, std::span<const std::uint32_t> vertices,
-                      const VertexFaces& vertex_faces, const PackingFrame& frame,
+                      const VertexFaces& vertex_faces, const PackingGrid& frame,
                       const Positions& positions) {
   require(positions.rows() == topology.vertex_count, "pack: ", positions.rows(), " positions, ",
           topology.vertex_count, " vertices");
@@ -76,7 +76,7 @@ std::string pack_face(const Topology& topology, std::span<const std::uint32_t> v
   return bytes;
 }
 
-std::string pack_displacement(const Eigen::RowVector3d& move, const PackingFrame& frame) {
+std::string pack_displacement(const Eigen::RowVector3d& move, const PackingGrid& frame) {
   constexpr double kMax = 32767;
   std::string bytes;
   for (int axis = 0; axis < 3; ++axis) {

@@ -13,14 +13,14 @@
 namespace crowdface {
 
 /// The quantization grid of packed positions: a cube with 65,535 grid steps along each side.
-struct PackingFrame {
+struct PackingGrid {
   Eigen::Vector3d low_corner = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates
   double step = 1;
 
   /// Returns a cube around all heads. On each side, the cube has a margin of a quarter of the
   /// heads' largest extent, because faces may extend beyond the heads.
   /// \param heads  positions of each head; all heads together must have at least one vertex.
-  static PackingFrame enclosing(std::span<const Positions* const> heads);
+  static PackingGrid enclosing(std::span<const Positions* const> heads);
 };
 
 /// Packs some vertices of a face as little-endian 16-bit numbers. The positions come first: three
@@ -31,17 +31,17 @@ struct PackingFrame {
 /// \param vertex_faces  the polygons around each vertex of the whole mesh. With the normals of the
 ///                      whole mesh, a reduced preview has the shading of the whole mesh.
 std::string pack_face(const Topology& topology, std::span<const std::uint32_t> vertices,
-                      const VertexFaces& vertex_faces, const PackingFrame& frame,
+                      const VertexFaces& vertex_faces, const PackingGrid& frame,
                       const Positions& positions);
 
 /// Packs only positions, in the same format as the first part of the result of pack_face.
 /// \param vertices  the vertices to pack, as row indices of `positions`.
-std::string pack_points(std::span<const std::uint32_t> vertices, const PackingFrame& frame,
+std::string pack_points(std::span<const std::uint32_t> vertices, const PackingGrid& frame,
                         const Positions& positions);
 
 /// Packs a displacement: three little-endian signed 16-bit numbers, in grid steps of the frame,
 /// clamped to the range of 16 bits.
-std::string pack_displacement(const Eigen::RowVector3d& move, const PackingFrame& frame);
+std::string pack_displacement(const Eigen::RowVector3d& move, const PackingGrid& frame);
 
 /// Encodes bytes as base64 text (RFC 4648).
 std::string base64(std::string_view bytes);

@@ -22,14 +22,14 @@ using Eigen::Vector2d;
 constexpr int kBleed = 6;       // width in texels of the paint beyond a chart's border
 constexpr int kMaxRounds = 60;  // largest number of correction rounds
 /// Corrections stop when no sampled weight has a larger error than this: a fifth of an 8-bit step.
-constexpr double kGoodEnough = 0.2 / 255;
+constexpr double kMaxSampleError = 0.2 / 255;
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
 /// The four texels from which sample_bilinear interpolates, and the weights of these texels.
-struct Texels {
+struct BilinearSample {
   std::array<std::size_t, 4> at;
   std::array<double, 4> share;
 };
@@ -93,9 +93,10 @@ class Canvas {
   /// the error of every sample over the four texels of the sample.
   /// \param places   the texels of each sample.
   /// \param weights  the region weights that each sample should have.
-  void correct(const std::vector<Texels>& places, const std::vector<const double*>& weights) {
+  void match_samples(const std::vector<BilinearSample>& places,
+                     const std::vector<const double*>& weights) {
     std::vector<float> sum(value_.size()), share(count());
-    for (const Texels& place : places) {
+    for (const BilinearSample& place : places) {
       for (std::size_t c = 0; c < 4; ++c) share[place.at[c]] += static_cast<float>(place.share[c]);
     }
     for (int round = 0; round < kMaxRounds; ++round) {
@@ -114,7 +115,7 @@ class Canvas {
           }
         }
       }
-      if (worst < kGoodEnough) return;
+      if (worst < kMaxSampleError) return;
       for (std::size_t i = 0; i < count(); ++i) {
         if (share[i] <= 0) continue;
         for (std::size_t k = 0; k < regions_; ++k) {
@@ -125,7 +126,7 @@ class Canvas {
   }
 
   /// \param u, v  texture coordinates relative to the tile.
-  Texels texels(double u, double v) const {
+  BilinearSample texels(double u, double v) const {
     const double x = std::clamp(u * size_ - 0.5, 0.0, size_ - 1.0);
     const double y = std::clamp((1 - v) * size_ - 0.5, 0.0, size_ - 1.0);
     const int left = static_cast<int>(x), top = static_cast<int>(y);
@@ -212,7 +213,9 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
   require(size >= 1 && alpha.rows() == topology.vertex_count && alpha.cols() >= 1, "a mask of ",
           size, " texels for ", alpha.rows(), " vertices");
   if (topology.corner_uvs.empty()) throw InvalidInput("a mask needs texture coordinates");
-  const auto is_prior = [&](std::uint32_t v) { return has_priority.empty() || has_priority[v]; };
+  const auto vertex_has_priority = [&](std::uint32_t v) {
+    return has_priority.empty() || has_priority[v];
+  };
   const UvSamples samples = gather_uv_samples(topology, uvs, UvTiling::kUdim);
   PaintedMasks out;
   out.texels_per_side = size;
@@ -221,10 +224,10 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;
     // First paint the polygons whose first corner has priority, then the other polygons.
-    for (const bool turn : {true, false}) {
+    for (const bool is_first_pass : {true, false}) {
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);
-        if (is_prior(corners[0]) != turn) continue;
+        if (vertex_has_priority(corners[0]) != is_first_pass) continue;
         throw_if_interrupted();
         const auto at = [&](std::size_t c) -> Vector2d {
           return size * Vector2d(uvs(face_uvs[c], 0) - column, 1 - (uvs(face_uvs[c], 1) - row));
@@ -240,19 +243,19 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       canvas.bleed();
     }
     // Collect the samples of all vertices with priority whose texture coordinates lie in this tile.
-    // A sample interpolates four texels (`texels_of_samples`). The result should equal the weights
+    // A sample interpolates four texels (`bilinear_samples`). The result should equal the weights
     // of the vertex (`weights`).
-    std::vector<Texels> texels_of_samples;
+    std::vector<BilinearSample> bilinear_samples;
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {
-      if (!is_prior(v)) continue;
+      if (!vertex_has_priority(v)) continue;
       for (const UvSample& sample : samples.items_of(v)) {
         if (sample.tile != tile) continue;
-        texels_of_samples.push_back(canvas.texels(sample.u - column, sample.v - row));
+        bilinear_samples.push_back(canvas.texels(sample.u - column, sample.v - row));
         weights.push_back(alpha.row(v).data());
       }
     }
-    canvas.correct(texels_of_samples, weights);
+    canvas.match_samples(bilinear_samples, weights);
     out.images_by_tile[tile] = canvas.images();
   }
   return out;

@@ -55,8 +55,8 @@ Vector towards(const Vector& viewer, const Vector& normal) {
 }
 
 /// Tilts a unit normal by slopes along the texture axes (normal mapping).
-Vector leaning(const HeadScene& scene, std::uint32_t primitive, const Vector& normal,
-               const LinearRgb& slopes) {
+Vector tilted_normal(const HeadScene& scene, std::uint32_t primitive, const Vector& normal,
+                     const LinearRgb& slopes) {
   const Quad& quad = scene.quads[primitive];
   const TexturedQuad& textured = scene.textured_quads[primitive];
   // Derive the texture axes from the triangle at the first corner, and use them for the whole quad.
@@ -80,13 +80,14 @@ Vector leaning(const HeadScene& scene, std::uint32_t primitive, const Vector& no
 }
 
 /// Applies the normal and roughness maps of the texture set.
-void finish(const HeadScene& scene, std::uint32_t primitive, const Eigen::Vector4f& weights,
-            Vector& normal, ShadePoint& surface) {
+void apply_surface_maps(const HeadScene& scene, std::uint32_t primitive,
+                        const Eigen::Vector4f& weights, Vector& normal, ShadePoint& surface) {
   if (scene.texture_set == nullptr || surface.is_back) return;
   const TextureLayer& slopes = scene.texture_set->slopes;
   const TextureLayer& roughness = scene.texture_set->roughness;
   if (const auto at = texture_of(scene, slopes, primitive); at != TextureLayer::kNone) {
-    normal = leaning(scene, primitive, normal, texel_at(scene, slopes, at, primitive, weights));
+    normal =
+        tilted_normal(scene, primitive, normal, texel_at(scene, slopes, at, primitive, weights));
   }
   if (const auto at = texture_of(scene, roughness, primitive); at != TextureLayer::kNone) {
     surface.roughness = texel_at(scene, roughness, at, primitive, weights)[0];
@@ -119,7 +120,7 @@ CameraHit camera_hit(const HeadScene& scene, const RayHit& hit, const Vector& di
   const float side = result.surface.is_back ? -1.0F : 1.0F;
   result.surface.to_viewer = -direction.normalized();
   normal.normalize();
-  finish(scene, hit.primitive, weights, normal, result.surface);
+  apply_surface_maps(scene, hit.primitive, weights, normal, result.surface);
   result.surface.normal = towards(result.surface.to_viewer, side * normal);
   result.can_receive_key_light = can_receive_key_light(result.surface.normal, result.surface.kind);
   // Start shadow rays on the smooth surface that the vertex normals imply. This surface lies above

@@ -12,7 +12,7 @@ namespace crowdface {
 namespace {
 
 /// A smooth step in `x`: rises from 0 at edge − kIrisSoftness to 1 at edge + kIrisSoftness.
-float beyond(float edge, float x) {
+float smooth_step(float edge, float x) {
   const float t = std::clamp((x - edge + kIrisSoftness) / (2 * kIrisSoftness), 0.0F, 1.0F);
   return t * t * (3 - 2 * t);
 }
@@ -75,8 +75,8 @@ LinearRgb eye_albedo(const EyeballSphere& eye, const Eigen::Vector3f& gaze,
   const float rim = std::clamp((radius - kPupilRadius) / (kIrisRadius - kPupilRadius), 0.0F, 1.0F);
   const LinearRgb iris = albedo_of(SurfaceKind::kIris) * (1.6F - 1.25F * rim * rim);
   const LinearRgb pupil = LinearRgb::Constant(0.008F);
-  const LinearRgb inner = pupil + (iris - pupil) * beyond(kPupilRadius, radius);
-  return inner + (white - inner) * beyond(kIrisRadius, radius);
+  const LinearRgb inner = pupil + (iris - pupil) * smooth_step(kPupilRadius, radius);
+  return inner + (white - inner) * smooth_step(kIrisRadius, radius);
 }
 
 }  // namespace crowdface

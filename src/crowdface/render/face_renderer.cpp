@@ -100,7 +100,7 @@ Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical)
 
 }  // namespace
 
-struct FaceRenderer::Prepared {
+struct FaceRenderer::PreparedHeads {
   Topology topology;
   NormalFans fans;
   RenderOptions options;
@@ -116,7 +116,7 @@ struct FaceRenderer::Prepared {
   WorkspacePool workspaces;
   std::optional<float> winding;  ///< winding of the average face, which all faces share
 
-  Prepared(const Topology& mesh, const RenderOptions& choice)
+  PreparedHeads(const Topology& mesh, const RenderOptions& choice)
       : topology(mesh),
         fans(mesh),
         options(choice),
@@ -199,7 +199,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
   check(topology, options, surfaces);
   const std::vector<SurfaceKind>& kinds = surfaces.kinds;
   if (average_face != nullptr) check_size(topology, *average_face);
-  prepared_ = std::make_unique<Prepared>(topology, options);
+  prepared_ = std::make_unique<PreparedHeads>(topology, options);
   if (average_face != nullptr) prepared_->winding = winding_sign(topology, *average_face);
   prepared_->eyeballs = find_eyeballs(topology, kinds);
   for (Index f = 0; f < topology.face_count(); ++f) {

@@ -58,8 +58,8 @@ class FaceRenderer {
                    std::span<const AttachmentMesh> attachments = {}) const;
 
  private:
-  struct Prepared;
-  std::unique_ptr<Prepared> prepared_;
+  struct PreparedHeads;
+  std::unique_ptr<PreparedHeads> prepared_;
 };
 
 }  // namespace crowdface

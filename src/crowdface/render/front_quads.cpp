@@ -27,7 +27,7 @@ struct Corner {
 /// Twice the signed area of the triangle of two corners and the sample position. Swapping the
 /// corners gives exactly the negative value, so that no sample falls between two triangles with a
 /// common edge. (A fused multiply-add would break this symmetry.)
-HWY_INLINE Numbers turn(const Corner& a, const Corner& b) {
+HWY_INLINE Numbers edge_function(const Corner& a, const Corner& b) {
   return hn::Sub(hn::Mul(a.x, b.y), hn::Mul(a.y, b.x));
 }
 
@@ -74,12 +74,13 @@ HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad,
     }
     float* const near = inverse_depth + pixel.first_sample + i;
     std::uint32_t* const front = fronts + pixel.first_sample + i;
-    const Numbers across = turn(c[1], c[3]);
-    put_triangle(across, turn(c[3], c[0]), turn(c[0], c[1]), vertices[0]->inverse_depth,
-                 vertices[1]->inverse_depth, vertices[3]->inverse_depth, 2 * on.quad, near, front);
-    put_triangle(hn::Neg(across), turn(c[1], c[2]), turn(c[2], c[3]), vertices[2]->inverse_depth,
-                 vertices[3]->inverse_depth, vertices[1]->inverse_depth, 2 * on.quad + 1, near,
-                 front);
+    const Numbers across = edge_function(c[1], c[3]);
+    put_triangle(across, edge_function(c[3], c[0]), edge_function(c[0], c[1]),
+                 vertices[0]->inverse_depth, vertices[1]->inverse_depth, vertices[3]->inverse_depth,
+                 2 * on.quad, near, front);
+    put_triangle(hn::Neg(across), edge_function(c[1], c[2]), edge_function(c[2], c[3]),
+                 vertices[2]->inverse_depth, vertices[3]->inverse_depth, vertices[1]->inverse_depth,
+                 2 * on.quad + 1, near, front);
   }
 }
 
@@ -107,7 +108,7 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
 }
 
 /// Margin around bounding boxes, in pixels: larger than the rounding errors of positions.
-constexpr float kBlur = 1e-2F;
+constexpr float kBoxMargin = 1e-2F;
 
 /// Bounding boxes of kCount quads, in pixels. The origin is kRimWidth pixels above and left of the
 /// image, at the corner of the first square's rim.
@@ -115,8 +116,8 @@ struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
   alignas(64) std::int32_t square[kCount];  ///< last square that the box overlaps; −1: not visible
-  alignas(64) std::int32_t alone[kCount];   ///< not 0: the box overlaps only this square
-  alignas(64) std::int32_t no_middle[kCount];  ///< 1: no pixel centre is in the box
+  alignas(64) std::int32_t in_one_square[kCount];    ///< not 0: the box overlaps only this square
+  alignas(64) std::int32_t no_pixel_centre[kCount];  ///< 1: no pixel centre is in the box
   /// Box relative to `square`, packed into four bytes: left (lowest byte), top, right, bottom.
   alignas(64) std::int32_t in_square[kCount];
 };
@@ -159,12 +160,12 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
     // Move the origin of the boxes from the upper left corner of the image to the upper left corner
-    // of the rim around the image. Enlarge the boxes by kBlur, and clip them to the outer edge of
+    // of the rim around the image. Enlarge the boxes by kBoxMargin, and clip them to the outer edge of
     // the rim.
-    left = hn::Add(left, hn::Set(lanes, kRimWidth - kBlur));
-    top = hn::Add(top, hn::Set(lanes, kRimWidth - kBlur));
-    right = hn::Add(right, hn::Set(lanes, kRimWidth + kBlur));
-    bottom = hn::Add(bottom, hn::Set(lanes, kRimWidth + kBlur));
+    left = hn::Add(left, hn::Set(lanes, kRimWidth - kBoxMargin));
+    top = hn::Add(top, hn::Set(lanes, kRimWidth - kBoxMargin));
+    right = hn::Add(right, hn::Set(lanes, kRimWidth + kBoxMargin));
+    bottom = hn::Add(bottom, hn::Set(lanes, kRimWidth + kBoxMargin));
     const auto outside = hn::Or(hn::Or(hn::Lt(right, zero), hn::Lt(bottom, zero)),
                                 hn::Or(hn::Gt(left, most), hn::Gt(top, most)));
     const auto unseen = hn::Or(outside, hn::IsInf(right));
@@ -188,9 +189,9 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
               whole, boxes.square + i);
     hn::Store(hn::IfThenElseZero(
                   hn::And(hn::Eq(first_square(l), column), hn::Eq(first_square(t), row)), one),
-              whole, boxes.alone + i);
+              whole, boxes.in_one_square + i);
     hn::Store(hn::IfThenElse(hn::And(has_middle(left, right), has_middle(top, bottom)), none, one),
-              whole, boxes.no_middle + i);
+              whole, boxes.no_pixel_centre + i);
     hn::Store(hn::Or(low_ends, hn::ShiftLeft<16>(high_ends)), whole, boxes.in_square + i);
   }
 }
@@ -210,8 +211,8 @@ void add_to_squares(const Quad* quads, std::size_t begin, std::size_t end,
     for (std::size_t i = 0; i < count; ++i) {
       if (boxes.square[i] < 0) continue;
       const auto quad = static_cast<std::uint32_t>(begin + i);
-      const auto list = static_cast<std::size_t>(boxes.no_middle[i]);
-      if (boxes.alone[i] != 0) {
+      const auto list = static_cast<std::size_t>(boxes.no_pixel_centre[i]);
+      if (boxes.in_one_square[i] != 0) {
         const auto ends = static_cast<std::uint32_t>(boxes.in_square[i]);
         squares[static_cast<std::size_t>(boxes.square[i])][list].push_back(
             {quad, byte(ends), byte(ends >> 8U), byte(ends >> 16U), byte(ends >> 24U)});

@@ -40,9 +40,9 @@ class ByteTable {
         const std::uint32_t middle = below + (first - below) / 2;
         (find_byte(std::bit_cast<float>(middle)) < byte ? below : first) = middle;
       }
-      first_of_[static_cast<std::size_t>(byte)] = std::bit_cast<float>(first);
+      smallest_of_byte_[static_cast<std::size_t>(byte)] = std::bit_cast<float>(first);
     }
-    first_of_[256] = std::numeric_limits<float>::infinity();
+    smallest_of_byte_[256] = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < kSteps; ++i) {
       at_step_[i] = static_cast<std::uint8_t>(
           find_byte(static_cast<float>(i) * (kWhite / static_cast<float>(kSteps))));
@@ -52,14 +52,15 @@ class ByteTable {
     const float inside = std::clamp(light, 0.0F, kWhite);
     const auto step = static_cast<std::size_t>(inside * (static_cast<float>(kSteps) / kWhite));
     std::size_t byte = at_step_[std::min(step, kSteps - 1)];
-    while (inside >= first_of_[byte + 1]) ++byte;
+    while (inside >= smallest_of_byte_[byte + 1]) ++byte;
     return static_cast<std::uint8_t>(byte);
   }
 
  private:
   static constexpr float kWhite = 1.5F;  ///< this value and all larger values map to 255
   static constexpr std::size_t kSteps = 6144;
-  std::array<float, 257> first_of_{};  ///< for each byte: the smallest linear value that maps to it
+  std::array<float, 257>
+      smallest_of_byte_{};  ///< for each byte: the smallest linear value that maps to it
   std::array<std::uint8_t, kSteps> at_step_{};
 };
 

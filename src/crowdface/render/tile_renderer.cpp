@@ -23,7 +23,7 @@ using Vector = Eigen::Vector3f;
 constexpr float kSkyReach = 0.55F;  // reach of ambient occlusion
 // Distance along the normal from CameraHit::ray_origin to the origin of the rays towards the key
 // light. This distance softens the edges of shadows, as light that enters skin does.
-constexpr float kThickness = 0.012F;
+constexpr float kShadowRayOffset = 0.012F;
 // Fraction of the sky's light that even occluded hair receives, because hair scatters light.
 constexpr float kScattered = 0.2F;
 constexpr float kThrough = 0.8F;  // fraction of light that a thin surface transmits
@@ -94,7 +94,7 @@ CameraHit mean_of(std::span<const CameraHit> camera_hits) {
 }
 
 /// The visible fractions of the key light and of the sky at some surface points.
-struct Shares {
+struct VisibleFractions {
   std::vector<float> key, sky;
 };
 
@@ -103,11 +103,11 @@ struct TileMemory {
   std::vector<Ray> rays;
   std::vector<std::optional<RayHit>> hits;
   std::vector<CameraHit> camera_hits;
-  std::vector<CameraHit*> asking;
+  std::vector<CameraHit*> hit_of_ray;
   PixelVisibility pixels;
   PointLists points;
   std::vector<CameraHit> mean_hits;  ///< for each pixel of a row: mean of the pixel's hits
-  Shares row_shares, shares;
+  VisibleFractions row_shares, shares;
   ShadeBatch batch;
 };
 
@@ -148,7 +148,7 @@ class Tile {
     // Trace more samples in pixels that differ from their neighbours.
     if (sampling_.fine_samples.count() > 1) {
       for (int y = rim_top_; y < rim_bottom_; ++y) {
-        for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).change = change_at(x, y);
+        for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).change = variation_at(x, y);
       }
       trace_camera_rays([&](const Pixel& pixel) -> const PixelSamples* {
         if (pixel.change == PixelVariation::kEdge) return &sampling_.fine_samples;
@@ -162,7 +162,7 @@ class Tile {
     if (scene_.ambient_occlusion) trace_sky_rays();
     // Compute the mean of each pixel's hits. Then shade the pixels, with shadow rays averaged over
     // neighbouring pixels.
-    summarize();
+    store_pixel_means();
     for (int y = top_; y < bottom_; ++y) shade_row(y, image);
   }
 
@@ -190,15 +190,15 @@ class Tile {
   }
 
   /// Traces camera rays and stores their hits in the pixels.
-  /// \param places_of  returns the sample positions for a pixel, or null to keep the pixel's
+  /// \param samples_of  returns the sample positions for a pixel, or null to keep the pixel's
   /// earlier samples
-  template <class PlacesOf>
-  void trace_camera_rays(const PlacesOf& places_of) {
+  template <class SamplesOf>
+  void trace_camera_rays(const SamplesOf& samples_of) {
     std::vector<const PixelSamples*> places;
     std::vector<Ray>& rays = memory_.rays;
     rays.clear();
     for_each_pixel([&](int x, int y, const Pixel& pixel) {
-      places.push_back(places_of(pixel));
+      places.push_back(samples_of(pixel));
       if (places.back() == nullptr) return;
       std::uint32_t number = 0;
       for (const Eigen::Vector2f& place : places.back()->positions()) {
@@ -247,7 +247,7 @@ class Tile {
   }
 
   /// How the samples of a pixel differ from each other and from the four neighbouring pixels.
-  PixelVariation change_at(int x, int y) {
+  PixelVariation variation_at(int x, int y) {
     const Pixel& at = pixel(x, y);
     const std::span<const CameraHit> camera_hits = hits_of(at);
     if (!camera_hits.empty() && at.missed > 0) return PixelVariation::kEdge;
@@ -320,20 +320,20 @@ class Tile {
   std::vector<bool> trace_shadow_rays(const InterleavedDisc& directions,
                                       Visibility CameraHit::*light, const RayOf& ray_of) {
     std::vector<Ray>& rays = memory_.rays;
-    std::vector<CameraHit*>& asking = memory_.asking;
+    std::vector<CameraHit*>& hit_of_ray = memory_.hit_of_ray;
     rays.clear();
-    asking.clear();
+    hit_of_ray.clear();
     for_each_shadow_ray(
         directions, [&](CameraHit& hit, const Eigen::Vector2f& disc, std::uint32_t opacity_seed) {
           const std::optional<Ray> ray = ray_of(hit, disc);
           if (!ray) return;
           rays.push_back(*ray);
           rays.back().opacity_seed = opacity_seed;
-          asking.push_back(&hit);
+          hit_of_ray.push_back(&hit);
         });
     std::vector<bool> blocked = are_blocked(rays);
     for (std::size_t r = 0; r < rays.size(); ++r) {
-      (asking[r]->*light).add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
+      (hit_of_ray[r]->*light).add({blocked[r] ? 0.0F : 1.0F, 1}, 1);
     }
     return blocked;
   }
@@ -343,7 +343,7 @@ class Tile {
     trace_shadow_rays(sampling_.key_light_directions, &CameraHit::key_visibility,
                       [&](const CameraHit& hit, const Eigen::Vector2f& disc) -> std::optional<Ray> {
                         if (!hit.can_receive_key_light) return std::nullopt;
-                        const Vector start = hit.ray_origin + kThickness * hit.surface.normal;
+                        const Vector start = hit.ray_origin + kShadowRayOffset * hit.surface.normal;
                         return Ray{start, key + kKeyLightRadius * disc_offset(key, disc)};
                       });
   }
@@ -357,24 +357,24 @@ class Tile {
           const float height = std::sqrt(std::max(0.0F, 1 - disc.squaredNorm()));
           return Ray{hit.ray_origin, disc_offset(normal, disc) + height * normal, 0, kSkyReach};
         });
-    add_light_through(memory_.rays, memory_.asking, blocked);
+    add_light_through(memory_.rays, memory_.hit_of_ray, blocked);
   }
 
   /// Adds the light of the sky that attachments transmit, for example thin hair that is lit from
   /// behind. For each blocked sky ray from an attachment, traces the mirrored ray on the other side
   /// of the surface. If the mirrored ray is not blocked, adds the fraction kThrough of a ray.
-  void add_light_through(const std::vector<Ray>& rays, const std::vector<CameraHit*>& asking,
+  void add_light_through(const std::vector<Ray>& rays, const std::vector<CameraHit*>& hit_of_ray,
                          const std::vector<bool>& blocked) {
     std::vector<Ray> behind;
     std::vector<CameraHit*> thin;
     for (std::size_t r = 0; r < rays.size(); ++r) {
-      const CameraHit& hit = *asking[r];
+      const CameraHit& hit = *hit_of_ray[r];
       if (!blocked[r] || hit.surface.kind != SurfaceKind::kAttachment) continue;
       const Vector across = (hit.ray_origin - hit.point).normalized();
       behind.push_back(rays[r]);
       behind.back().origin = 2 * hit.point - hit.ray_origin;
       behind.back().direction -= 2 * rays[r].direction.dot(across) * across;
-      thin.push_back(asking[r]);
+      thin.push_back(hit_of_ray[r]);
     }
     const std::vector<bool> dark = are_blocked(behind);
     for (std::size_t r = 0; r < behind.size(); ++r) {
@@ -405,7 +405,7 @@ class Tile {
     return PixelVisibility::index(x - left_, y - top_);
   }
 
-  void summarize() {
+  void store_pixel_means() {
     memory_.pixels.clear();
     for (int y = rim_top_; y < rim_bottom_; ++y) {
       for (int x = rim_left_; x < rim_right_; ++x) {
@@ -418,14 +418,14 @@ class Tile {
   /// Computes the visible fractions of the key light and of the sky at `count` points with
   /// filter_visibility. \param x, y, consecutive  pixel of the points, see filter_visibility
   void share(const PointLists& points, std::size_t count, int x, int y, bool consecutive,
-             Shares& shares) {
+             VisibleFractions& shares) {
     shares.key.resize(count + kMaxLanes);
     shares.sky.resize(count + kMaxLanes);
     filter_visibility(points.lights(), count, memory_.pixels, light_index(x, y), consecutive,
                       pixel_side(), shares.key.data(), shares.sky.data());
   }
 
-  void add_to_batch(const CameraHit& hit, const Shares& shares, std::size_t i) {
+  void add_to_batch(const CameraHit& hit, const VisibleFractions& shares, std::size_t i) {
     ShadePoint surface = hit.surface;
     surface.key_visibility = shares.key[i];
     surface.sky_visibility = shares.sky[i];

@@ -57,14 +57,14 @@ class AttachmentsInFormat {
   /// \param files  returns the number of files that contain an attachment
   template <class Files>
   std::size_t encoding_memory_bytes(const Files& files) const {
-    std::map<std::string, std::size_t> most_bytes_of_kind;
+    std::map<std::string, std::size_t> max_bytes_by_kind;
     for (const auto& [item, format_data] : data_of_attachment_) {
-      std::size_t& most = most_bytes_of_kind[item->kind];
+      std::size_t& most = max_bytes_by_kind[item->kind];
       most = std::max(most, std::invoke(&FormatData::encoding_memory_bytes, format_data) *
                                 static_cast<std::size_t>(files(*item)));
     }
     std::size_t bytes = 0;
-    for (const auto& [kind, most] : most_bytes_of_kind) bytes += most;
+    for (const auto& [kind, most] : max_bytes_by_kind) bytes += most;
     return bytes;
   }
   std::size_t encoding_memory_bytes() const {

@@ -166,8 +166,8 @@ CastingOptions with_existing_faces(const Config& config, CastingOptions casting)
 
 }  // namespace
 
-CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                           const std::filesystem::path& cache) {
+CastingSpace casting_space(const Config& config, const Inputs& inputs,
+                           const PreparedHeads& prepared, const std::filesystem::path& cache) {
   const std::vector<double> areas = face_vertex_areas(
       inputs.head_set.topology, inputs.skin_components, mean_before_placement(inputs),
       config.distance.area, config.faces.front, inputs.distance_weights);
@@ -224,7 +224,7 @@ AttachmentOptions attachment_options(const Config& config) {
   return draw;
 }
 
-CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
+CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                      const MeshDefectFinder& find_mesh_defects,
                      const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
@@ -245,7 +245,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
   if (!crowd.shortfall) {
     Progress progress("casting", casting.count, kFacesCastInParallel);
     ScarcityWarning warning(casting);
-    crowd = cast_crowd(casting, judge, [&](const Rejections& thrown) {
+    crowd = cast_crowd(casting, judge, [&](const RejectionCounts& thrown) {
       progress.step();
       warning.on_face_accepted(thrown);
     });
@@ -257,7 +257,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared&
         with_existing_faces(config, casting), space, believability, &judged_in.proxy_skin,
         *crowd.shortfall, [&] { progress.step(); }, judge.trait_rules(), find_mesh_defects);
     std::vector<std::string> trait_advice_lines;
-    if (remedy.binding_constraint == Reason::kTraits) {
+    if (remedy.binding_constraint == RejectionReason::kTraits) {
       trait_advice_lines = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);
     }
     throw_shortfall(config, remedy, *crowd.shortfall, trait_advice_lines);

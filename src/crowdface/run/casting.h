@@ -21,8 +21,8 @@ struct CastingSpace {
 };
 /// Computes the casting space of a config.
 /// \param cache  folder that caches the precomputed tables of the space; empty: no cache
-CastingSpace casting_space(const Config& config, const Inputs& inputs, const Prepared& prepared,
-                           const std::filesystem::path& cache);
+CastingSpace casting_space(const Config& config, const Inputs& inputs,
+                           const PreparedHeads& prepared, const std::filesystem::path& cache);
 
 /// Converts the config to casting options.
 CastingOptions casting_options(const Config& config, const Inputs& inputs,
@@ -62,7 +62,7 @@ struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads: position of each head on the weight plane
   std::vector<FacePlan> crowd;      ///< the faces, with their nearest neighbours
   std::vector<int> group_of_face;   ///< for each sampled face: index of its group, or −1
-  Rejections rejections;
+  RejectionCounts rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
   std::vector<TraitReport> traits;  ///< reports on the measurements that the config names
@@ -81,7 +81,7 @@ AttachmentOptions attachment_options(const Config& config);
 /// \param cache    see casting_space
 /// \throws Unsatisfiable if the constraints cannot be met; the message names the constraint that
 ///     prevented more faces, the number of faces that were cast, and a change that would help.
-CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const Prepared& prepared,
+CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                      const MeshDefectFinder& find_mesh_defects, const std::filesystem::path& cache);
 
 }  // namespace crowdface

@@ -112,13 +112,13 @@ Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan
   return json;
 }
 
-Json rejections_to_json(const Rejections& rejections) {
+Json rejections_to_json(const RejectionCounts& rejections) {
   Json json = Json::object();
   for (std::size_t r = 0; r < kReasonCount; ++r) {
-    const auto reason = static_cast<Reason>(r);
-    const bool is_rare = reason == Reason::kRejected || reason == Reason::kTraits;
+    const auto reason = static_cast<RejectionReason>(r);
+    const bool is_rare = reason == RejectionReason::kRejected || reason == RejectionReason::kTraits;
     if (is_rare && rejections.counts[r] == 0) continue;
-    json[std::string(name_of(static_cast<Reason>(r)))] = rejections.counts[r];
+    json[std::string(name_of(static_cast<RejectionReason>(r)))] = rejections.counts[r];
   }
   return json;
 }
@@ -189,7 +189,8 @@ void log_casting(const CrowdPlan& crowd_plan) {
   std::vector<std::string> thrown;
   for (std::size_t r = 0; r < kReasonCount; ++r) {
     const std::uint64_t count = crowd_plan.rejections.counts[r];
-    if (count > 0) thrown.push_back(concat(count, " for ", name_of(static_cast<Reason>(r))));
+    if (count > 0)
+      thrown.push_back(concat(count, " for ", name_of(static_cast<RejectionReason>(r))));
   }
   if (!thrown.empty()) log_info(concat("candidates rejected: ", join(thrown)));
 }

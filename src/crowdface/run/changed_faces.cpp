@@ -35,7 +35,8 @@ void replace_attachments(const Config& config, const std::vector<std::string>& n
 }
 
 /// Removes attachments from a face. \param words  kinds and names of attachments.
-void take_off(const Config& config, const std::vector<std::string>& words, FacePlan& face) {
+void remove_attachments(const Config& config, const std::vector<std::string>& words,
+                        FacePlan& face) {
   for (const Config::Attachment& item : config.attachments.items) {
     if (contains(words, item.name) || contains(words, item.kind)) {
       std::erase(face.attachments, item.name);
@@ -73,14 +74,14 @@ class ChangedLooks {
       if (changed.variant_of) {
         const FacePlan other = look_of(*changed.variant_of);
         face.recipe.colours = other.recipe.colours;
-        if (face.recipe.colours.empty()) take_skin(other, face);
+        if (face.recipe.colours.empty()) set_aged_skin(other, face);
         face.hair = other.hair;
       }
     }
     for (const AppliedChange& applied : changed.changes) {
       const FaceChange& change = applied.change;
       if (change.attachments) replace_attachments(config_, *change.attachments, face);
-      take_off(config_, change.removed_attachments, face);
+      remove_attachments(config_, change.removed_attachments, face);
       if (!change.colours.empty()) face.recipe.colours = normalized_source_weights(change.colours);
       if (change.hair) face.hair = rounded_colour(*hair_colour_named(*change.hair));
     }
@@ -89,7 +90,7 @@ class ChangedLooks {
 
  private:
   /// Gives `face` the skin that `other` would have at the age of `face`.
-  void take_skin(FacePlan other, FacePlan& face) const {
+  void set_aged_skin(FacePlan other, FacePlan& face) const {
     if (config_.textures.blend != TextureBlend::kAuto) return;  // the face has the same target
     for (RegionRecipe& region : other.recipe.regions) {  // skin ages like the finest band of detail
       if (region.colours.empty()) continue;

@@ -54,9 +54,9 @@ class MaterialCopies {
 
   /// Copies the material files and textures of each attachment in each colour into a
   /// separate folder. Tints the colour textures with this colour.
-  void add(const std::vector<ColouredAttachment>& worn) {
+  void add(const std::vector<ColouredAttachment>& coloured_attachments) {
     std::map<std::pair<fs::path, std::string>, TintedTexture> all;
-    for (const ColouredAttachment& coloured : worn) {
+    for (const ColouredAttachment& coloured : coloured_attachments) {
       for (const AttachmentFile& file : files_of(coloured)) {
         const fs::path to =
             attachment_folder(coloured.item->name, coloured.label()) / file.file.destination;
@@ -92,14 +92,14 @@ class MaterialCopies {
   }
 
   /// Returns one warning per problem; each warning names the heads that have the problem.
-  /// \param told  earlier warnings. The result omits a problem that is in `told`, even if this
+  /// \param earlier_warnings  earlier warnings. The result omits a problem that is in `earlier_warnings`, even if this
   ///              object has found it in additional heads.
-  std::vector<std::string> warnings(const std::vector<std::string>& told) const {
+  std::vector<std::string> warnings(const std::vector<std::string>& earlier_warnings) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {
       const std::string begin = warning + " (";
       const auto is_this = [&](const std::string& text) { return text.starts_with(begin); };
-      if (std::any_of(told.begin(), told.end(), is_this)) continue;
+      if (std::any_of(earlier_warnings.begin(), earlier_warnings.end(), is_this)) continue;
       warnings.push_back(concat(begin, join(heads), ")"));
     }
     return warnings;
@@ -155,11 +155,11 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     copies.add(inputs.head_files[head], inputs.head_set.heads[head].name);
   }
   if (any_format(formats, refers_to_attachment_textures)) {
-    std::vector<ColouredAttachment> worn = inputs.attachments.worn_by(crowd);
+    std::vector<ColouredAttachment> coloured_attachments = inputs.attachments.worn_by(crowd);
     if (config.neck.write_body && config.neck.body_texture.empty()) {
-      worn.push_back({inputs.heads_on_body->body.get()});
+      coloured_attachments.push_back({inputs.heads_on_body->body.get()});
     }
-    copies.add(worn);
+    copies.add(coloured_attachments);
   }
   std::vector<std::string> warnings = copies.warnings(inputs.warnings);
   for (const std::string& warning : warnings) log_warning(warning);

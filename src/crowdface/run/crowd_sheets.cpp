@@ -62,7 +62,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
   for (const auto& [name, digest] : digests_without_heads_and_masks(job.inputs)) {
     hasher.add(name).add(digest);
   }
-  hasher.add(config_text_in_folder(job.config, directory)).add(gallery_page_digest(job.config));
+  hasher.add(stored_config_text(job.config, directory)).add(gallery_page_digest(job.config));
   // Hash the plan (with each face's notes) and the content of likeness.json. The reviews and the
   // distance mask need no hash of their own: they change the sheets only through these two files.
   try {
@@ -177,7 +177,7 @@ void remake_sheets(const fs::path& crowd_directory, const std::vector<std::strin
                shapes, pictures.renders());
   const std::vector<FacePlan> founders = read_founders(job, directory);
   if (!founders.empty()) {
-    const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+    const PreparedHeads prepared = prepare(job.config, job.inputs, job.smoothing, cache);
     write_founders(founders, FaceBuilder(job.config, job.inputs, prepared), pictures);
   }
   pictures.set_head_traits(head_traits_of_config(job.config, job.inputs));

@@ -42,13 +42,13 @@ std::string format_csv(const std::vector<EstimateRow>& rows) {
 /// pixels.
 class Frame {
  public:
-  Frame(const std::vector<EstimateRow>& rows, std::uint64_t asked_count, double asked_mm) {
-    double most = 1, high = asked_mm;
+  Frame(const std::vector<EstimateRow>& rows, std::uint64_t requested_count, double requested_mm) {
+    double most = 1, high = requested_mm;
     for (const EstimateRow& row : rows) {
       most = std::max(most, static_cast<double>(row.face_count));
       high = std::max({high, row.distance_in_spread_mode_mm, row.distance_in_first_fit_casting_mm});
     }
-    most = std::max(most, static_cast<double>(asked_count));
+    most = std::max(most, static_cast<double>(requested_count));
     decades_ = std::max(1.0, std::ceil(std::log10(most) - 1));
     high_mm_ = std::max(1.0, std::ceil(high));
   }
@@ -86,24 +86,24 @@ std::string line_of(const Frame& frame, const std::vector<EstimateRow>& rows,
 }
 
 /// Returns a text table of the estimate with aligned columns.
-std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
-                            double asked_mm) {
+std::string format_estimate(const std::vector<EstimateRow>& rows, std::uint64_t requested_count,
+                            double requested_mm) {
   std::string table = "   faces   spread, mm   first fit, mm\n";
   for (const EstimateRow& row : rows) {
     table += concat(padded(concat(row.face_count), 8),
                     padded(format_fixed(row.distance_in_spread_mode_mm, 2), 13),
                     padded(format_fixed(row.distance_in_first_fit_casting_mm, 2), 16),
-                    row.face_count == asked_count ? "   <- asked for" : "", '\n');
+                    row.face_count == requested_count ? "   <- asked for" : "", '\n');
   }
-  if (asked_mm > 0) table += concat("asked for: min_distance ", asked_mm, " mm\n");
+  if (requested_mm > 0) table += concat("asked for: min_distance ", requested_mm, " mm\n");
   return table;
 }
 
 /// A plot as SVG: number of faces on a logarithmic x axis, minimum distance in millimetres on the y
 /// axis, one line for each sampling mode (spread, first fit), and a cross at the requested values.
-std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t asked_count,
-                          double asked_mm) {
-  const Frame frame(rows, asked_count, asked_mm);
+std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t requested_count,
+                          double requested_mm) {
+  const Frame frame(rows, requested_count, requested_mm);
   const double bottom = Frame::kTop + Frame::kHeight, right = Frame::kLeft + Frame::kWidth;
   std::string svg =
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"660\" height=\"420\" "
@@ -124,8 +124,8 @@ std::string plot_estimate(const std::vector<EstimateRow>& rows, std::uint64_t as
   }
   svg += line_of(frame, rows, &EstimateRow::distance_in_spread_mode_mm, "#1f6fb4");
   svg += line_of(frame, rows, &EstimateRow::distance_in_first_fit_casting_mm, "#d0632a");
-  if (asked_mm > 0 && asked_count > 0) {
-    const double x = frame.x(static_cast<double>(asked_count)), y = frame.y(asked_mm);
+  if (requested_mm > 0 && requested_count > 0) {
+    const double x = frame.x(static_cast<double>(requested_count)), y = frame.y(requested_mm);
     svg += concat("<path d=\"M", px(x - 6), ' ', px(y - 6), 'L', px(x + 6), ' ', px(y + 6), 'M',
                   px(x - 6), ' ', px(y + 6), 'L', px(x + 6), ' ', px(y - 6),
                   "\" stroke=\"black\" stroke-width=\"2\"/>\n");
@@ -146,7 +146,7 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   // Accept a folder that holds another crowd: estimate.csv and estimate.svg overwrite none of that
   // crowd's files.
   check_crowd_directory(directory, crowd_config(job.config, directory), Replace::kForce);
-  const Prepared prepared = prepare(job.config, job.inputs, job.smoothing, cache);
+  const PreparedHeads prepared = prepare(job.config, job.inputs, job.smoothing, cache);
   const CastingSpace judged_in = casting_space(job.config, job.inputs, prepared, cache);
   const CastingOptions casting =
       casting_options(job.config, job.inputs, judged_in.face_space.head_distances());
@@ -155,13 +155,13 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   const std::uint64_t asked = job.config.crowd.count;
   const auto rows = estimate_capacity(casting, judge, counts_up_to(asked),
                                       std::clamp(5 * asked, kSmallestPool, kLargestPool));
-  const double asked_mm = job.config.diversity.min_distance_mm;
+  const double requested_mm = job.config.diversity.min_distance_mm;
   const std::filesystem::path& folder = directory.root;
   make_directories(folder);
   write_file(folder / "estimate.csv", format_csv(rows));
-  write_file(folder / "estimate.svg", plot_estimate(rows, asked, asked_mm));
+  write_file(folder / "estimate.svg", plot_estimate(rows, asked, requested_mm));
   log_info(concat("plot: ", (folder / "estimate.svg").string()));
-  std::string table = format_estimate(rows, asked, asked_mm);
+  std::string table = format_estimate(rows, asked, requested_mm);
   table += format_trait_ranges(job.config, job.inputs, prepared, casting);
   if (!job.config.groups.empty() || !job.config.families.empty()) {
     table +=

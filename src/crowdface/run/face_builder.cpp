@@ -38,11 +38,11 @@ std::vector<std::vector<double>> contact_masks(const SkinContacts& contacts,
 
 }  // namespace
 
-FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared)
+FaceBuilder::FaceBuilder(const Config& config, const Inputs& inputs, const PreparedHeads& prepared)
     : config_(config),
       inputs_(inputs),
       prepared_(prepared),
-      keeps_contacts_(config.blending.contacts == ContactHandling::kAuto),
+      corrects_contacts_(config.blending.contacts == ContactHandling::kAuto),
       mm_per_unit_(mm_per(config.faces.units)) {
   BackgroundTasks beside;  // finds the contacts in parallel with the work on the parts
   beside.run([&] { contacts_.emplace(inputs.head_set, inputs.adjacency, skin_vertices(inputs)); });
@@ -93,13 +93,13 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) con
   // Clear the previous face before the update, so that an exception cannot leave a half-updated
   // face.
   if (const auto before = std::exchange(previous.recipe, std::nullopt)) {
-    blender_->update(*before, recipe, previous.blended);
+    blender_->update(*before, recipe, previous.blended_positions);
   } else {
-    previous.blended = blender_->blend(recipe);
+    previous.blended_positions = blender_->blend(recipe);
   }
   throw_if_truncated(prepared_);
   previous.recipe = recipe;
-  Positions face = previous.blended;
+  Positions face = previous.blended_positions;
   finish(recipe, face);
   return face;
 }
@@ -123,7 +123,7 @@ std::optional<RigidMotion> FaceBuilder::motion_to_body(const Recipe& recipe) con
 
 std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
   std::set<std::uint32_t> vertices;
-  for (std::size_t p = 0; keeps_contacts_ && p < contacts_->size(); ++p) {
+  for (std::size_t p = 0; corrects_contacts_ && p < contacts_->size(); ++p) {
     const GapSection& section = contacts_->section(p);
     for (const auto* profile : {&section.low_profile, &section.high_profile}) {
       for (const EdgePoint& point : *profile) vertices.insert({point.a, point.b});
@@ -133,7 +133,7 @@ std::vector<std::uint32_t> FaceBuilder::contact_vertices() const {
 }
 
 void FaceBuilder::correct_contacts(const Recipe& recipe, Positions& face) const {
-  if (keeps_contacts_) contacts_->fit_gaps(contact_ranges(recipe), face);
+  if (corrects_contacts_) contacts_->fit_gaps(contact_ranges(recipe), face);
 }
 
 const MirrorMap& FaceBuilder::mirror() const {
@@ -235,9 +235,9 @@ std::uint64_t FaceBuilder::memory_bytes(std::size_t face_count) const {
   }
   // number of meshes per face that are in memory while asymmetry is adjusted: the face, its mirror
   // image, and the weighted mean of both
-  constexpr std::uint64_t kMirrored = 3;
+  constexpr std::uint64_t kMeshesPerFace = 3;
   if (inputs_.mirror_map != nullptr)
-    bytes_per_face += (kMirrored - 1) * 3 * sizeof(double) * vertices;
+    bytes_per_face += (kMeshesPerFace - 1) * 3 * sizeof(double) * vertices;
   return face_count * bytes_per_face;
 }
 

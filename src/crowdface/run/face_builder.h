@@ -22,7 +22,7 @@ namespace crowdface {
 class FaceBuilder {
  public:
   /// \param config, inputs, prepared  must outlive the builder.
-  FaceBuilder(const Config& config, const Inputs& inputs, const Prepared& prepared);
+  FaceBuilder(const Config& config, const Inputs& inputs, const PreparedHeads& prepared);
   FaceBuilder(const FaceBuilder&) = delete;
   FaceBuilder& operator=(const FaceBuilder&) = delete;
 
@@ -34,7 +34,7 @@ class FaceBuilder {
   /// The face that the previous call of `rebuild` built. The next call starts from this face.
   struct PreviousFace {
     std::optional<Recipe> recipe;
-    Positions blended;  ///< #V by 3, before the steps of `finish`
+    Positions blended_positions;  ///< #V by 3, before the steps of `finish`
   };
   /// Gives the same result as `build` for one recipe, but is faster if the recipe differs in only a
   /// few regions from the recipe of the previous call.
@@ -85,7 +85,7 @@ class FaceBuilder {
 
   const Config& config_;
   const Inputs& inputs_;
-  const Prepared& prepared_;
+  const PreparedHeads& prepared_;
   mutable std::once_flag mirror_once_;
   mutable std::shared_ptr<const MirrorMap> mirror_;
   /// the region masks for blending
@@ -95,7 +95,7 @@ class FaceBuilder {
   std::optional<SkinContacts> contacts_;  ///< always set after construction
   /// #contacts by #regions: the region weights at each contact; each row sums to one
   std::vector<std::vector<double>> contact_masks_;
-  bool keeps_contacts_;  ///< whether `correct_contacts` corrects gaps
+  bool corrects_contacts_;  ///< whether `correct_contacts` corrects gaps
   double mm_per_unit_;
   std::optional<PartFollower> follower_;  ///< empty if there are no parts besides the skin
 };

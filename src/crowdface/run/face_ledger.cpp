@@ -62,7 +62,7 @@ Json to_json(const SkinDefects& skin) {
 
 /// Parses the output of `to_json`. The caller has verified the checksum of the ledger line, so an
 /// exception means that another version of the program wrote the line.
-SkinDefects noted_skin(const Json& json) {
+SkinDefects parse_skin_defects(const Json& json) {
   SkinDefects skin;
   skin.local.compared_triangle_count = json.at("compared").get<Index>();
   skin.local.flipped_triangle_count = json.at("flipped").get<Index>();
@@ -75,7 +75,7 @@ SkinDefects noted_skin(const Json& json) {
 
 /// Returns the number of blend shapes that are transferred to each face: 0 unless a mesh format or
 /// the gallery shows shapes.
-std::size_t carried_shapes(const Job& job) {
+std::size_t transferred_shape_count(const Job& job) {
   const bool is_carried =
       has_gallery(job.config) || any_format(job.config.output.meshes, [](const auto& format) {
         return format.shapes != DataStorage::kNowhere;
@@ -92,7 +92,7 @@ FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& list
       lists_(lists),
       recorded_(std::move(recorded)),
       judges_skin_(skin_is_judged(job.config, job.inputs)),
-      shape_count_(carried_shapes(job)),
+      shape_count_(transferred_shape_count(job)),
       common_digest_(digest_of_common(job)) {}
 
 /// The face's ledger entry: its key, its file names, and the hashes in `result`, if any.
@@ -127,7 +127,7 @@ std::optional<FaceResult> FaceLedger::recorded_result(const FacePlan& face) cons
   try {
     if (judges_skin_ || shape_count_ > 0) {
       const Json note = Json::parse(entry->note);
-      if (judges_skin_) result.skin_defects = noted_skin(note);
+      if (judges_skin_) result.skin_defects = parse_skin_defects(note);
       if (shape_count_ > 0)
         result.skin_intersections = note.at("crossing").get<std::vector<Index>>();
       if (result.skin_intersections.size() != shape_count_) return std::nullopt;

@@ -54,7 +54,7 @@ std::uint64_t render_bytes(const Config& config, const Inputs& inputs) {
 }
 
 /// Memory, in bytes, of the fitted smoothing levels that are not memory-mapped.
-std::uint64_t level_bytes(const Prepared& prepared) {
+std::uint64_t level_bytes(const PreparedHeads& prepared) {
   std::uint64_t bytes = 0;
   for (const StoredLevels& levels : prepared.levels) {
     if (!levels.mapped_file) bytes += levels.fields.quantized_values.size_bytes();
@@ -176,7 +176,7 @@ void refuse_too_little_memory(const Config& config, const Inputs& inputs,
   if (least > memory_bytes) refuse_memory(concat("more than ", format_bytes(least)), memory_bytes);
 }
 
-FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
+FaceStages::FaceStages(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                        const FaceBuilder& builder, const FaceTextures& textures,
                        const FaceAttachments& attachments, const FaceShapes& shapes,
                        const std::vector<FacePlan>& crowd, std::uint64_t memory_bytes)
@@ -190,16 +190,18 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
                               level_bytes(prepared) + encoders_.memory_bytes() +
                               shapes.memory_bytes() + attachments.memory_bytes() +
                               placement_memory_bytes(config, inputs, crowd);
-  std::uint64_t of_thread =
+  std::uint64_t bytes_per_thread =
       encoders_.encoding_memory_bytes() + attachments.placement_memory_bytes();
   // Each thread holds the vertex colours of a face twice: as bytes, and as floats for rendering.
-  if (!inputs.vertex_colours.empty()) of_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
+  if (!inputs.vertex_colours.empty())
+    bytes_per_thread += vertex_count(inputs) * 3 * (1 + sizeof(float));
   if (textures_.has_textures()) {
     fixed_bytes += textures_.memory_bytes();
-    of_thread += textures_.blend_bytes();
+    bytes_per_thread += textures_.blend_bytes();
     if (config.output.contact_sheet) {
-      of_thread += FaceTextureSet::memory_bytes(inputs.textures, inputs.other_textures,
-                                                max_rendered_texels(*config.output.contact_sheet));
+      bytes_per_thread +=
+          FaceTextureSet::memory_bytes(inputs.textures, inputs.other_textures,
+                                       max_rendered_texels(*config.output.contact_sheet));
     }
   }
   if (skin_is_judged(config, inputs)) {
@@ -207,13 +209,14 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
     for (const FacePlan& face : crowd) targets.insert(face.recipe.target);
     check_.emplace(skin_check(config, inputs, targets));
     fixed_bytes += check_->memory_bytes();
-    of_thread += check_->comparison_memory_bytes();
+    bytes_per_thread += check_->comparison_memory_bytes();
   }
-  const std::uint64_t of_threads = static_cast<std::uint64_t>(thread_count()) * of_thread;
-  max_waiting_bytes_ = std::min(of_threads, FaceWriter::kMinWaitingBytes);
+  const std::uint64_t bytes_of_threads =
+      static_cast<std::uint64_t>(thread_count()) * bytes_per_thread;
+  max_waiting_bytes_ = std::min(bytes_of_threads, FaceWriter::kMinWaitingBytes);
   // Encoded files of up to `max_waiting_bytes_` wait in the queue. The batch that is being written
   // may have the same size.
-  fixed_bytes += of_threads + 2 * max_waiting_bytes_;
+  fixed_bytes += bytes_of_threads + 2 * max_waiting_bytes_;
   const std::uint64_t one_face = builder.memory_bytes(1);
   faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory_bytes);
   // If memory is left, enlarge the queue of encoded files: a long queue keeps the disk busy while

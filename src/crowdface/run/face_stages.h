@@ -35,7 +35,7 @@ class FaceStages {
   /// \param memory_bytes  maximum memory of the whole process, in bytes; determines how many faces
   ///                are blended in one batch
   /// \throws UsageError if `memory_bytes` is too small for blending one face at a time.
-  FaceStages(const Config& config, const Inputs& inputs, const Prepared& prepared,
+  FaceStages(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
              const FaceBuilder& builder, const FaceTextures& textures,
              const FaceAttachments& attachments, const FaceShapes& shapes,
              const std::vector<FacePlan>& crowd, std::uint64_t memory_bytes);

@@ -17,7 +17,7 @@ namespace {
 /// The smoothing trajectories of all heads at some vertices, computed from the same smoothing
 /// levels as blending.
 std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inputs,
-                                        const Prepared& prepared, const FaceSamples& samples) {
+                                        const PreparedHeads& prepared, const FaceSamples& samples) {
   const std::vector<std::uint64_t> levels = stored_smoothing_levels(inputs.max_level);
   const std::vector<HeadSmoothing> fitted =
       prepared.filter ? std::vector<HeadSmoothing>() : head_levels(config, prepared);
@@ -50,7 +50,7 @@ std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inpu
   return trajectories;
 }
 
-SampledHeads heads_at(const Config& config, const Inputs& inputs, const Prepared& prepared,
+SampledHeads heads_at(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                       const FaceSamples& samples) {
   const FaceSamples traced = inputs.mirror_map == nullptr
                                  ? samples
@@ -99,7 +99,7 @@ HeadLandmarks needed_landmarks(HeadLandmarks landmarks, const std::vector<std::s
 
 }  // namespace
 
-FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepared& prepared,
+FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                        const HeadLandmarks& landmarks, std::vector<std::size_t> traits)
     : trait_indices_(std::move(traits)),
       landmarks_(needed_landmarks(landmarks, trait_indices_)),
@@ -130,13 +130,13 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
   }
   measurer_.emplace(heads_at(config, inputs, prepared, few), std::move(rows),
                     measure_heads(config, inputs, landmarks), [this](const Recipe& recipe) {
-                      return exact_landmarks(recipe, Neck::kAsBlended);
+                      return exact_landmarks(recipe, NeckState::kAsBlended);
                     });
 }
 
 /// Applies the steps of FaceBuilder to the vertices `samples_` only: blending and asymmetry,
 /// contacts, pose, mirroring, and the bend at the neck.
-Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
+Positions FaceTraits::exact_landmarks(const Recipe& recipe, NeckState neck) const {
   Recipe plain = recipe;
   plain.mirrored = false;
   const Positions at = sample_face(heads_, plain) / mm_per_unit_;
@@ -146,11 +146,11 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, Neck neck) const {
     face.row(samples_[s]) = at.row(static_cast<Index>(s));
   }
   builder_.correct_contacts(plain, face);
-  if (const auto turn = neck == Neck::kBent ? builder_.motion_to_body(recipe) : std::nullopt) {
+  if (const auto turn = neck == NeckState::kBent ? builder_.motion_to_body(recipe) : std::nullopt) {
     for (const std::uint32_t v : samples_) face.row(v) = turn->apply(row3(face, v)).transpose();
   }
   if (recipe.mirrored) mirror_landmark_vertices(face);
-  if (neck_ != nullptr && neck == Neck::kBent) neck_->seam.bend_to_seam(face);
+  if (neck_ != nullptr && neck == NeckState::kBent) neck_->seam.bend_to_seam(face);
   return landmarks_.landmark_positions(face, mm_per_unit_);
 }
 
@@ -175,7 +175,7 @@ void FaceTraits::mirror_landmark_vertices(Positions& face) const {
 }
 
 std::vector<double> FaceTraits::values(const Recipe& recipe) const {
-  const Positions points = exact_landmarks(recipe, Neck::kBent);
+  const Positions points = exact_landmarks(recipe, NeckState::kBent);
   std::vector<double> values;
   for (const std::size_t trait : trait_indices_)
     values.push_back(measure(measurements()[trait], points));
@@ -183,7 +183,7 @@ std::vector<double> FaceTraits::values(const Recipe& recipe) const {
 }
 
 std::unique_ptr<const FaceTraits> face_traits_of_config(const Config& config, const Inputs& inputs,
-                                                        const Prepared& prepared) {
+                                                        const PreparedHeads& prepared) {
   std::vector<std::size_t> traits = config.named_traits();
   if (traits.empty()) return nullptr;
   const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
@@ -192,7 +192,7 @@ std::unique_ptr<const FaceTraits> face_traits_of_config(const Config& config, co
 }
 
 std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, const Inputs& inputs,
-                                                        const Prepared& prepared) {
+                                                        const PreparedHeads& prepared) {
   const HeadLandmarks landmarks = find_head_landmarks(config, inputs);
   require_available_traits(config, landmarks);
   std::vector<std::size_t> available;

@@ -19,7 +19,7 @@ class FaceTraits {
  public:
   /// \param traits  indices of the measurements; all of these must be available on the heads
   /// \param config, inputs, prepared  must outlive this object
-  FaceTraits(const Config& config, const Inputs& inputs, const Prepared& prepared,
+  FaceTraits(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
              const HeadLandmarks& landmarks, std::vector<std::size_t> traits);
   FaceTraits(const FaceTraits&) = delete;
   FaceTraits& operator=(const FaceTraits&) = delete;
@@ -33,9 +33,9 @@ class FaceTraits {
   /// The mesh to measure. kBent: the face as written, moved onto the body and bent at the neck to
   /// fit it. kAsBlended: the face before these steps. Casting uses kAsBlended, so that a body does
   /// not change the recipes.
-  enum class Neck { kBent, kAsBlended };
+  enum class NeckState { kBent, kAsBlended };
   /// Computes the positions that the landmarks have on the selected mesh of the face.
-  Positions exact_landmarks(const Recipe& recipe, Neck neck) const;
+  Positions exact_landmarks(const Recipe& recipe, NeckState neck) const;
   /// Replaces the positions of the vertices `landmark_vertices_` by their positions on the mirrored
   /// face.
   void mirror_landmark_vertices(Positions& face) const;
@@ -59,13 +59,13 @@ class FaceTraits {
 /// Returns an object that measures the traits that the config names; null if the config names none.
 /// \throws UsageError if one of these traits is not available on the heads.
 std::unique_ptr<const FaceTraits> face_traits_of_config(const Config& config, const Inputs& inputs,
-                                                        const Prepared& prepared);
+                                                        const PreparedHeads& prepared);
 
 /// Returns an object that measures all traits that are available on the heads; null if no trait is
 /// available.
 /// \throws UsageError if the config names a trait that is not available.
 std::unique_ptr<const FaceTraits> available_face_traits(const Config& config, const Inputs& inputs,
-                                                        const Prepared& prepared);
+                                                        const PreparedHeads& prepared);
 
 /// Records the values of all traits in the faces of a crowd.
 void measure_faces(const FaceTraits& traits, std::vector<FacePlan>& crowd);

@@ -67,7 +67,7 @@ class CrowdLog {
 
 /// The plan of a crowd, and the objects that build the faces of this crowd.
 struct PlannedJob {
-  PlannedJob(const Job& job, Prepared heads)
+  PlannedJob(const Job& job, PreparedHeads heads)
       : prepared(std::move(heads)),
         builder([&job, this] {
           return std::make_unique<FaceBuilder>(job.config, job.inputs, prepared);
@@ -78,7 +78,7 @@ struct PlannedJob {
         }),
         shapes([&job] { return std::make_unique<FaceShapes>(job.config, job.inputs); }) {}
 
-  Prepared prepared;
+  PreparedHeads prepared;
   Lazy<FaceBuilder> builder;
   Lazy<FaceTextures> textures;
   Lazy<FaceAttachments> attachments;
@@ -104,7 +104,7 @@ struct PlannedJob {
   }
 };
 
-Prepared prepare_for(const Job& job, const GenerateOptions& options, StageSeconds& stages) {
+PreparedHeads prepare_for(const Job& job, const GenerateOptions& options, StageSeconds& stages) {
   return timed(stages, "prepare",
                [&] { return prepare(job.config, job.inputs, job.smoothing, options.cache); });
 }
@@ -210,8 +210,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
   const std::vector<FacePlan>& crowd = crowd_plan.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard),
                 relevant_ledgers(directory, options.shard));
-  ledger.write(directory.relative(directory.config()),
-               config_text_in_folder(job.config, directory));
+  ledger.write(directory.relative(directory.config()), stored_config_text(job.config, directory));
   const auto write = [&](const fs::path& path, const TextPieces& text) {
     return ledger.write(directory.relative(path), text);
   };

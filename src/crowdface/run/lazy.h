@@ -14,15 +14,15 @@ class Lazy {
   explicit Lazy(std::function<std::unique_ptr<T>()> make) : make_(std::move(make)) {}
 
   T& get() {
-    if (!made_) made_ = make_();
-    return *made_;
+    if (!value_) value_ = make_();
+    return *value_;
   }
   /// Frees the value; the next call of `get` makes it again.
-  void release() { made_.reset(); }
+  void release() { value_.reset(); }
 
  private:
   std::function<std::unique_ptr<T>()> make_;
-  std::unique_ptr<T> made_;
+  std::unique_ptr<T> value_;
 };
 
 }  // namespace crowdface

@@ -89,8 +89,8 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
   return levels;
 }
 
-GivenNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
-                             const DetailLevel* level) {
+GivenNormals normals_at_neck_ring(const Inputs& inputs, const Attachment& item,
+                                  const DetailLevel* level) {
   if (!inputs.heads_on_body || !inputs.heads_on_body->is_body(item)) return {};
   GivenNormals fixed{inputs.heads_on_body->body_rim, inputs.heads_on_body->seam.normals};
   if (level == nullptr) return fixed;

@@ -80,7 +80,7 @@ std::vector<MeshLevel> mesh_levels(const Inputs& inputs, std::span<const FacePla
 /// Returns the vertex normals of the body at the neck ring. All faces have the same normals there.
 /// Returns an empty result if `item` is not the body.
 /// \param level  the level of detail of the body; null: the whole body
-GivenNormals normals_at_ring(const Inputs& inputs, const Attachment& item,
-                             const DetailLevel* level);
+GivenNormals normals_at_neck_ring(const Inputs& inputs, const Attachment& item,
+                                  const DetailLevel* level);
 
 }  // namespace crowdface

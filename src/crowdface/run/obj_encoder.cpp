@@ -121,7 +121,7 @@ MeshEncoder whole_encoder(const MeshSource& source) {
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct LevelTemplates {
     std::vector<PlainObjTemplate> obj;
-    std::map<Index, std::size_t> of_target;  ///< for each target head: index into `obj`
+    std::map<Index, std::size_t> template_of_target;  ///< for each target head: index into `obj`
   };
   const Inputs& inputs = source.inputs;
   const auto templates = std::make_shared<LevelTemplates>();
@@ -133,7 +133,7 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
     const auto same = std::find_if(known.begin(), known.end(), [&](const auto& others) {
       return std::equal(others.begin(), others.end(), ranges.begin(), ranges.end(), is_same);
     });
-    templates->of_target[target] = static_cast<std::size_t>(same - known.begin());
+    templates->template_of_target[target] = static_cast<std::size_t>(same - known.begin());
     if (same != known.end()) continue;
     known.push_back(ranges);
     templates->obj.emplace_back(level.topology, level.uvs, ranges,
@@ -141,19 +141,19 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   }
   const auto [memory, encode] = sizes_of(
       templates->obj, [](const auto& each) -> auto& { return each; });
-  return {[templates, &inputs](const FaceMesh& face) {
-            std::string head;
-            for (const std::string& library :
-                 inputs.head_files[static_cast<std::size_t>(face.target)].material_libraries) {
-              head += concat("mtllib ", library, '\n');
-            }
-            EncodedFile plain = templates->obj[templates->of_target.at(face.target)].encode(
-                concat(head, "o ", face.id, '\n'), *face.positions, *face.normals,
-                face.display_name);
-            if (face.colours->rows() == 0) return plain;
-            return EncodedFile(with_colours(plain.text(), *face.colours));
-          },
-          memory, inputs.vertex_colours.empty() ? encode : 3 * encode + 2 * memory};
+  return {
+      [templates, &inputs](const FaceMesh& face) {
+        std::string head;
+        for (const std::string& library :
+             inputs.head_files[static_cast<std::size_t>(face.target)].material_libraries) {
+          head += concat("mtllib ", library, '\n');
+        }
+        EncodedFile plain = templates->obj[templates->template_of_target.at(face.target)].encode(
+            concat(head, "o ", face.id, '\n'), *face.positions, *face.normals, face.display_name);
+        if (face.colours->rows() == 0) return plain;
+        return EncodedFile(with_colours(plain.text(), *face.colours));
+      },
+      memory, inputs.vertex_colours.empty() ? encode : 3 * encode + 2 * memory};
 }
 
 }  // namespace

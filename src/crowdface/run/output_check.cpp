@@ -40,7 +40,7 @@ void refuse_to_write_over_config(const Config& config, const CrowdDirectory& dir
   throw_if_system_error(directory.config(), error);
   if (!is_same) return;
   if (path_exists(directory.plan())) return;  // the config belongs to a crowd
-  if (read_file(config.file) == config_text_in_folder(config, directory)) return;
+  if (read_file(config.file) == stored_config_text(config, directory)) return;
   throw UsageError(concat(config.file.string(),
                           ": the crowd's own config would overwrite this file; choose another "
                           "folder with --out, or rename the file"));
@@ -86,7 +86,7 @@ void check_output(const Job& job, Replace replace) {
   refuse_other_heads(job.settings, directory, replace);
 }
 
-void open_output(const Job& job, Replace replace) {
+void prepare_output_folder(const Job& job, Replace replace) {
   const CrowdDirectory directory = crowd_directory_of(job.config);
   refuse_other_heads(job.settings, directory, replace);
   open_crowd_directory(directory, crowd_config(job.config, directory), replace);

@@ -14,7 +14,7 @@ void check_output(const Job& job, Replace replace);
 /// Prepares the folder for the job's crowd. The caller must hold the folder's lock. Repeats those
 /// checks of check_output whose result may have changed because of another run.
 /// \throws UsageError, CannotCreate, IoError.
-void open_output(const Job& job, Replace replace);
+void prepare_output_folder(const Job& job, Replace replace);
 
 /// Refuses to replace a crowd that was cast from other heads or masks than this job's, because the
 /// run could not make that crowd again.

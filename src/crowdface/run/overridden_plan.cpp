@@ -23,7 +23,7 @@ class NamedFaces {
     if (!contains(faces_, text)) faces_.push_back(text);
   }
   /// Adds a warning of the form "2 faces …: mob_0001 (…), mob_0002 (…)" if there are any faces.
-  void tell(const char* what, std::vector<std::string>& warnings) const {
+  void add_warning(const char* what, std::vector<std::string>& warnings) const {
     constexpr std::size_t kMaxNamed = 8;
     if (faces_.empty()) return;
     std::vector<std::string> named = faces_;
@@ -58,12 +58,13 @@ class OverriddenPlan {
         find_replaced(change);
       }
     }
-    not_for_head_.tell(" with attachments that are not for the head, by tags or without",
-                       warnings_);
-    without_tint_.tell(" with a hair colour that does not show, because nothing worn has a tint",
-                       warnings_);
-    not_in_group_.tell(" on a target outside the group, because lock keeps the target", warnings_);
-    replaced_.tell(" of which a review replaces changes of the config", warnings_);
+    not_for_head_.add_warning(" with attachments that are not for the head, by tags or without",
+                              warnings_);
+    without_tint_.add_warning(
+        " with a hair colour that does not show, because nothing worn has a tint", warnings_);
+    not_in_group_.add_warning(" on a target outside the group, because lock keeps the target",
+                              warnings_);
+    replaced_.add_warning(" of which a review replaces changes of the config", warnings_);
     return std::move(warnings_);
   }
 

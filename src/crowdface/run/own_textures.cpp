@@ -72,7 +72,7 @@ std::string encode_picture(const BlendedPicture& picture, const PictureName& nam
 constexpr std::uint64_t kChannels = 3;  // maximum number of channels of a texture
 
 /// Maximum size of an encoded image, in bytes per texel and channel.
-std::uint64_t bytes_a_channel(const PictureName& picture, TextureFormat format) {
+std::uint64_t bytes_per_channel(const PictureName& picture, TextureFormat format) {
   if (format == TextureFormat::kExr) return sizeof(float);
   return picture.all_files_have_8_bit_values || picture.kind == TextureKind::kColour
              ? 1
@@ -220,7 +220,7 @@ std::uint64_t OwnTextures::encoding_memory_bytes() const {
           static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
       const PictureName& name = pictures_[picture++];
       for (const TextureFormat format : formats_of(config_, name)) {
-        bytes += kChannels * texels * bytes_a_channel(name, format);
+        bytes += kChannels * texels * bytes_per_channel(name, format);
       }
       largest = std::max(largest, texels);
     }

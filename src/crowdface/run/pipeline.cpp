@@ -176,7 +176,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
   ConfigReading reading = read(overrides, problems);
   if (reading.is_complete) continue_crowd(reading.config, overrides.keep_reviews_of_other_configs);
   const CrowdDirectory directory{reading.config.output.directory};
-  const std::vector<std::filesystem::path> kept = directory.kept_reviews();
+  const std::vector<std::filesystem::path> kept = directory.stored_reviews();
   if (!reading.is_complete || kept.empty()) return reading;
   const auto read_again = [&] {
     reading = read(overrides, problems);
@@ -186,7 +186,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
   if (overrides.without_reviews) {
     overrides.ignored_reviews_folder = directory.reviews();
     read_again();
-    reading.config.review.ignores_kept_reviews = true;
+    reading.config.review.ignores_stored_reviews = true;
     return reading;
   }
   std::vector<std::string> differences;
@@ -206,7 +206,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
                        "differs in ", join(differences), "), which are not applied"));
     return reading;
   }
-  overrides.kept_reviews = kept;
+  overrides.stored_reviews = kept;
   read_again();
   if (!differences.empty() && !reading.is_complete) {
     problems.add(ExitCode::kUsage,
@@ -221,7 +221,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
 /// accepted them.
 void check_reviews(const Config& config, Problems& problems) {
   const Config::Reviews& reviews = config.review;
-  const auto kept = CrowdDirectory{config.output.directory}.kept_reviews();
+  const auto kept = CrowdDirectory{config.output.directory}.stored_reviews();
   for (std::size_t i = kept.size(); i < reviews.reviews.size(); ++i) {
     const std::uint64_t after = reviews.reviews[i].review_count_seen_by_reviewer.value_or(0);
     if (after <= i) continue;
@@ -301,7 +301,7 @@ CrowdDirectory crowd_directory_of(const Config& config) {
   return {config.output.directory, config.output.faces_per_folder.value_or(0)};
 }
 
-std::string config_text_in_folder(Config config, const CrowdDirectory& directory) {
+std::string stored_config_text(Config config, const CrowdDirectory& directory) {
   for (std::size_t i = 0; i < config.review.files.size(); ++i) {
     config.review.files[i] = directory.review(i + 1);
   }
@@ -309,10 +309,10 @@ std::string config_text_in_folder(Config config, const CrowdDirectory& directory
 }
 
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory) {
-  std::string text = config_text_in_folder(config, directory);
+  std::string text = stored_config_text(config, directory);
   return {text, config.review.texts,
           [text](const std::string& other) { return config_differences(other, text); },
-          config.review.original_texts, config.review.ignores_kept_reviews};
+          config.review.original_texts, config.review.ignores_stored_reviews};
 }
 
 SmoothingLevelScale level_scale(const Config& config, const Inputs& inputs) {

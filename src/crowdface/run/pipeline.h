@@ -46,7 +46,7 @@ CrowdDirectory crowd_directory_of(const Config& config);
 
 /// Returns the text of the config.yaml that a run writes into the crowd's folder. In this text, the
 /// paths of the review files are the paths of their copies in the crowd's folder.
-std::string config_text_in_folder(Config config, const CrowdDirectory& directory);
+std::string stored_config_text(Config config, const CrowdDirectory& directory);
 /// Returns the config for comparison with the config.yaml that is already in the crowd's folder.
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 

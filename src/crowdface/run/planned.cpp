@@ -23,7 +23,7 @@ namespace {
 Digest key_of(const Job& job, const CrowdDirectory& directory) {
   Hasher hasher;
   hasher.add(kVersion)
-      .add(kCastVersion)
+      .add(kPlanVersion)
       .add(plan_settings_yaml(job.config, directory.root))
       .add(job.settings);
   // The placement of heads on the body changes measurements, which the plan contains.
@@ -134,7 +134,7 @@ std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& direct
 }
 
 CrowdPlan restore_crowd_plan(const Job& job, const CrowdDirectory& directory,
-                             const Prepared& prepared, std::vector<FacePlan> crowd,
+                             const PreparedHeads& prepared, std::vector<FacePlan> crowd,
                              const std::filesystem::path& cache) {
   const FaceSpace space = casting_space(job.config, job.inputs, prepared, cache).face_space;
   const CastingOptions casting = casting_options(job.config, job.inputs, space.head_distances());

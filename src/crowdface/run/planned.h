@@ -56,7 +56,7 @@ std::vector<FacePlan> read_founders(const Job& job, const CrowdDirectory& direct
 /// stores.
 /// \param cache  see casting_space
 CrowdPlan restore_crowd_plan(const Job& job, const CrowdDirectory& directory,
-                             const Prepared& prepared, std::vector<FacePlan> crowd,
+                             const PreparedHeads& prepared, std::vector<FacePlan> crowd,
                              const std::filesystem::path& cache);
 
 }  // namespace crowdface

@@ -56,7 +56,7 @@ Json topology_to_json(const Inputs& inputs) {
 }
 
 /// Returns the approximation errors of each head's fitted smoothing levels.
-Json levels_to_json(const Job& job, const Prepared& prepared) {
+Json levels_to_json(const Job& job, const PreparedHeads& prepared) {
   const double mm = mm_per(job.config.faces.units);
   const auto fine = [](double value) { return std::round(value * 1e7) / 1e7; };
   Json heads = Json::array();
@@ -108,7 +108,7 @@ Json lods_to_json(const Inputs& inputs) {
   return lods;
 }
 
-Json smoothing_to_json(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan) {
+Json smoothing_to_json(const Job& job, const PreparedHeads& prepared, const CrowdPlan& crowd_plan) {
   const Inputs& inputs = job.inputs;
   Json smoothing = {
       {"max_iterations", inputs.max_level},
@@ -205,7 +205,7 @@ Json neck_to_json(const Job& job) {
 }
 
 /// The report without the list of faces.
-Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
+Json summary(const Job& job, const PreparedHeads& prepared, const CrowdPlan& crowd_plan,
              const Json& casting, const std::vector<FaceResult>& faces, std::size_t sheets,
              const std::vector<std::string>& warnings) {
   Json report;
@@ -238,7 +238,7 @@ Json summary(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_pl
 
 }  // namespace
 
-TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
+TextPieces report_text(const Job& job, const PreparedHeads& prepared, const CrowdPlan& crowd_plan,
                        const Json& casting, const FaceFileLists& lists,
                        const std::vector<FaceResult>& faces,
                        const std::vector<Eigen::Array3d>& neck_colours, std::size_t sheets,

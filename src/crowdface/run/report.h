@@ -24,7 +24,7 @@ namespace crowdface {
 /// \param faces    results, one per face of the crowd
 /// \param lists    lists the files of each face
 /// \param neck_colours  see table_text
-TextPieces report_text(const Job& job, const Prepared& prepared, const CrowdPlan& crowd_plan,
+TextPieces report_text(const Job& job, const PreparedHeads& prepared, const CrowdPlan& crowd_plan,
                        const nlohmann::ordered_json& casting, const FaceFileLists& lists,
                        const std::vector<FaceResult>& faces,
                        const std::vector<Eigen::Array3d>& neck_colours, std::size_t sheets,
@@ -53,8 +53,8 @@ class StageTimer {
  public:
   explicit StageTimer(std::atomic<double>& stage_seconds) : stage_seconds_(stage_seconds) {}
   ~StageTimer() {
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
-    stage_seconds_ += took.count();
+    const std::chrono::duration<double> lifetime = std::chrono::steady_clock::now() - start_;
+    stage_seconds_ += lifetime.count();
   }
   StageTimer(const StageTimer&) = delete;
   StageTimer& operator=(const StageTimer&) = delete;

@@ -17,7 +17,7 @@ std::uint64_t rounded_estimate(double count) {
   return static_cast<std::uint64_t>(std::round(count / unit) * unit);
 }
 
-std::string asked_of(const Config& config, Reason reason) {
+std::string asked_of(const Config& config, RejectionReason reason) {
   return describe(reason, config.diversity, config.believability);
 }
 
@@ -28,7 +28,7 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
   std::vector<std::string> advice;
   const bool grows = config.crowd.count > *config.crowd.existing_face_count;
   const bool is_first_fit = config.diversity.mode == DiversityOptions::Mode::kFirstFit;
-  if (remedy.binding_constraint == Reason::kMinDistance && is_first_fit) {
+  if (remedy.binding_constraint == RejectionReason::kMinDistance && is_first_fit) {
     const std::string smaller =
         remedy.largest_distance_mm
             ? concat("diversity.min_distance: ", *remedy.largest_distance_mm, " mm",
@@ -38,7 +38,7 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
         smaller, shortfall.unchangeable_face_id.empty() ? "" : ", and the change in a review",
         "; the ", *config.crowd.existing_face_count, " faces that exist stay as they are, ",
         "only new, redrawn and changed faces come nearer"));
-  } else if (remedy.binding_constraint == Reason::kRejected) {
+  } else if (remedy.binding_constraint == RejectionReason::kRejected) {
     advice.emplace_back(
         "a change of the face in place of the mark (group, lock, traits or variant_of): changes do "
         "not keep this distance");
@@ -65,14 +65,14 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy,
                             " faces were cast in a trial: ", *remedy.largest_distance_mm, " mm",
                             all ? "" : "; more faces need a smaller value"));
   }
-  if (remedy.binding_constraint == Reason::kMinDistance &&
+  if (remedy.binding_constraint == RejectionReason::kMinDistance &&
       config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
     advice.emplace_back("mode: spread fits more faces at the same distance");
   }
   for (const std::string_view line : constraint_of(remedy.binding_constraint).advice) {
     advice.emplace_back(line);
   }
-  if (remedy.binding_constraint == Reason::kFamily &&
+  if (remedy.binding_constraint == RejectionReason::kFamily &&
       std::ranges::any_of(config.families, [](const auto& family) {
         return family.age != Range{0, 0};
       })) {
@@ -97,10 +97,10 @@ std::string few_heads(const Config& config, const Group& group) {
 
 }  // namespace
 
-void ScarcityWarning::on_face_accepted(const Rejections& rejected) {
+void ScarcityWarning::on_face_accepted(const RejectionCounts& rejected) {
   ++cast_face_count_;
   if (has_warned_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
-  forecast_.add(rejected.of(Reason::kMinDistance),
+  forecast_.add(rejected.of(RejectionReason::kMinDistance),
                 static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_face_count_)));
   const auto faces = forecast_.estimated_face_count();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);

@@ -19,7 +19,7 @@ class ScarcityWarning {
   /// \param casting  must outlive this object.
   explicit ScarcityWarning(const CastingOptions& casting) : casting_(casting) {}
   /// \param rejected  numbers of candidates that were rejected before this face was accepted
-  void on_face_accepted(const Rejections& rejected);
+  void on_face_accepted(const RejectionCounts& rejected);
 
  private:
   const CastingOptions& casting_;

@@ -55,9 +55,9 @@ double face_seconds(const Config& config, const Inputs& inputs) {
 }
 
 /// Returns the smallest number of tasks, 1 … `most`, with which each task takes at most
-/// `seconds_a_task`.
-std::uint64_t tasks_for(double seconds, double seconds_a_task, std::uint64_t most) {
-  const double tasks = std::min(std::ceil(seconds / seconds_a_task), static_cast<double>(most));
+/// `seconds_per_task`.
+std::uint64_t tasks_for(double seconds, double seconds_per_task, std::uint64_t most) {
+  const double tasks = std::min(std::ceil(seconds / seconds_per_task), static_cast<double>(most));
   return std::max<std::uint64_t>(static_cast<std::uint64_t>(tasks), 1);
 }
 

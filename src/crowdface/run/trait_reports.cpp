@@ -87,7 +87,7 @@ std::vector<std::string> population_warnings(const std::vector<TraitReport>& rep
 }
 
 std::string format_trait_ranges(const Config& config, const Inputs& inputs,
-                                const Prepared& prepared, const CastingOptions& casting) {
+                                const PreparedHeads& prepared, const CastingOptions& casting) {
   const auto traits = available_face_traits(config, inputs, prepared);
   if (!traits) return {};
   const std::vector<Positions> drawn = sampled_landmarks(casting, traits->measurer());

@@ -39,6 +39,6 @@ std::vector<std::string> population_warnings(const std::vector<TraitReport>& rep
 /// A text table with, for each measurement, the range of the values of faces that are made from
 /// these heads.
 std::string format_trait_ranges(const Config& config, const Inputs& inputs,
-                                const Prepared& prepared, const CastingOptions& casting);
+                                const PreparedHeads& prepared, const CastingOptions& casting);
 
 }  // namespace crowdface

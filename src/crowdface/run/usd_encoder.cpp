@@ -55,7 +55,7 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource
     for (const std::string& name : named.names) {
       look.materials.push_back({name, {}});
       look.materials.back().surface.colour_map =
-          concat("./", kBlendedFolder, '/', UsdaPart::kLookName, ".body.png");
+          concat("./", kBlendedFolder, '/', UsdaPart::kLookPlaceholder, ".body.png");
     }
     return look;
   }
@@ -63,7 +63,7 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource
   const auto file_of = [&](const fs::path& from) {
     const auto file = std::ranges::find(item.materials.files, from, &MaterialFile::source);
     fs::path folder = fs::path(shared) / attachment_folder(item.name);
-    if (item.tint != Tint::kNone) folder /= UsdaPart::kLookName;
+    if (item.tint != Tint::kNone) folder /= UsdaPart::kLookPlaceholder;
     return (folder / file->destination).generic_string();
   };
   PrimLook look{std::move(prim), {}, std::move(named.material_of_face)};

@@ -29,9 +29,9 @@ constexpr std::string_view kPageHead = R"(<!doctype html>
 /// The content of one scan's section on the page.
 struct ScanRow {
   std::string name, picture;
-  std::string worst;       ///< the face feature that agrees least with the scan
-  double agreement = 1;    ///< agreement of the feature `worst` with the scan
-  double distance_mm = 0;  ///< 95th percentile of the distance between skin and scan
+  std::string worst_feature;  ///< the face feature that agrees least with the scan
+  double agreement = 1;       ///< agreement of the feature `worst_feature` with the scan
+  double distance_mm = 0;     ///< 95th percentile of the distance between skin and scan
   bool has_head = false;
   std::vector<std::string> warnings;
 
@@ -60,7 +60,7 @@ std::string escaped(std::string_view text) {
 }
 
 /// Percent-encodes a file name for use as a relative URL.
-std::string address(std::string_view name) {
+std::string percent_encoded(std::string_view name) {
   constexpr std::string_view kDigits = "0123456789ABCDEF";
   std::string text;
   for (const char c : name) {
@@ -91,7 +91,7 @@ ScanRow row_of(const WrappedScan& scan) {
       for (const auto& [name, agreement] : report["features"].items()) {
         if (agreement.get<double>() >= row.agreement) continue;
         row.agreement = agreement.get<double>();
-        row.worst = name;
+        row.worst_feature = name;
       }
     }
   } catch (const nlohmann::ordered_json::exception&) {
@@ -110,10 +110,10 @@ std::string wrap_page(const std::vector<WrappedScan>& scans) {
   for (const ScanRow& row : rows) {
     page += concat("<section>\n<h2>", escaped(row.name), "</h2>\n<p>");
     if (!row.has_head) page += "No head. ";
-    if (!row.worst.empty()) {
-      page += concat("Least agreement: ", escaped(row.worst), ", ", format_fixed(row.agreement, 2),
-                     ". 95 % of the skin within ", format_fixed(row.distance_mm, 2),
-                     " mm of the scan.");
+    if (!row.worst_feature.empty()) {
+      page += concat("Least agreement: ", escaped(row.worst_feature), ", ",
+                     format_fixed(row.agreement, 2), ". 95 % of the skin within ",
+                     format_fixed(row.distance_mm, 2), " mm of the scan.");
     }
     page += "</p>\n";
     if (!row.warnings.empty()) {
@@ -124,7 +124,8 @@ std::string wrap_page(const std::vector<WrappedScan>& scans) {
       page += "</ul>\n";
     }
     if (!row.picture.empty()) {
-      page += concat("<img loading=\"lazy\" alt=\"\" src=\"", address(row.picture), "\">\n");
+      page +=
+          concat("<img loading=\"lazy\" alt=\"\" src=\"", percent_encoded(row.picture), "\">\n");
     }
     page += "</section>\n";
   }

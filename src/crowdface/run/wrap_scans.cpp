@@ -284,7 +284,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
                                 "neither: an OBJ file names its texture in a material file"));
     }
     facts.share_without_scan = textures->write(result, scan, colours, task.textures);
-    head = textures->head_file(std::move(head), task.textures);
+    head = textures->with_material_lines(std::move(head), task.textures);
   }
   head.write(task.head);
   facts.mesh_digest = head.digest().hex();

@@ -44,14 +44,14 @@ std::vector<fs::path> TextureFiles::all_paths() const {
 WrapTextures::WrapTextures(const WrapOptions& options, const WrapInputs& inputs)
     : inputs_(inputs),
       options_{.removes_shading = options.removes_shading},
-      target_(inputs.file, inputs.wrap_template, inputs.texture_size) {
-  for (const std::string& warning : target_.warnings()) log_warning(warning);
+      bake_template_(inputs.file, inputs.wrap_template, inputs.texture_size) {
+  for (const std::string& warning : bake_template_.warnings()) log_warning(warning);
 }
 
 TextureFiles WrapTextures::files_of(const fs::path& head, const fs::path& reports) const {
   const std::string name = head.stem().string();
   TextureFiles files{head.parent_path() / (name + ".mtl"), {}, {}};
-  for (const PictureName& picture : target_.picture_names()) {
+  for (const PictureName& picture : bake_template_.picture_names()) {
     const std::string tile = std::to_string(picture.tile);
     files.map_files.push_back(head.parent_path() / map_name(name, "colour", picture, tile));
     files.mask_files.push_back(reports / map_name(name, "filled", picture, tile));
@@ -62,9 +62,9 @@ TextureFiles WrapTextures::files_of(const fs::path& head, const fs::path& report
 std::string WrapTextures::materials_text(const TextureFiles& files) const {
   const std::string name = files.material_file.stem().string();
   MergedMaterials::Replacements textures;
-  for (const auto& [material, picture] : target_.pictures_by_material()) {
+  for (const auto& [material, picture] : bake_template_.pictures_by_material()) {
     textures[TextureKind::kColour][material.empty() ? kSkinMaterial : material] =
-        map_name(name, "colour", target_.picture_names()[picture], kTileWord);
+        map_name(name, "colour", bake_template_.picture_names()[picture], kTileWord);
   }
   return MergedMaterials(inputs_.file.material_path(), inputs_.file.material_libraries)
       .text(textures);
@@ -78,7 +78,7 @@ void WrapTextures::copy_other_textures(const fs::path& folder) const {
   std::set<fs::path> kept;
   for (const auto& [kind, of_material] : named.paths_by_kind) {
     for (const auto& [material, path] : of_material) {
-      if (kind == TextureKind::kColour && target_.pictures_by_material().contains(material))
+      if (kind == TextureKind::kColour && bake_template_.pictures_by_material().contains(material))
         continue;
       kept.insert(path);
       for (const fs::path& tile : find_tiles(path)) kept.insert(tile);
@@ -98,7 +98,7 @@ double WrapTextures::write(const WrapResult& result, const Scan& scan, const Sca
   const Scan skin = keep_skin(scan);
   const ScanSurface surface(
       {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.file_triangle_indices});
-  const ScanBake bake(target_, result.positions, surface, colours, options_);
+  const ScanBake bake(bake_template_, result.positions, surface, colours, options_);
   double filled = 0;
   for (std::size_t p = 0; p < files.map_files.size(); ++p) {
     const BakedPicture picture = bake.bake_picture(p);
@@ -112,9 +112,10 @@ double WrapTextures::write(const WrapResult& result, const Scan& scan, const Sca
   return filled;
 }
 
-EncodedFile WrapTextures::head_file(EncodedFile plain, const TextureFiles& files) const {
+EncodedFile WrapTextures::with_material_lines(EncodedFile plain, const TextureFiles& files) const {
   std::string first = concat("mtllib ", files.material_file.filename().string());
-  if (target_.pictures_by_material().contains("")) first += concat("\nusemtl ", kSkinMaterial);
+  if (bake_template_.pictures_by_material().contains(""))
+    first += concat("\nusemtl ", kSkinMaterial);
   if (plain.replace_line("mtllib", first)) return plain;
   EncodedFile with_materials(first + '\n');
   for (const std::string_view piece : plain.pieces()) with_materials.add_without_copy(piece);

@@ -45,7 +45,7 @@ class WrapTextures {
   /// Adds the `mtllib` line, which names the head's material file, to the head's OBJ file. Also
   /// adds a `usemtl` line if the template's skin has no material.
   /// \param plain  the OBJ file as exported without baked textures
-  EncodedFile head_file(EncodedFile plain, const TextureFiles& files) const;
+  EncodedFile with_material_lines(EncodedFile plain, const TextureFiles& files) const;
 
  private:
   void copy_other_textures(const std::filesystem::path& folder) const;
@@ -53,7 +53,7 @@ class WrapTextures {
 
   const WrapInputs& inputs_;
   BakeOptions options_;
-  BakeTemplate target_;
+  BakeTemplate bake_template_;
 };
 
 /// Adds the hashes of the material files and textures that an OBJ scan names to `hasher`.

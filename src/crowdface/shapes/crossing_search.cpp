@@ -17,9 +17,9 @@ namespace crowdface {
 namespace {
 
 /// Two triangles that are at most kSheetRings edges apart are tested for intersection only if the
-/// cosine between their normals is at most kAlike, because only folded surface intersects itself.
+/// cosine between their normals is at most kSimilarNormalCosine, because only folded surface intersects itself.
 constexpr int kSheetRings = 3;
-constexpr float kAlike = 0.998F;
+constexpr float kSimilarNormalCosine = 0.998F;
 
 /// Upper limit of `max_distance` and `max_facing_distance`, in units of the mean diagonal of the
 /// leaves' bounding boxes. On a dense mesh, leaves are small; larger distances would give too many
@@ -200,9 +200,9 @@ std::vector<CrossingSearch::Pair> CrossingSearch::intersecting_pairs(
         (pair.always_tested_mask | pair.tested_if_normals_differ_mask) &
         overlap_mask(boxes.triangle_boxes[pair.first], boxes.triangle_boxes[pair.second]);
     if ((left & pair.tested_if_normals_differ_mask) != 0) {
-      left &=
-          pair.always_tested_mask | ~similar_normal_mask(boxes.leaf_normals[pair.first],
-                                                         boxes.leaf_normals[pair.second], kAlike);
+      left &= pair.always_tested_mask |
+              ~similar_normal_mask(boxes.leaf_normals[pair.first], boxes.leaf_normals[pair.second],
+                                   kSimilarNormalCosine);
     }
     for (; left != 0; left &= left - 1) {
       const auto bit = static_cast<std::size_t>(std::countr_zero(left));

@@ -28,8 +28,9 @@ constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
 
 /// Farthest-point sampling. Repeatedly adds the vertex that is farthest from the chosen vertices,
 /// until every vertex is within `spacing` of a chosen vertex.
-std::vector<std::uint32_t> spread_over(const Positions& positions,
-                                       std::span<const std::uint32_t> vertices, double spacing) {
+std::vector<std::uint32_t> farthest_points(const Positions& positions,
+                                           std::span<const std::uint32_t> vertices,
+                                           double spacing) {
   std::vector<double> nearest(vertices.size(), std::numeric_limits<double>::max());
   std::vector<std::uint32_t> chosen;
   for (std::size_t next = 0; nearest[next] > spacing;) {
@@ -62,7 +63,7 @@ FrameField::FrameField(const Positions& neutral, std::span<const std::uint32_t> 
       sampled_skin_(evenly_spaced_items(skin, kMaxSkin)),
       equal_weights_(sampled_skin_.size(), 1.0) {
   const auto chosen =
-      spread_over(neutral, evenly_spaced_items(skin, kMaxCandidates), kSpacing * extent);
+      farthest_points(neutral, evenly_spaced_items(skin, kMaxCandidates), kSpacing * extent);
   nodes_.resize(chosen.size());
   parallel_for_each(chosen.size(), [&](std::size_t p) {
     const Eigen::Vector3d middle = row3(neutral, chosen[p]);

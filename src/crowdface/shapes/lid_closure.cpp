@@ -16,11 +16,11 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the eyeball's radius, about 12 mm. Distances from the eyeball's centre:
-// skin closer than kWholeShare moves fully with the lid; skin farther than kNoShare does not move.
-constexpr double kWholeShare = 1.8, kNoShare = 3;
-// Distances from the eyeball's surface: skin closer than kWholeHold is kept outside the eyeball;
-// this correction fades out until kNoHold.
-constexpr double kWholeHold = 0.27, kNoHold = 0.6;
+// skin closer than kFullMotionRadius moves fully with the lid; skin farther than kNoMotionRadius does not move.
+constexpr double kFullMotionRadius = 1.8, kNoMotionRadius = 3;
+// Distances from the eyeball's surface: skin closer than kFullCorrectionGap is kept outside the eyeball;
+// this correction fades out until kNoCorrectionGap.
+constexpr double kFullCorrectionGap = 0.27, kNoCorrectionGap = 0.6;
 constexpr std::size_t kSections = 52;  // number of sections along the opening
 constexpr double kProfile = 0.35;      // radius of the profile around each section
 constexpr double kBlur = .12;          // width of the kernel that blends sections
@@ -102,10 +102,11 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
     const double gap_before = at_rest.gap_at(before).gap, gap_after = at_rest.gap_at(after).gap;
     const Eigen::Vector3d from = before - eye.ball.centre();
     LidVertex lid{row, v, i, 0, 0};
-    lid.eyeball_weight = smooth_step(kNoHold * radius_, kWholeHold * radius_,
+    lid.eyeball_weight = smooth_step(kNoCorrectionGap * radius_, kFullCorrectionGap * radius_,
                                      std::min(std::abs(gap_before), std::abs(gap_after)));
     if (!sections_.empty())
-      lid.closing_weight = smooth_step(kNoShare * radius_, kWholeShare * radius_, from.norm());
+      lid.closing_weight =
+          smooth_step(kNoMotionRadius * radius_, kFullMotionRadius * radius_, from.norm());
     if (lid.closing_weight > 0 || lid.eyeball_weight > 0) lid_vertices_.push_back(lid);
   }
   move_profile_vertices_to_front();
@@ -266,11 +267,12 @@ std::vector<LidClosure::Gap> LidClosure::measure_gaps(const EyeAxes& axes, const
   return gaps;
 }
 
-void LidClosure::move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
-                           std::span<const double> gains, Positions& moves) const {
+void LidClosure::move_lids(std::size_t count, const Eigen::Vector3d& up,
+                           const Positions& unscaled_moves, std::span<const double> gains,
+                           Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
     const LidVertex& lid = lid_vertices_[i];
-    const Eigen::Vector3d move = row3(carried, lid.row);
+    const Eigen::Vector3d move = row3(unscaled_moves, lid.row);
     const double gain = fixed_order_dot(section_weights(i), gains);
     moves.row(lid.row) = (move + gain * move.dot(up) * up).transpose();
   }
@@ -283,8 +285,9 @@ double LidClosure::min_ball_distance(std::size_t lid, double rest, double scale,
   return std::min({rest, of_shape, kMargin * scale * radius_});
 }
 
-void LidClosure::keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye,
-                               double scale, const LidTargets& targets, Positions& moves) const {
+void LidClosure::keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
+                                      double scale, const LidTargets& targets,
+                                      Positions& moves) const {
   for (std::size_t i = 0; i < count; ++i) {
     const LidVertex& lid = lid_vertices_[i];
     if (lid.eyeball_weight == 0) continue;
@@ -336,8 +339,8 @@ void LidClosure::restore_closure(const Positions& face, const RigidMotion& face_
     gains[p] =
         std::max(gains[p], 0.0) / (face_motion.scale * sections_[p].gap_reduction_on_template);
   }
-  const Positions carried = moves;
-  move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);
+  const Positions unscaled_moves = moves;
+  move_lids(lid_vertices_.size(), axes.up, unscaled_moves, gains, moves);
 }
 
 std::vector<double> LidClosure::gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
@@ -355,17 +358,17 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
                           const LidTargets& targets, Positions& moves) const {
   const EyeAxes axes = eye_axes(face_motion);
   if (sections_.empty()) {
-    return keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, targets, moves);
+    return keep_outside_eyeball(lid_vertices_.size(), face, eye, face_motion.scale, targets, moves);
   }
-  const Positions carried = moves;
+  const Positions unscaled_moves = moves;
   std::vector<double> gains(sections_.size(), 0.0);
   double sure = 0;
   // Find each section's gain: the relative increase of the lids' vertical movement (see move_lids)
   // that closes the gap there. Chord method (Newton with a fixed slope): a gain of one is assumed
   // to narrow the gap as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
-    if (step > 0) move_lids(profile_vertex_count_, axes.up, carried, gains, moves);
-    keep_off_ball(profile_vertex_count_, face, eye, face_motion.scale, targets, moves);
+    if (step > 0) move_lids(profile_vertex_count_, axes.up, unscaled_moves, gains, moves);
+    keep_outside_eyeball(profile_vertex_count_, face, eye, face_motion.scale, targets, moves);
     const std::vector<double> missing =
         gap_excesses(measure_gaps(axes, face, moves), targets, face_motion.scale);
     if (step == 0) {
@@ -377,8 +380,8 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
           (missing[p] + sure) / (face_motion.scale * sections_[p].gap_reduction_on_template);
     }
   }
-  move_lids(lid_vertices_.size(), axes.up, carried, gains, moves);
-  keep_off_ball(lid_vertices_.size(), face, eye, face_motion.scale, targets, moves);
+  move_lids(lid_vertices_.size(), axes.up, unscaled_moves, gains, moves);
+  keep_outside_eyeball(lid_vertices_.size(), face, eye, face_motion.scale, targets, moves);
 }
 
 }  // namespace crowdface

@@ -151,9 +151,9 @@ class LidClosure {
   }
   /// Scales the vertical movement of each of the first `count` lid vertices by 1 + the weighted sum
   /// of the sections' gains.
-  /// \param carried  displacements before scaling, one row for each vertex of the shape.
+  /// \param unscaled_moves  displacements before scaling, one row for each vertex of the shape.
   /// \param gains    relative increase of the vertical movement at each section.
-  void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& carried,
+  void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& unscaled_moves,
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball; negative inside. This
   /// is the smallest of three distances: the vertex's distance at rest, the vertex's target
@@ -165,8 +165,8 @@ class LidClosure {
   /// Moves each of the first `count` lid vertices along the eyeball's normal, to the larger of two
   /// distances: the distance at rest plus the target change, and min_ball_distance. Multiplies the
   /// movement by `eyeball_weight`.
-  void keep_off_ball(std::size_t count, const Positions& face, const FaceEye& eye, double scale,
-                     const LidTargets& targets, Positions& moves) const;
+  void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
+                            double scale, const LidTargets& targets, Positions& moves) const;
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
   /// Returns the highest point of a lower lid's profile (`sign` = 1), or the lowest point of an
   /// upper lid's profile (`sign` = −1), after the displacements `moves`.

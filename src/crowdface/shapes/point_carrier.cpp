@@ -45,9 +45,9 @@ std::optional<PointCarrier::TrianglePoint> PointCarrier::point_on_surface(
     const Eigen::Vector3d& point, const Positions& mesh, std::span<const Triangle> triangles) {
   // Largest distance of a point that counts as on the surface, as a fraction of the mesh's size.
   // The distance may exceed zero because files contain rounded coordinates.
-  constexpr double kNearAsShareOfSize = 1e-5;
+  constexpr double kSurfaceTolerance = 1e-5;
   double least =
-      kNearAsShareOfSize * (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).maxCoeff();
+      kSurfaceTolerance * (mesh.colwise().maxCoeff() - mesh.colwise().minCoeff()).maxCoeff();
   std::optional<TrianglePoint> found;
   for (const Triangle& corners : triangles) {
     const auto [low, high] =
@@ -81,13 +81,13 @@ Socket PointCarrier::find_carrying_vertices(const Eigen::Vector3d& point, const 
   // A point follows the skin vertices that are at most 1.5 times as far away as the nearest skin
   // vertex, but at least 60 vertices. So a point deep inside the head follows the skin on all
   // sides.
-  constexpr double kFurther = 1.5;
+  constexpr double kMaxDistanceRatio = 1.5;
   constexpr std::size_t kMin = 60;
   std::vector<std::pair<double, std::uint32_t>> by_distance;
   for (const std::uint32_t v : skin) by_distance.emplace_back((row3(mesh, v) - point).norm(), v);
   std::sort(by_distance.begin(), by_distance.end());
   const std::size_t fewest = std::min(kMin, by_distance.size());
-  const double reach = std::max(kFurther * to_skin, by_distance[fewest - 1].first);
+  const double reach = std::max(kMaxDistanceRatio * to_skin, by_distance[fewest - 1].first);
   const double fades = 1.05 * reach;
   Socket anchor;
   for (const auto& [distance, vertex] : by_distance) {

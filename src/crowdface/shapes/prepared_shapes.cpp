@@ -50,12 +50,12 @@ Positions rows_in(const std::vector<std::uint32_t>& vertices, const OwnShape& sh
 }  // namespace
 
 std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape_set,
-                                                           const GapPreserver& contacts,
+                                                           const GapPreserver& gap_preserver,
                                                            double extent) {
   const auto through_in = [&](std::initializer_list<std::size_t> shapes) {
     Positions mesh = shape_set.neutral;
     for (const std::size_t s : shapes) shape_set.shapes[s].moves.add_to(mesh);
-    return contacts.max_overlap(mesh);
+    return gap_preserver.max_overlap(mesh);
   };
   const std::size_t count = shape_set.shapes.size();
   std::vector<double> through(count);
@@ -84,7 +84,7 @@ PreparedShapes::PreparedShapes(const HeadSet& all_heads, const Adjacency& adjace
       vertex_faces(head_set.topology),
       skin(skin_of(parts, vertex_faces)),
       moved_vertices(all_moved_vertices(shape_set)),
-      contacts(head_set, adjacency, skin),
+      gap_preserver(head_set, adjacency, skin),
       extent(extent_of(shape_set.neutral, skin)),
       crossings(head_set.topology, skin, extent, axes) {
   const Positions mean = mean_head(head_set);
@@ -97,7 +97,7 @@ PreparedShapes::PreparedShapes(const HeadSet& all_heads, const Adjacency& adjace
   frame_field = FrameField(shape_set.neutral, skin, extent, moved_vertices);
   if (!shape_set.head_shapes.empty()) look_up_regions(regions);
   shapes.resize(shape_set.shapes.size());
-  const auto prerequisites = find_prerequisites(shape_set, contacts, extent);
+  const auto prerequisites = find_prerequisites(shape_set, gap_preserver, extent);
   parallel_for_each(shapes.size(), [&](std::size_t s) {
     shapes[s].prerequisite = prerequisites[s];
     prepare_shape(shape_set.shapes[s].moves, adjacency, shapes[s]);
@@ -105,7 +105,7 @@ PreparedShapes::PreparedShapes(const HeadSet& all_heads, const Adjacency& adjace
   std::vector<const CrossingSearch*> searches;
   for (const PreparedShape& shape : shapes) searches.push_back(&shape.searched_skin.search);
   resting_face_search = crossings.merge_searches(shape_set.neutral, searches);
-  add_sets();
+  add_shape_sets();
 }
 
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
@@ -170,7 +170,7 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
     vertex_region_weights.row(static_cast<Index>(i)) =
         regions.alpha.row(nearest(moved_vertices[i]));
   });
-  contact_region_weights = regions.alpha(contacts.contact_vertices(), kAllColumns);
+  contact_region_weights = regions.alpha(gap_preserver.contact_vertices(), kAllColumns);
   for (const RigidPart& part : rigid_parts) {
     std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
     for (const std::uint32_t v : part.fitted_vertices) {
@@ -189,7 +189,7 @@ void PreparedShapes::prepare_shape(const Displacements& moves, const Adjacency& 
   for (const std::uint32_t v : moves.vertices)
     prepared.vertex_indices.push_back(index_in_list(moved_vertices, v));
   for (std::size_t p = 0; p < rigid_parts.size(); ++p) {
-    PartMove part{p, {}, {}, {}};
+    PreparedPart part{p, {}, {}, {}};
     for (const std::uint32_t v : rigid_parts[p].vertices) {
       const std::uint32_t row = index_in_list(moves.vertices, v);
       if (row == kNoIndex) continue;
@@ -199,7 +199,7 @@ void PreparedShapes::prepare_shape(const Displacements& moves, const Adjacency& 
     if (!part.moved_vertices.empty()) prepared.parts.push_back(std::move(part));
   }
   prepare_lids(moves, adjacency, prepared);
-  prepared.moves_contacts = contacts.is_affected_by(moves.vertices);
+  prepared.moves_contacts = gap_preserver.is_affected_by(moves.vertices);
   prepared.searched_skin = find_searched_skin(moves, prepared);
   Positions shaped = shape_set.neutral;
   if (prepared.prerequisite) shape_set.shapes[*prepared.prerequisite].moves.add_to(shaped);
@@ -268,13 +268,13 @@ void PreparedShapes::prepare_lids(const Displacements& moves, const Adjacency& a
 PreparedShapes::FaceFrames PreparedShapes::make_face_frames(const Positions& face) const {
   FaceFrames face_frames{
       face, frame_field.frames(face), std::vector<Eigen::Matrix3d>(moved_vertices.size()),
-      contacts.measure_gaps(face), crossings.crossing_at_rest(face, resting_face_search)};
+      gap_preserver.measure_gaps(face), crossings.crossing_at_rest(face, resting_face_search)};
   for (std::size_t i = 0; i < moved_vertices.size(); ++i)
     face_frames.maps[i] = frame_field.map_at(i, face_frames.frames);
   return face_frames;
 }
 
-Eigen::Matrix3d PreparedShapes::mean_map_of_part(const PartMove& part,
+Eigen::Matrix3d PreparedShapes::mean_map_of_part(const PreparedPart& part,
                                                  const PreparedShape& prepared,
                                                  std::span<const Eigen::Matrix3d> maps) const {
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
@@ -284,7 +284,7 @@ Eigen::Matrix3d PreparedShapes::mean_map_of_part(const PartMove& part,
 
 /// Measures how each set of shapes moves parts and lids, and normalises the heads' own shapes by
 /// removing the local rotation and stretch of each head.
-void PreparedShapes::add_sets() {
+void PreparedShapes::add_shape_sets() {
   const std::size_t heads = shape_set.head_shapes.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
     const FaceFrames face_frames =
@@ -316,7 +316,7 @@ void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positi
                                      PreparedShape& prepared) const {
   const Positions& moves = shape.moves;
   const RigidMotion& face_motion = face_frames.frames.face_motion;
-  for (PartMove& part : prepared.parts) {
+  for (PreparedPart& part : prepared.parts) {
     const RigidPart& bound = rigid_parts[part.part];
     const Eigen::Matrix3d map = mean_map_of_part(part, prepared, face_frames.maps);
     const PlacedPart placed(bound, shape_set.neutral, face_frames.mesh, face_motion, map);
@@ -324,7 +324,7 @@ void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positi
         find_part_motion(bound, placed, part.moved_vertices, part.displacement_rows, moves));
   }
   for (std::size_t e = 0; e < eyes.size(); ++e) {
-    LidMove& move = prepared.lids[e];
+    PreparedLids& move = prepared.lids[e];
     if (move.lids.empty()) continue;
     move.targets.push_back(
         move.lids.measure_targets(face_frames.mesh, face_eyes[e], face_motion, moves));
@@ -336,7 +336,7 @@ void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positi
   }
   if (!prepared.moves_contacts) return;
   std::vector<double>& gap_changes =
-      prepared.gap_changes.emplace_back(contacts.measure_gaps(moved));
+      prepared.gap_changes.emplace_back(gap_preserver.measure_gaps(moved));
   for (std::size_t p = 0; p < gap_changes.size(); ++p) {
     gap_changes[p] = (gap_changes[p] - face_frames.gaps[p]) / face_motion.scale;
   }

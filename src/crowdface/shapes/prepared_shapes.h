@@ -30,7 +30,7 @@ struct PreparedEye {
 };
 
 /// How a shape moves one rigid part.
-struct PartMove {
+struct PreparedPart {
   std::size_t part;                           ///< index into the rigid parts
   std::vector<std::uint32_t> moved_vertices;  ///< vertices of the part that the shape moves
   /// the row of each of `moved_vertices` in the shape's displacements
@@ -39,7 +39,7 @@ struct PartMove {
 };
 
 /// How a shape moves the lids of one eye.
-struct LidMove {
+struct PreparedLids {
   LidClosure lids;
   std::vector<LidClosure::LidTargets> targets;  ///< one entry per set of shapes
 };
@@ -64,7 +64,7 @@ struct LidFollower {
 /// \return        For each shape: the index of its prerequisite if the shape is corrective; nothing
 ///                if the shape is not corrective or no prerequisite is found.
 std::vector<std::optional<std::size_t>> find_prerequisites(const ShapeSet& shape_set,
-                                                           const GapPreserver& contacts,
+                                                           const GapPreserver& gap_preserver,
                                                            double extent);
 
 /// One shape: the vertices and parts that it moves, and the data for its corrections on a face.
@@ -77,8 +77,8 @@ struct PreparedShape {
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
   std::vector<FloatPositions> head_moves;
-  std::vector<PartMove> parts;
-  std::vector<LidMove> lids;  ///< #eyes
+  std::vector<PreparedPart> parts;
+  std::vector<PreparedLids> lids;  ///< #eyes
   std::vector<LidFollower> lid_followers;
   SkinOverParts skin_over_parts;
   SkinCrossings::SearchedSkin searched_skin;
@@ -108,7 +108,8 @@ struct PreparedShapes {
   std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
   /// #moved_vertices by #regions: region weights of the skin nearest to each vertex
   RegionWeights::Alpha vertex_region_weights;
-  GapPreserver contacts;  ///< preserves gaps between skin surfaces that touch, such as the lips
+  GapPreserver
+      gap_preserver;  ///< preserves gaps between skin surfaces that touch, such as the lips
   RegionWeights::Alpha contact_region_weights;  ///< #gaps by #regions
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the bounding box of the template's skin
@@ -125,7 +126,7 @@ struct PreparedShapes {
     const Positions& mesh;
     FrameField::Frames frames;
     std::vector<Eigen::Matrix3d> maps;  ///< linear map at each of PreparedShapes::moved_vertices
-    std::vector<double> gaps;           ///< width of each gap on the face, see `contacts`
+    std::vector<double> gaps;           ///< width of each gap on the face, see `gap_preserver`
     /// whether each vertex belongs to a triangle that intersects another triangle on the face at
     /// rest
     std::vector<bool> crosses_at_rest;
@@ -133,7 +134,7 @@ struct PreparedShapes {
   FaceFrames make_face_frames(const Positions& face) const;
   /// Returns the mean of `maps` over `part.moved_vertices`.
   /// \param maps  FaceFrames::maps of a face.
-  Eigen::Matrix3d mean_map_of_part(const PartMove& part, const PreparedShape& prepared,
+  Eigen::Matrix3d mean_map_of_part(const PreparedPart& part, const PreparedShape& prepared,
                                    std::span<const Eigen::Matrix3d> maps) const;
 
  private:
@@ -148,7 +149,7 @@ struct PreparedShapes {
   /// Returns the skin in which to search for the intersections that the shape causes on faces.
   SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
                                                  const PreparedShape& prepared) const;
-  void add_sets();
+  void add_shape_sets();
   /// Returns the displacements of one shape in one set of shapes.
   Displacements shape_of_set(std::size_t set, std::size_t shape) const;
   /// Adds to `prepared` the data of one set's shape: motions of parts, lids and lips, and

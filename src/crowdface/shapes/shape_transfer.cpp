@@ -36,14 +36,14 @@ std::vector<FaceEye> placed_eyes(const PreparedShapes& prepared, std::size_t tar
 }
 
 /// Computes one shape of a face.
-class CarriedShape {
+class FaceShape {
  public:
   /// \param rest  The mesh to which the shape is added: the face at rest, or the face in the
   ///              prerequisite shape.
   /// \param mesh  Equal to `rest`; modified during the call and restored.
-  CarriedShape(const PreparedShapes& prepared, std::size_t number,
-               std::span<const FaceEye> face_eyes, const FaceFrames& face_frames,
-               const RegionShares& shares, const Positions& rest, Positions& mesh)
+  FaceShape(const PreparedShapes& prepared, std::size_t number, std::span<const FaceEye> face_eyes,
+            const FaceFrames& face_frames, const RegionShares& shares, const Positions& rest,
+            Positions& mesh)
       : prepared_(prepared),
         shape_(prepared.shapes[number]),
         face_eyes_(face_eyes),
@@ -54,18 +54,18 @@ class CarriedShape {
         result_{prepared.shape_set.shapes[number].moves.vertices,
                 Positions(static_cast<Index>(shape_.vertex_indices.size()), 3)} {
     if (has_own_sets()) {
-      move_skin(mixed_moves());
+      move_skin(mean_own_moves());
     } else {
       move_skin(prepared.shape_set.shapes[number].moves.moves);
     }
     move_parts();
-    const Positions carried = skin_of_followers();
+    const Positions uncorrected_skin = skin_of_followers();
     fit_lids();
-    if (shape_.moves_contacts) keep_contacts();
+    if (shape_.moves_contacts) correct_gaps();
     shape_.skin_over_parts.keep_in_front(rest_, face_frames_.frames.face_motion,
                                          shape_.searched_skin.rows, mesh_, result_);
     remove_crossings();
-    follow_lids(carried);
+    move_lid_followers(uncorrected_skin);
   }
 
   Displacements moves() && { return std::move(result_); }
@@ -78,18 +78,18 @@ class CarriedShape {
     return has_own_sets() ? shape_set_weights_at(prepared_.rigid_part_weights[part], shares_)
                           : ShapeSetShares{{0, 1}};
   }
-  Positions mixed_moves() const;
+  Positions mean_own_moves() const;
   void move_skin(const Positions& moves);
   void move_parts();
   Positions skin_of_followers() const;
   void fit_lids();
-  void keep_contacts();
+  void correct_gaps();
   void remove_crossings();
   bool keep_lids_out();
   bool closes_lids() const;
-  double lids_open(const Positions& moves) const;
+  double largest_open_gap_of_lids(const Positions& moves) const;
   void close_lids();
-  void follow_lids(const Positions& carried);
+  void move_lid_followers(const Positions& uncorrected_skin);
 
   const PreparedShapes& prepared_;
   const PreparedShape& shape_;
@@ -105,7 +105,7 @@ class CarriedShape {
 
 /// Returns the weighted mean of the heads' own displacements. The heads' weights at a vertex depend
 /// on the region weights of this vertex.
-Positions CarriedShape::mixed_moves() const {
+Positions FaceShape::mean_own_moves() const {
   Positions moves = Positions::Zero(result_.moves.rows(), 3);
   for (std::size_t k = 0; k < shares_.size(); ++k) {
     for (const ShapeSetShare& of_set : shares_[k]) {
@@ -122,7 +122,7 @@ Positions CarriedShape::mixed_moves() const {
   return moves;
 }
 
-void CarriedShape::move_skin(const Positions& moves) {
+void FaceShape::move_skin(const Positions& moves) {
   for (std::size_t i = 0; i < shape_.vertex_indices.size(); ++i) {
     const auto row = static_cast<Index>(i);
     result_.moves.row(row) =
@@ -130,8 +130,8 @@ void CarriedShape::move_skin(const Positions& moves) {
   }
 }
 
-void CarriedShape::move_parts() {
-  for (const PartMove& part : shape_.parts) {
+void FaceShape::move_parts() {
+  for (const PreparedPart& part : shape_.parts) {
     const Eigen::Matrix3d map = prepared_.mean_map_of_part(part, shape_, face_frames_.maps);
     const PlacedPart placed(prepared_.rigid_parts[part.part], prepared_.shape_set.neutral,
                             face_frames_.mesh, face_frames_.frames.face_motion, map);
@@ -142,7 +142,7 @@ void CarriedShape::move_parts() {
 
 /// Returns the current displacements of the skin that lashes follow. The result has 3 ·
 /// #lid_followers rows, one for each corner of each follower's skin triangle.
-Positions CarriedShape::skin_of_followers() const {
+Positions FaceShape::skin_of_followers() const {
   Positions rows(static_cast<Index>(3 * shape_.lid_followers.size()), 3);
   Index next = 0;
   for (const LidFollower& follower : shape_.lid_followers) {
@@ -154,10 +154,10 @@ Positions CarriedShape::skin_of_followers() const {
   return rows;
 }
 
-void CarriedShape::fit_lids() {
+void FaceShape::fit_lids() {
   targets_.resize(prepared_.eyes.size());
   for (std::size_t e = 0; e < targets_.size(); ++e) {
-    const LidMove& move = shape_.lids[e];
+    const PreparedLids& move = shape_.lids[e];
     if (move.lids.empty()) continue;
     targets_[e] = LidClosure::mean_targets(move.targets, shares_of_part(prepared_.eyes[e].part));
     move.lids.fit_lids(face_frames_.mesh, face_eyes_[e], face_frames_.frames.face_motion,
@@ -168,7 +168,7 @@ void CarriedShape::fit_lids() {
 /// Corrects the gaps between lips. If the shape hardly changes a gap on the template, the gap
 /// changes equally little on the face. If the shape closes lips that its prerequisite opens, all
 /// gaps change as on the template.
-void CarriedShape::keep_contacts() {
+void FaceShape::correct_gaps() {
   // Compute the wanted change of each gap: the weighted mean of the changes that this blend shape
   // makes in the heads' shape sets.
   std::vector<double> gap_changes(shape_.gap_changes.front().size(), 0.0);
@@ -189,7 +189,7 @@ void CarriedShape::keep_contacts() {
   result_.add_to(mesh_);
   const auto how = shape_.prerequisite ? GapPreserver::GapSelection::kAll
                                        : GapPreserver::GapSelection::kNearlyUnchanged;
-  prepared_.contacts.adjust(face_frames_.gaps, gap_changes, how, mesh_);
+  prepared_.gap_preserver.adjust(face_frames_.gaps, gap_changes, how, mesh_);
   for (std::size_t i = 0; i < result_.vertices.size(); ++i) {
     const std::uint32_t v = result_.vertices[i];
     auto move = result_.moves.row(static_cast<Index>(i));
@@ -197,15 +197,18 @@ void CarriedShape::keep_contacts() {
     move += mesh_.row(v) - before;
   }
   for (const std::uint32_t v : result_.vertices) mesh_.row(v) = rest_.row(v);
-  for (const std::uint32_t v : prepared_.contacts.movable_vertices()) mesh_.row(v) = rest_.row(v);
+  for (const std::uint32_t v : prepared_.gap_preserver.movable_vertices())
+    mesh_.row(v) = rest_.row(v);
 }
 
 /// Alternates between repairing intersections and closing lids, because each step may undo the
 /// other step. Keeps the result of the best round.
-void CarriedShape::remove_crossings() {
+void FaceShape::remove_crossings() {
   SkinCrossings::ExtraCost extra_cost;
   if (closes_lids())
-    extra_cost = [&](const Positions& moves) { return kOpenLidsCost * lids_open(moves); };
+    extra_cost = [&](const Positions& moves) {
+      return kOpenLidsCost * largest_open_gap_of_lids(moves);
+    };
   const SkinCrossings::Face face{rest_, face_frames_.crosses_at_rest,
                                  face_frames_.frames.face_motion};
   double best = HUGE_VAL;
@@ -229,12 +232,12 @@ void CarriedShape::remove_crossings() {
   result_.moves = std::move(kept);
 }
 
-bool CarriedShape::closes_lids() const {
+bool FaceShape::closes_lids() const {
   return std::ranges::any_of(shape_.lids,
-                             [](const LidMove& move) { return move.lids.closes_lids(); });
+                             [](const PreparedLids& move) { return move.lids.closes_lids(); });
 }
 
-double CarriedShape::lids_open(const Positions& moves) const {
+double FaceShape::largest_open_gap_of_lids(const Positions& moves) const {
   double open = 0;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
@@ -245,7 +248,7 @@ double CarriedShape::lids_open(const Positions& moves) const {
   return open;
 }
 
-void CarriedShape::close_lids() {
+void FaceShape::close_lids() {
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
     if (!lids.closes_lids()) continue;
@@ -256,7 +259,7 @@ void CarriedShape::close_lids() {
 
 /// Moves the lids of all eyes out of the eyeballs. \return false if any lid was noticeably inside
 /// an eyeball, see LidClosure::move_out_of_eyeball.
-bool CarriedShape::keep_lids_out() {
+bool FaceShape::keep_lids_out() {
   bool are_out = true;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
     const LidClosure& lids = shape_.lids[e].lids;
@@ -270,15 +273,15 @@ bool CarriedShape::keep_lids_out() {
 }
 
 /// Moves each lash by the correction of the lid skin to which the lash is bound.
-/// \param carried  displacements of the lid skin before the correction, from skin_of_followers.
-void CarriedShape::follow_lids(const Positions& carried) {
+/// \param uncorrected_skin  displacements of the lid skin before the correction, from skin_of_followers.
+void FaceShape::move_lid_followers(const Positions& uncorrected_skin) {
   Index next = 0;
   for (const LidFollower& follower : shape_.lid_followers) {
     for (std::size_t k = 0; k < 3; ++k, ++next) {
       const std::uint32_t on = follower.corner_rows[k];
       if (on == kNoIndex) continue;
       result_.moves.row(follower.row) +=
-          follower.barycentric[k] * (result_.moves.row(on) - carried.row(next));
+          follower.barycentric[k] * (result_.moves.row(on) - uncorrected_skin.row(next));
     }
   }
 }
@@ -302,8 +305,8 @@ std::vector<Displacements> ShapeTransfer::transfer_to_face(Index target, const P
   std::vector<Displacements> shapes(prepared_->shapes.size());
   if (crossing != nullptr) crossing->assign(shapes.size(), 0);
   const auto carry_one = [&](std::size_t s, const Positions& rest, Positions& mesh) {
-    CarriedShape shape(*prepared_, s, face_eyes, face_frames, s < shares.size() ? shares[s] : none,
-                       rest, mesh);
+    FaceShape shape(*prepared_, s, face_eyes, face_frames, s < shares.size() ? shares[s] : none,
+                    rest, mesh);
     if (crossing != nullptr) (*crossing)[s] = shape.crossing();
     shapes[s] = std::move(shape).moves();
   };

@@ -20,21 +20,21 @@ namespace {
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
-// Distances from intersections, measured at rest. Skin closer than kEvened gets the average of the
-// neighbouring displacements; skin farther than kNotEvened keeps its displacements.
-constexpr double kEvened = 0.002, kNotEvened = 0.005;
+// Distances from intersections, measured at rest. Skin closer than kAveragedRadius gets the average of the
+// neighbouring displacements; skin farther than kUnchangedRadius keeps its displacements.
+constexpr double kAveragedRadius = 0.002, kUnchangedRadius = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
 constexpr double kGrowth = 0.08;  // growth of these lengths per round
-// arrange_as_template, which gives skin the template's front-to-back order, multiplies kEvened,
-// kNotEvened and kCell by this factor.
-constexpr double kSameLayoutFactor = 0.7;
+// arrange_as_template, which gives skin the template's front-to-back order, multiplies kAveragedRadius,
+// kUnchangedRadius and kCell by this factor.
+constexpr double kArrangeFactor = 0.7;
 /// Averaging the displacements also changes the displacements of the lids. The vertical component
-/// of this change is multiplied by kClosing, so that the eye stays closed.
-constexpr double kClosing = 0.3;
-// kPush: length of the push in each round. kPushed: skin is pushed up to this distance from
+/// of this change is multiplied by kLidHeightFactor, so that the eye stays closed.
+constexpr double kLidHeightFactor = 0.3;
+// kPushLength: length of the push in each round. kPushRadius: skin is pushed up to this distance from
 // intersections, measured at rest.
-constexpr double kPush = 0.00015, kPushed = 0.004;
+constexpr double kPushLength = 0.00015, kPushRadius = 0.004;
 constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds without improvement after which the repair of lids ends
 
@@ -97,7 +97,7 @@ class SkinCrossings::Repair {
     if (!searched_skin_.lid_sides.empty() && best_ > 0) {
       shape_.moves = start;
       changed_.assign(changed_.size(), true);
-      look_again({});
+      search_again({});
       remove_crossings(extra_cost, &Repair::arrange_as_template);
     }
     shape_.moves = std::move(best_moves_);
@@ -122,8 +122,8 @@ class SkinCrossings::Repair {
       pairs_.erase(lids, pairs_.end());
       changed_.assign(skin_.is_skin_.size(), false);
       if (!meeting.empty()) (this->*handle_lids)(meeting, grown);
-      if (!pairs_.empty()) even_out(grown);
-      look_again(before);
+      if (!pairs_.empty()) average_displacements(grown);
+      search_again(before);
     }
   }
 
@@ -152,7 +152,7 @@ class SkinCrossings::Repair {
   ///
   /// \param before  Pairs that intersected before the move. A pair still intersects if none of its
   ///                vertices moved.
-  void look_again(const std::vector<Pair>& before) {
+  void search_again(const std::vector<Pair>& before) {
     for (const DisplacementRow& row : searched_skin_.rows) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
     }
@@ -191,13 +191,14 @@ class SkinCrossings::Repair {
   /// moves together.
   /// \param grown  ratio of this round's averaging radius to the first round's averaging radius, at
   ///               least 1.
-  void even_out(double grown) {
+  void average_displacements(double grown) {
     const double unit = grown * skin_.extent_;
     std::vector<Eigen::Vector3d> around;
     for (const std::uint32_t v : vertices_of(pairs_, searched_skin_.search)) {
       around.push_back(row3(face_.rest, v));
     }
-    const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
+    const SmoothedVectors field(std::move(around), unit * kCell, unit * kAveragedRadius,
+                                unit * kUnchangedRadius);
     std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
       const DisplacementRow& row = searched_skin_.rows[i];
@@ -207,7 +208,7 @@ class SkinCrossings::Repair {
     const Eigen::Vector3d& up = axes_.up;
     for (auto [number, by] : field.changes(samples)) {
       const DisplacementRow& row = searched_skin_.rows[number];
-      if (side(row.vertex) != 0) by -= (1 - kClosing) * by.dot(up) * up;
+      if (side(row.vertex) != 0) by -= (1 - kLidHeightFactor) * by.dot(up) * up;
       move(row, by);
     }
   }
@@ -216,7 +217,7 @@ class SkinCrossings::Repair {
   /// Averages the difference between face and template over skin that is close together on the
   /// template with the blend shape applied.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
-    const double unit = kSameLayoutFactor * grown * skin_.extent_;
+    const double unit = kArrangeFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, searched_skin_.search);
     std::vector<Eigen::Vector3d> around;
     const auto shaped = [&](std::uint32_t i) { return row3(searched_skin_.shaped_positions, i); };
@@ -225,7 +226,8 @@ class SkinCrossings::Repair {
         around.push_back(shaped(i));
       }
     }
-    const SmoothedVectors field(std::move(around), unit * kCell, unit * kEvened, unit * kNotEvened);
+    const SmoothedVectors field(std::move(around), unit * kCell, unit * kAveragedRadius,
+                                unit * kUnchangedRadius);
     std::vector<SmoothedVectors::Sample> samples;
     for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
       const DisplacementRow& row = searched_skin_.rows[i];
@@ -258,7 +260,7 @@ class SkinCrossings::Repair {
       }
     }
     for (auto& [v, push] : wanted) push = push.normalized();
-    const double reach = kPushed * skin_.extent_, by = grown * kPush * skin_.extent_;
+    const double reach = kPushRadius * skin_.extent_, by = grown * kPushLength * skin_.extent_;
     for (const DisplacementRow& row : searched_skin_.rows) {
       if (side(row.vertex) == 0) continue;
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);

@@ -33,7 +33,7 @@ constexpr double kFrontCell = 0.0025;
 constexpr double kTooNear = 0.25;
 // Only skin that faces the front covers vertices: smallest cosine between the skin's normal and the
 // head's front axis. Excludes the rims of the lips.
-constexpr double kFacesFront = 0.5;
+constexpr double kMinFrontCosine = 0.5;
 /// On a face, the triangle in front of a vertex may differ from the template's covering triangle.
 /// Candidates are the covering triangle and several rings of triangles around it. The number of
 /// rings is kMaxSlide (a fraction of the skin's extent, about 3 mm) divided by the mean edge
@@ -161,7 +161,7 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
     if (!hit || hit->ahead <= 0) continue;
     const double facing = axes.front.dot(normal_of(corners_of(shaped, around[hit->triangle])));
     const double depth = hit->ahead * facing;
-    if (facing < kFacesFront || depth > kFrontReach * extent) continue;
+    if (facing < kMinFrontCosine || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
     taken.insert(at);
     // Collect the rings of triangles that may be in front of this vertex on a face.
@@ -231,7 +231,7 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
       normal = normal_of(corners);
     }
     const double facing = axes.front.dot(normal);
-    if (!foremost || facing < kFacesFront) continue;
+    if (!foremost || facing < kMinFrontCosine) continue;
     // Push this skin forward if it is behind the covered vertex, or too close in front of it.
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;

@@ -92,13 +92,13 @@ SmoothedVectors::SmoothedVectors(std::vector<Eigen::Vector3d> centres, double ce
   for (const Eigen::Vector3d& place : centres_) box_.extend(place);
 }
 
-bool SmoothedVectors::may_reach(const Eigen::Vector3d& place, double reach) const {
+bool SmoothedVectors::may_be_near_centre(const Eigen::Vector3d& place, double reach) const {
   return (place.array() > box_.min().array() - reach).all() &&
          (place.array() < box_.max().array() + reach).all();
 }
 
 bool SmoothedVectors::affects(const Eigen::Vector3d& place) const {
-  return may_reach(place, outer_radius_ + cell_);
+  return may_be_near_centre(place, outer_radius_ + cell_);
 }
 
 /// Returns the distance to the nearest centre.
@@ -119,7 +119,7 @@ std::vector<SmoothedVectors::Change> SmoothedVectors::changes(
   for (const Sample& sample : samples) means.add(sample.position, sample.value);
   std::vector<Change> changes;
   for (const Sample& sample : samples) {
-    if (!may_reach(sample.position, outer_radius_)) continue;
+    if (!may_be_near_centre(sample.position, outer_radius_)) continue;
     const double away = distance_to_centre(sample.position);
     if (away >= outer_radius_) continue;
     changes.push_back({sample.index, smooth_step(outer_radius_, inner_radius_, away) *

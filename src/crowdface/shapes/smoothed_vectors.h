@@ -42,7 +42,7 @@ class SmoothedVectors {
 
  private:
   /// Returns whether a centre may be nearer than `reach`; a fast conservative test.
-  bool may_reach(const Eigen::Vector3d& position, double reach) const;
+  bool may_be_near_centre(const Eigen::Vector3d& position, double reach) const;
   double distance_to_centre(const Eigen::Vector3d& position) const;
 
   std::vector<Eigen::Vector3d> centres_;

@@ -14,17 +14,17 @@ namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. Skin at two vertices may touch on a
 // face only if their distance, on the template with the shape applied, is at most the larger of two
-// limits: kMeetingReach, and kMeetingReachEdges times the longest edge at the vertex.
-constexpr double kMeetingReach = 0.02;
-constexpr double kMeetingReachEdges = 1.6;
-/// The distance must also be at most kOfMove · a + kOfDifference · b. Here a is the length of the
+// limits: kMaxContactGap, and kMaxContactGapEdges times the longest edge at the vertex.
+constexpr double kMaxContactGap = 0.02;
+constexpr double kMaxContactGapEdges = 1.6;
+/// The distance must also be at most kMoveFactor · a + kDifferenceFactor · b. Here a is the length of the
 /// larger displacement, and b is the length of the difference between both displacements.
-constexpr double kOfMove = 4, kOfDifference = 10;
+constexpr double kMoveFactor = 4, kDifferenceFactor = 10;
 // the skin folds at an edge if the displacements of the edge's ends differ by more than this
 // fraction of the edge's length
-constexpr double kFolds = 0.5;
+constexpr double kFoldStrain = 0.5;
 // Size of a grid cell. If vertices in one cell have similar normals, only one of them is checked.
-constexpr double kMeetingCell = 0.003;
+constexpr double kContactCell = 0.003;
 
 /// Returns, for each vertex of the skin, one vertex that represents all vertices with similar
 /// normals in the same cell. Returns kNoIndex for vertices that are not skin.
@@ -56,7 +56,7 @@ std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions
                                       const Positions& shaped, double extent) {
   const Positions normals = vertex_normals_or_zero(skin.triangles, shaped);
   const std::vector<std::uint32_t> representative =
-      representatives(skin, shaped, normals, kMeetingCell * extent);
+      representatives(skin, shaped, normals, kContactCell * extent);
   std::vector<std::uint32_t> asked;
   for (const std::uint32_t v : skin.vertices) {
     if (representative[v] == v) asked.push_back(v);
@@ -69,13 +69,13 @@ std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions
   for (const std::uint32_t v : skin.vertices) {
     const Eigen::Vector3d at = row3(shaped, v), move = move_of(v);
     if (move.squaredNorm() == 0) continue;
-    double reach = kMeetingReach * extent;
+    double reach = kMaxContactGap * extent;
     for (const std::uint32_t t : skin.vertex_triangles.items_of(v)) {
       for (const std::uint32_t w : skin.triangles[t]) {
         const double edge = (row3(shaped, w) - at).norm();
-        reach = std::max(reach, kMeetingReachEdges * edge);
+        reach = std::max(reach, kMaxContactGapEdges * edge);
         const double shorter = std::min(edge, (row3(neutral, w) - row3(neutral, v)).norm());
-        if ((move_of(w) - move).norm() > kFolds * shorter) folds[v] = folds[w] = true;
+        if ((move_of(w) - move).norm() > kFoldStrain * shorter) folds[v] = folds[w] = true;
       }
     }
     if (representative[v] != v) continue;
@@ -84,8 +84,8 @@ std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions
       const double distance = (row3(shaped, w) - at).norm();
       if (distance > reach) continue;
       const Eigen::Vector3d other = move_of(w);
-      const double may_differ =
-          kOfMove * std::max(move.norm(), other.norm()) + kOfDifference * (move - other).norm();
+      const double may_differ = kMoveFactor * std::max(move.norm(), other.norm()) +
+                                kDifferenceFactor * (move - other).norm();
       if (may_differ >= distance) meets[v] = meets[w] = true;
     }
   }

@@ -11,12 +11,12 @@
 namespace crowdface {
 namespace {
 
-/// kTileRows is the number of rows per tile. kStepsPerTurn is the number of recurrence steps per
+/// kTileRows is the number of rows per tile. kStepsPerRound is the number of recurrence steps per
 /// round; after each round, tiles exchange the rows at their borders. Both values come from
 /// measurements (docs/benchmarks.md). With these values, a tile's two vectors and its part of the
 /// sums fit into the cache of one core.
 constexpr Index kTileRows = 6144;
-constexpr int kStepsPerTurn = 8;
+constexpr int kStepsPerRound = 8;
 
 template <class T>
 using RowVector = std::vector<Row<T>>;
@@ -62,7 +62,7 @@ class Recurrence {
     }
   }
 
-  /// Runs up to kStepsPerTurn steps of the recurrence on one tile, starting at T_k. Adds the new
+  /// Runs up to kStepsPerRound steps of the recurrence on one tile, starting at T_k. Adds the new
   /// terms to the sums, in ascending order of k.
   /// \param visit  called with each k and the tile's own rows of T_k(W) x.
   template <class Visit>
@@ -70,7 +70,7 @@ class Recurrence {
     thread_local RowVector<T> now, previous;
     load(tile, now_, now);
     load(tile, previous_, previous);
-    const auto steps = static_cast<int>(std::min<Index>(kStepsPerTurn, terms_ - 1 - k));
+    const auto steps = static_cast<int>(std::min<Index>(kStepsPerRound, terms_ - 1 - k));
     for (int step = 0; step < steps; ++step) {
       const T scale = k == 0 ? T(1) : T(2);  // T_1 = W T_0, T_{k+1} = 2 W T_k − T_{k−1}
       const auto reach = static_cast<std::size_t>(steps - 1 - step);  // rings that later steps need
@@ -203,7 +203,7 @@ std::vector<Positions> filter_view(const ChebyshevFilter& filter,
 
 ChebyshevFilter::ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions)
     : kind_(smoothing.kind()),
-      tiling_(cut_into_tiles(smoothing, positions, kTileRows, kStepsPerTurn)) {}
+      tiling_(cut_into_tiles(smoothing, positions, kTileRows, kStepsPerRound)) {}
 
 template <class T>
 std::vector<Row<T>> ChebyshevFilter::rows_of(const Columns& x, Index group) const {
@@ -229,7 +229,7 @@ std::vector<std::vector<RowArray<T>>> ChebyshevFilter::run(std::span<const Filte
       probe_rows->take(t, 0, inputs.front().values.data() + tiling_.tiles[t].first_row);
     }
   }
-  for (Index k = 0; k == 0 || k + 1 < terms; k += kStepsPerTurn) {
+  for (Index k = 0; k == 0 || k + 1 < terms; k += kStepsPerRound) {
     throw_if_interrupted();
     parallel_for_each(tiling_.tiles.size(), [&](std::size_t t) {
       const Tile& tile = tiling_.tiles[t];

@@ -80,11 +80,11 @@ class TileFitter {
       }
     }
     for (Index p = 0; p < functions.cols(); ++p) {
-      peaks_.push_back(functions.col(p).cwiseAbs().maxCoeff());
+      max_magnitudes_.push_back(functions.col(p).cwiseAbs().maxCoeff());
     }
     for (Index n = 0; n < directions.field_coefficients.rows(); ++n) {
       for (Index p = 0; p < directions.field_coefficients.cols(); ++p) {
-        combining_.push_back(static_cast<float>(directions.field_coefficients(n, p)));
+        field_coefficients_.push_back(static_cast<float>(directions.field_coefficients(n, p)));
       }
     }
   }
@@ -109,26 +109,27 @@ class TileFitter {
       std::size_t looked_at = count_;
       double skipped = 0;
       for (; looked_at > 0; --looked_at) {
-        const double more = peaks_[looked_at - 1] * longest(of_field(looked_at - 1));
+        const double more = max_magnitudes_[looked_at - 1] * longest(of_field(looked_at - 1));
         if (skipped + more > kSkippedShare * tolerance_) break;
         skipped += more;
       }
-      // rounded[p]: bound of the rounding error of the first p fields.
-      std::vector<double> rounded = {0};
+      // rounding_bounds[p]: bound of the rounding error of the first p fields.
+      std::vector<double> rounding_bounds = {0};
       for (std::size_t p = 0; p < looked_at; ++p) {
         const double half_a_step = 0.5 * static_cast<double>(quantization_step(of_field(p)));
-        rounded.push_back(rounded.back() + peaks_[p] * std::sqrt(3.0) * half_a_step);
+        rounding_bounds.push_back(rounding_bounds.back() +
+                                  max_magnitudes_[p] * std::sqrt(3.0) * half_a_step);
       }
       // Keep as few of the remaining fields as the tolerance allows.
       const double most =
-          std::min(tolerance_ - rounded.back(), kTruncationShare * tolerance_) - skipped;
+          std::min(tolerance_ - rounding_bounds.back(), kTruncationShare * tolerance_) - skipped;
       const TruncationError left_out =
           choose_fewest_fields(by_coordinate.data(), looked_at, functions_.data(), count_,
                                static_cast<std::size_t>(directions_.level_functions.rows()),
                                most > 0 ? static_cast<float>(most * most) : 0.0F);
       fitted.fields.add(by_vertex, left_out.kept_fields);
       const double missed = std::sqrt(static_cast<double>(left_out.squared_error)) + skipped +
-                            rounded[left_out.kept_fields];
+                            rounding_bounds[left_out.kept_fields];
       if (missed > fitted.max_error) {
         fitted.max_error = missed;
         fitted.level = left_out.level_index;
@@ -174,7 +175,7 @@ class TileFitter {
       inputs.push_back(&in[n * kTileVertices]);
       outputs.push_back(&out[n * kTileVertices]);
     }
-    combine_rows(inputs.data(), count_, combining_.data(), count_, count, outputs.data());
+    combine_rows(inputs.data(), count_, field_coefficients_.data(), count_, count, outputs.data());
     by_coordinate.assign(count_ * kTileValues, 0.0F);
     by_vertex.assign(count_ * kTileValues, 0.0F);
     for (std::size_t p = 0; p < count_; ++p) {
@@ -193,9 +194,9 @@ class TileFitter {
   const PrincipalDirections& directions_;
   std::size_t count_;  ///< number of directions, equal to the number of nodes
   double tolerance_;
-  std::vector<float> functions_;  ///< #levels by #directions
-  std::vector<double> peaks_;     ///< largest |φ_p| over the tested levels
-  std::vector<float> combining_;  ///< #nodes by #directions: field_coefficients
+  std::vector<float> functions_;           ///< #levels by #directions
+  std::vector<double> max_magnitudes_;     ///< largest |φ_p| over the tested levels
+  std::vector<float> field_coefficients_;  ///< #nodes by #directions: field_coefficients
 };
 
 /// The exact displacements at the probes, #levels by 3·#probes.

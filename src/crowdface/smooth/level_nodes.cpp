@@ -84,27 +84,28 @@ LevelNodes::Spectrum LevelNodes::displacement(std::uint64_t level) const {
 
 void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual) {
   // For each candidate, the residual after subtracting the projection onto the nodes chosen so far.
-  std::vector<Spectrum> left;
-  left.reserve(candidates.size());
-  for (const std::uint64_t level : candidates) left.push_back(displacement(level));
-  const double enough = max_residual * max_residual * fixed_order_dot(left.back(), left.back());
+  std::vector<Spectrum> residuals;
+  residuals.reserve(candidates.size());
+  for (const std::uint64_t level : candidates) residuals.push_back(displacement(level));
+  const double enough =
+      max_residual * max_residual * fixed_order_dot(residuals.back(), residuals.back());
   std::vector<std::uint64_t> chosen;
   while (chosen.size() < std::min(kMaxNodes, candidates.size())) {
     // The next node is the candidate with the largest residual.
     std::size_t worst = 0;
     double most = -1;
-    for (std::size_t i = 0; i < left.size(); ++i) {
-      const double length = fixed_order_dot(left[i], left[i]);
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      const double length = fixed_order_dot(residuals[i], residuals[i]);
       if (length > most) most = length, worst = i;
     }
     if (most <= enough) break;
     // Remove the node's direction from all residuals.
-    Spectrum direction = left[worst];
+    Spectrum direction = residuals[worst];
     orthonormalize(
         direction, orthonormal_basis_.size(),
         [&](std::size_t m) { return std::span(orthonormal_basis_[m]); },
         [](std::size_t, double) {});
-    for (Spectrum& spectrum : left)
+    for (Spectrum& spectrum : residuals)
       subtract_scaled(fixed_order_dot(spectrum, direction), direction, spectrum);
     chosen.push_back(candidates[worst]);
     orthonormal_basis_.push_back(std::move(direction));
@@ -133,11 +134,11 @@ std::vector<double> LevelNodes::weights(std::uint64_t level) const {
   }
   // Find the weights by least squares over the grid: project the level onto the orthonormal
   // directions, then solve the triangular system for the weights of the nodes.
-  const Spectrum wanted = displacement(level);
+  const Spectrum level_displacement = displacement(level);
   std::vector<double> share;
   share.reserve(orthonormal_basis_.size());
   for (const Spectrum& direction : orthonormal_basis_)
-    share.push_back(fixed_order_dot(wanted, direction));
+    share.push_back(fixed_order_dot(level_displacement, direction));
   for (std::size_t p = choice_order_.size(); p-- > 0;) {
     const double weight = share[p] / triangular_factor_[p][p];
     for (std::size_t q = 0; q < p; ++q) share[q] -= weight * triangular_factor_[p][q];

@@ -26,7 +26,7 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
 }
 
 /// The upper triangular T of the QR factorization functions = Q·T.
-Eigen::MatrixXd triangle_of(Eigen::MatrixXd functions) {
+Eigen::MatrixXd triangular_factor(Eigen::MatrixXd functions) {
   const Index count = functions.cols();
   const auto column = [&](Index n) {
     return std::span(functions.col(n).data(), static_cast<std::size_t>(functions.rows()));
@@ -80,7 +80,7 @@ PrincipalDirections weighted_directions(const TestedLevels& tested,
   // `importance`. Let C be the displacements at the nodes. With Z = T·C the trajectories are Q·Z.
   // Their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and
   // Q·Z = (Q·U)·(Uᵀ·T·C).
-  const Eigen::MatrixXd t = triangle_of(importance.asDiagonal() * tested.node_weights);
+  const Eigen::MatrixXd t = triangular_factor(importance.asDiagonal() * tested.node_weights);
   const Eigen::MatrixXd u =
       symmetric_eigen(product(product(t, moments), t.transpose())).eigenvectors;
   PrincipalDirections directions;
@@ -210,9 +210,9 @@ PrincipalDirections principal_directions(const TestedLevels& tested,
     if (best.rank <= 1) break;
     // Raise the importance of the levels at which the errors are largest, relative to the other
     // levels.
-    const auto wanted = distances.col(best.rank - 1);  // errors with one direction fewer
+    const auto errors = distances.col(best.rank - 1);  // errors with one direction fewer
     for (Index l = 0; l < importance.size(); ++l) {
-      importance(l) *= std::sqrt(wanted(l) / wanted.maxCoeff() + kFloor);
+      importance(l) *= std::sqrt(errors(l) / errors.maxCoeff() + kFloor);
     }
   }
   return best;

@@ -16,7 +16,7 @@ struct Rotation {
 };
 
 /// The Jacobi rotation that zeroes the elements (p, q) and (q, p).
-Rotation zeroing(const Eigen::MatrixXd& a, Index p, Index q) {
+Rotation jacobi_rotation(const Eigen::MatrixXd& a, Index p, Index q) {
   if (a(p, q) == 0) return {};
   const double tau = (a(q, q) - a(p, p)) / (2 * a(p, q));
   const double tangent = (tau >= 0 ? 1.0 : -1.0) / (std::abs(tau) + std::sqrt(1 + tau * tau));
@@ -58,7 +58,7 @@ SymmetricEigen symmetric_eigen(Eigen::MatrixXd matrix) {
   for (int sweep = 0; sweep < kMaxSweeps && off_diagonal(matrix) > small; ++sweep) {
     for (Index p = 0; p < size; ++p) {
       for (Index q = p + 1; q < size; ++q) {
-        const Rotation rotation = zeroing(matrix, p, q);
+        const Rotation rotation = jacobi_rotation(matrix, p, q);
         rotate_columns(matrix, p, q, rotation);
         rotate_rows(matrix, p, q, rotation);
         rotate_columns(vectors, p, q, rotation);

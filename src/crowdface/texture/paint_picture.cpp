@@ -162,18 +162,18 @@ BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& codin
   parallel_blocks(texels.height(), kPictureRowsPerBlock, [&](int begin, int end) {
     const RowBuffer buffer(texels.width(), fields.values_per_vertex());
     const std::span<float* const> sums = buffer.rows().first(fields.channels);
-    std::vector<HeadTextureRow> lent(fields.heads.size());
+    std::vector<HeadTextureRow> head_rows(fields.heads.size());
     for (int y = begin; y < end; ++y) {
       const auto spans = texels.row(y);
       if (spans.empty()) continue;
       interpolate(texels, y, fields, buffer);
-      for (std::size_t s = 0; s < lent.size(); ++s) {
-        lent[s].factors = buffer.rows()[fields.channels + s];
+      for (std::size_t s = 0; s < head_rows.size(); ++s) {
+        head_rows[s].factors = buffer.rows()[fields.channels + s];
         for (std::size_t c = 0; c < fields.channels; ++c) {
-          lent[s].stored[c] = maps[fields.heads[s]]->row(static_cast<int>(c), y);
+          head_rows[s].stored[c] = maps[fields.heads[s]]->row(static_cast<int>(c), y);
         }
       }
-      add_products(lent, spans.front().begin, spans.back().end, sums);
+      add_products(head_rows, spans.front().begin, spans.back().end, sums);
       const std::size_t row =
           channels * static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(y);
       RowSums& total = row_sums[static_cast<std::size_t>(y)];

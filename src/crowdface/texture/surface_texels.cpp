@@ -16,7 +16,7 @@ using Owners = std::vector<std::uint32_t>;
 
 /// Computes the barycentric coordinates as linear functions of the texel's column and row. Returns
 /// false for a triangle without area.
-bool shares_of(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle) {
+bool set_barycentrics(const std::array<Point, 3>& at, SurfaceTexels::Triangle& triangle) {
   const Point u = at[1] - at[0], v = at[2] - at[0];
   const double area = cross(u, v);
   if (!(std::abs(area) > 1e-12)) return false;
@@ -89,7 +89,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
     for (std::size_t c = 1; c + 1 < vertices.size(); ++c) {
       const std::array<Point, 3> points = {at(0), at(c), at(c + 1)};
       Triangle triangle{};
-      if (!shares_of(points, triangle)) continue;
+      if (!set_barycentrics(points, triangle)) continue;
       const auto number = static_cast<std::uint32_t>(triangles_.size());
       bool any = false;
       for_each_texel(points, size_.width, size_.height, [&](int x, int y) {
@@ -121,7 +121,7 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
       if (row[begin] == kNoIndex) continue;
       spans_.push_back(
           {row[begin], static_cast<std::uint16_t>(begin), static_cast<std::uint16_t>(x)});
-      covered_ += x - begin;
+      covered_texel_count_ += x - begin;
     }
     row_begin_.push_back(spans_.size());
   }

@@ -62,7 +62,7 @@ class SurfaceTexels {
   }
   const std::vector<GutterTexel>& gutter() const { return gutter_; }
   /// Number of covered texels.
-  std::size_t covered_texel_count() const { return covered_; }
+  std::size_t covered_texel_count() const { return covered_texel_count_; }
   std::size_t memory_bytes() const;
 
  private:
@@ -72,7 +72,7 @@ class SurfaceTexels {
   std::vector<Span> spans_;
   std::vector<std::size_t> row_begin_;  ///< #rows + 1: index of each row's first span
   std::vector<GutterTexel> gutter_;
-  std::size_t covered_ = 0;
+  std::size_t covered_texel_count_ = 0;
 };
 
 }  // namespace crowdface

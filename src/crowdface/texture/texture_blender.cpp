@@ -220,23 +220,24 @@ PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& 
   fields.values.resize(vertices.size() * width);
   parallel_blocks(
       static_cast<Index>(vertices.size()), kVerticesPerBlock, [&](Index begin, Index end) {
-        std::vector<double> lent(fields.heads.size());
+        std::vector<double> detail_weights(fields.heads.size());
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
           const std::size_t vertex = vertices[i];
           const bool is_part = !options_.uses_target_colours_only.empty() &&
                                options_.uses_target_colours_only[vertex];
-          for (std::size_t s = 0; s < lent.size(); ++s) {
+          for (std::size_t s = 0; s < detail_weights.size(); ++s) {
             const std::size_t head = fields.heads[s];
-            lent[s] = is_part ? weights.of_target[head] : 0.0;
+            detail_weights[s] = is_part ? weights.of_target[head] : 0.0;
             for (std::size_t k = 0; !is_part && k < weights.of_region.size(); ++k) {
-              lent[s] += regions_.alpha(static_cast<Index>(vertex), static_cast<Index>(k)) *
-                         weights.of_region[k][head];
+              detail_weights[s] +=
+                  regions_.alpha(static_cast<Index>(vertex), static_cast<Index>(k)) *
+                  weights.of_region[k][head];
             }
           }
           // Symbols as in TextureBlender. A map stores D_h as D_h = low_h + step_h · stored.
           // Therefore the base value is Σ W_h C_h + g Σ v_h (low_h − C_h), and the factor of head h
           // is g v_h step_h.
-          const double gain = gain_at(statistics_, vertex, fields.heads, lent);
+          const double gain = gain_at(statistics_, vertex, fields.heads, detail_weights);
           const auto coarse = [&](std::size_t head) -> Eigen::Array3d {
             return statistics_.coarse_values[head]
                 .row(static_cast<Index>(vertex))
@@ -246,11 +247,11 @@ PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& 
           };
           Eigen::Array3d base = Eigen::Array3d::Zero();
           float* out = fields.values.data() + i * width;
-          for (std::size_t s = 0; s < lent.size(); ++s) {
+          for (std::size_t s = 0; s < detail_weights.size(); ++s) {
             const MapCoding& coding = maps[fields.heads[s]]->coding;
-            base += gain * lent[s] * (double{coding.low} - coarse(fields.heads[s]));
+            base += gain * detail_weights[s] * (double{coding.low} - coarse(fields.heads[s]));
             out[fields.channels + s] =
-                static_cast<float>(gain * lent[s] * static_cast<double>(coding.step));
+                static_cast<float>(gain * detail_weights[s] * static_cast<double>(coding.step));
           }
           const HeadWeights& of_coarse = is_part ? weights.of_target : weights.of_face;
           for (std::size_t h = 0; h < of_coarse.size(); ++h) {

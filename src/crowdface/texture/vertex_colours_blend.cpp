@@ -44,11 +44,11 @@ ColourRows blend_vertex_colours(const std::vector<ColourRows>& heads,
     for (Index v = begin; v < end; ++v) {
       const bool is_part = !uses_target_colours_only.empty() &&
                            uses_target_colours_only[static_cast<std::size_t>(v)];
-      const std::vector<double>& lent = is_part ? target : whole;
+      const std::vector<double>& weights_of_vertex = is_part ? target : whole;
       for (Index c = 0; c < 3; ++c) {
         double density = 0;
         for (std::size_t h = 0; h < heads.size(); ++h) {
-          if (lent[h] > 0) density += lent[h] * densities[heads[h](v, c)];
+          if (weights_of_vertex[h] > 0) density += weights_of_vertex[h] * densities[heads[h](v, c)];
         }
         const long nearest = std::lround(density);
         blended(v, c) =

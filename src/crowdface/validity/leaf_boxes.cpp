@@ -181,11 +181,11 @@ HWY_EXPORT(overlapping_boxes);
 BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   // This number stands for 1/0: large but finite, so that the product with a distance of zero is
   // not NaN.
-  constexpr double kHuge = 1e300;
+  constexpr double kInverseOfZero = 1e300;
   for (std::size_t c = 0; c < 3; ++c) {
     const auto axis = static_cast<Index>(c);
     origin[c] = from[axis];
-    inverse[c] = direction[axis] == 0 ? kHuge : 1 / direction[axis];
+    inverse[c] = direction[axis] == 0 ? kInverseOfZero : 1 / direction[axis];
   }
 }
 

@@ -24,7 +24,7 @@ const Head& first_of(const std::vector<Head>& heads) {
 /// A viewer counts as seeing a back side only if the cosine between the direction to the viewer and
 /// the normal of the back side exceeds this value. At smaller cosines, little of the back side is
 /// visible.
-constexpr double kFlattestCosine = 0.2;
+constexpr double kMinViewCosine = 0.2;
 
 /// Orients the skin's triangles so that their normals point outwards. If the enclosed volume is
 /// negative, reverses all triangles.
@@ -42,13 +42,13 @@ std::vector<Triangle> oriented_outwards(std::vector<Triangle> triangles, const P
 }
 
 /// Returns the indices of the view directions from which the back of a triangle is visible with a
-/// cosine above kFlattestCosine.
+/// cosine above kMinViewCosine.
 std::vector<std::size_t> viewers_behind(const Corners& at, const ViewSetup& view_setup) {
   const Eigen::Vector3d normal = (at[1] - at[0]).cross(at[2] - at[0]);
   std::vector<std::size_t> behind;
   for (std::size_t i = 0; i < view_setup.directions.size(); ++i) {
     const Eigen::Vector3d& viewer = view_setup.directions[i];
-    if (-normal.dot(viewer) > kFlattestCosine * normal.norm() * viewer.norm()) {
+    if (-normal.dot(viewer) > kMinViewCosine * normal.norm() * viewer.norm()) {
       behind.push_back(i);
     }
   }

@@ -18,8 +18,8 @@ constexpr std::uint32_t kLeafSize = TriangleTree::kLeafSize;
 
 /// Returns whether a ray hits a triangle. Source: Möller & Trumbore 1997, "Fast, minimum storage
 /// ray/triangle intersection".
-bool meets_triangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                    const Positions& positions, const Triangle& triangle) {
+bool ray_hits_triangle(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                       const Positions& positions, const Triangle& triangle) {
   const Eigen::Vector3d a = row3(positions, triangle[0]);
   const Eigen::Vector3d ab = row3(positions, triangle[1]) - a;
   const Eigen::Vector3d ac = row3(positions, triangle[2]) - a;
@@ -185,7 +185,8 @@ std::uint32_t TriangleScene::find_any_hit(const Eigen::Vector3d& origin,
                                           std::uint32_t guess) const {
   const auto is_met = [&](std::uint32_t place) {
     const std::uint32_t triangle = tree_.order[place];
-    return triangle != start && meets_triangle(origin, direction, positions_, triangles_[triangle]);
+    return triangle != start &&
+           ray_hits_triangle(origin, direction, positions_, triangles_[triangle]);
   };
   if (guess != kNoIndex && is_met(guess)) return guess;
   if (tree_.nodes.empty()) return kNoIndex;

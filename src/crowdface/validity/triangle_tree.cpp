@@ -7,11 +7,11 @@
 namespace crowdface {
 namespace {
 
-/// Marks the triangles at vertices with more than kMaxAround triangles. The boxes of all triangles
+/// Marks the triangles at vertices with more than kMaxTrianglesAtVertex triangles. The boxes of all triangles
 /// at such a vertex overlap each other: with 60,000 triangles at one vertex, the tests of pairs
 /// took 90 seconds per face.
 std::vector<bool> is_at_hub(const std::vector<Triangle>& triangles, Index vertex_count) {
-  constexpr std::uint32_t kMaxAround = 1000;
+  constexpr std::uint32_t kMaxTrianglesAtVertex = 1000;
   std::vector<std::uint32_t> around(static_cast<std::size_t>(vertex_count), 0);
   for (const Triangle& triangle : triangles) {
     for (const std::uint32_t vertex : triangle) ++around[vertex];
@@ -19,7 +19,7 @@ std::vector<bool> is_at_hub(const std::vector<Triangle>& triangles, Index vertex
   std::vector<bool> left_out;
   for (const Triangle& triangle : triangles) {
     left_out.push_back(std::ranges::any_of(
-        triangle, [&](std::uint32_t vertex) { return around[vertex] > kMaxAround; }));
+        triangle, [&](std::uint32_t vertex) { return around[vertex] > kMaxTrianglesAtVertex; }));
   }
   return left_out;
 }

@@ -49,16 +49,17 @@ std::pair<double, double> interval_on_line(const Corners& t, const std::array<do
 
 TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const Positions& target) {
   // a triangle is degenerate if the sine of a corner's angle is below this value
-  constexpr double kSliver = 1e-4;
-  frames_.reserve(triangles.size());
+  constexpr double kMinSine = 1e-4;
+  planar_triangles_.reserve(triangles.size());
   for (const Triangle& t : triangles) {
     const Vector u = row3(target, t[1]) - row3(target, t[0]);
     const Vector v = row3(target, t[2]) - row3(target, t[0]);
     const Vector normal = u.cross(v);
-    if (!(normal.squaredNorm() > kSliver * kSliver * u.squaredNorm() * v.squaredNorm())) continue;
+    if (!(normal.squaredNorm() > kMinSine * kMinSine * u.squaredNorm() * v.squaredNorm())) continue;
     const double length = std::sqrt(u.squaredNorm());
     const double apex_x = u.dot(v) / length;
-    frames_.push_back({t, normal, length, apex_x, std::sqrt(normal.squaredNorm()) / length});
+    planar_triangles_.push_back(
+        {t, normal, length, apex_x, std::sqrt(normal.squaredNorm()) / length});
   }
 }
 
@@ -66,8 +67,8 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
   constexpr double kCollapsed = 0.02, kPercentile = 0.99;
   LocalDefects defects;
   std::vector<double> stretches;
-  stretches.reserve(frames_.size());
-  for (const Frame& frame : frames_) {
+  stretches.reserve(planar_triangles_.size());
+  for (const PlanarTriangle& frame : planar_triangles_) {
     const Vector origin = row3(positions, frame.corners[0]);
     const Vector u = row3(positions, frame.corners[1]) - origin;
     const Vector v = row3(positions, frame.corners[2]) - origin;

@@ -31,17 +31,17 @@ class TargetTriangles {
   ///
   /// \param positions  #V by 3, in the same coordinate frame as the target.
   LocalDefects compare(const Positions& positions) const;
-  std::uint64_t memory_bytes() const { return frames_.size() * sizeof(Frame); }
+  std::uint64_t memory_bytes() const { return planar_triangles_.size() * sizeof(PlanarTriangle); }
 
  private:
   /// A triangle of the target, described by orthonormal coordinates in the triangle's plane: the
   /// corners are (0, 0), (length, 0) and (apex_x, apex_y).
-  struct Frame {
+  struct PlanarTriangle {
     Triangle corners;
     Eigen::Vector3d normal;  ///< the length of this vector is twice the triangle's area
     double length, apex_x, apex_y;
   };
-  std::vector<Frame> frames_;  ///< one frame for each triangle that is not degenerate
+  std::vector<PlanarTriangle> planar_triangles_;  ///< one for each triangle that is not degenerate
 };
 
 /// The positions of a triangle's corners.

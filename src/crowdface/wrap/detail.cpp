@@ -28,8 +28,8 @@ constexpr double kNoDataWeight = 1e-4;  ///< weight of a zero offset at vertices
 constexpr int kSteps = 30;
 /// Limits of even_out_folds: number of rounds, number of first rounds that do not shrink the
 /// offsets, and number of averaging sweeps in each round.
-constexpr int kMaxEvenings = 10, kEvenOnly = 3, kSweeps = 8;
-constexpr double kKeptOffset = 0.98;  ///< factor by which a later round shrinks offsets in a sweep
+constexpr int kMaxAveragingRounds = 10, kPureAveragingRounds = 3, kSweeps = 8;
+constexpr double kSweepFactor = 0.98;  ///< factor by which a later round shrinks offsets in a sweep
 /// Smallest allowed ratio of two areas of a triangle: the area after the move, projected onto the
 /// triangle's plane before the move, divided by the area before the move.
 constexpr double kMinAreaRatio = 0.05;
@@ -193,7 +193,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest_positions, const
     if (uneven[v] == 0) evened.push_back(v);
     uneven[v] = 1;
   };
-  for (int round = 0; round < kMaxEvenings && !turned.empty(); ++round) {
+  for (int round = 0; round < kMaxAveragingRounds && !turned.empty(); ++round) {
     for (const std::uint32_t i : turned) {
       for (const std::uint32_t v : skin.triangles[i]) {
         add(v);
@@ -203,7 +203,7 @@ void even_out_folds(const SkinMesh& skin, const Positions& rest_positions, const
     std::ranges::sort(evened);
     // In later rounds, also shrink the offsets a little in each sweep. In a crease, the normals of
     // neighbouring vertices cross, so that even equal offsets along the normals produce folds.
-    const double kept = round < kEvenOnly ? 1 : kKeptOffset;
+    const double kept = round < kPureAveragingRounds ? 1 : kSweepFactor;
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       for (const std::uint32_t v : evened) {
         const auto around = skin.adjacency.items_of(v);

@@ -42,14 +42,14 @@ class Factors {
     }
     lower_ = factors.matrixL().nestedExpression();
     inverse_ = factors.vectorD().cwiseInverse();
-    place_ = factors.permutationP().indices();
+    permutation_ = factors.permutationP().indices();
   }
 
   Positions solve(const Positions& right) const {
     const Index count = right.rows();
     Rows x(count, 4);
     x.col(3).setZero();
-    for (Index i = 0; i < count; ++i) x.row(place_(i)).head<3>() = right.row(i);
+    for (Index i = 0; i < count; ++i) x.row(permutation_(i)).head<3>() = right.row(i);
     for (Index j = 0; j < count; ++j) {
       const Eigen::RowVector4d row = x.row(j);
       for (Column entry(lower_, j); entry; ++entry) x.row(entry.row()) -= entry.value() * row;
@@ -60,7 +60,7 @@ class Factors {
       x.row(j) = row;
     }
     Positions result(count, 3);
-    for (Index i = 0; i < count; ++i) result.row(i) = x.row(place_(i)).head<3>();
+    for (Index i = 0; i < count; ++i) result.row(i) = x.row(permutation_(i)).head<3>();
     return result;
   }
 
@@ -70,7 +70,7 @@ class Factors {
 
   SparseMatrix lower_;  ///< L without its diagonal, whose entries are 1
   Eigen::VectorXd inverse_;
-  Eigen::VectorXi place_;  ///< for each row of the matrix: the index of this row in L
+  Eigen::VectorXi permutation_;  ///< for each row of the matrix: the index of this row in L
 };
 
 }  // namespace

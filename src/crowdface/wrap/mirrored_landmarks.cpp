@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 /// Residuals up to this length are natural differences between people.
-constexpr double kMinMm = 6;
+constexpr double kMaxNaturalMm = 6;
 constexpr double kTimesWorse = 2.5;
 
 constexpr std::size_t kMinCount = 5;  ///< four points cannot reveal a reflection
@@ -86,7 +86,7 @@ void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks) {
   if (landmarks.size() < kMinCount) return;
   const double as_they_are = median_residual(positions, landmarks);
-  if (!(as_they_are > kMinMm)) return;
+  if (!(as_they_are > kMaxNaturalMm)) return;
   std::vector<WrapLandmark> mirrored = landmarks;
   for (WrapLandmark& landmark : mirrored) landmark.scan_position.x() = -landmark.scan_position.x();
   const double reflected = median_residual(positions, mirrored);
@@ -111,7 +111,7 @@ void refuse_mirrored_landmarks(const Positions& positions,
 void refuse_swapped_pair(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
   if (landmarks.size() < kMinCount) return;
   const double as_they_are = rms_residual(positions, landmarks);
-  if (!(as_they_are > kMinMm)) return;
+  if (!(as_they_are > kMaxNaturalMm)) return;
   double best = as_they_are / kTimesWorse;
   std::string pair;
   std::vector<WrapLandmark> swapped = landmarks;

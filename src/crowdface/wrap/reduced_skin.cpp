@@ -19,9 +19,9 @@ namespace {
 /// vertex of the reduced skin that is nearest along the surface. Then searches only the triangles
 /// around this vertex and around its neighbours. The closest point in space may lie on another part
 /// of the skin, because lips touch and nostrils have thin walls.
-std::vector<ReducedSkin::BarycentricPoint> find_places(const SkinMesh& skin,
-                                                       const Positions& positions,
-                                                       const SkinMesh& small) {
+std::vector<ReducedSkin::BarycentricPoint> find_barycentric_points(const SkinMesh& skin,
+                                                                   const Positions& positions,
+                                                                   const SkinMesh& small) {
   const Positions corners = small.rows_of(positions);
   const VertexFaces around(topology_of(small.triangles, small.vertex_count()));
   const std::vector<std::uint32_t> source =
@@ -85,7 +85,7 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions,
   reduced.mesh.triangles = small.triangles;
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
-  reduced.vertex_positions = find_places(skin, positions, reduced.mesh);
+  reduced.vertex_positions = find_barycentric_points(skin, positions, reduced.mesh);
   // Choose the number of smoothing steps: one step acts over half an edge of the original skin, and
   // all steps together must smooth creases at the longer edges of the reduced skin.
   const auto ratio = static_cast<double>(skin.vertices.size()) /

@@ -41,8 +41,9 @@ bool seen(const WrapTemplate& wrap_template, Index v) {
 
 /// Distances to the scan, for all visible skin vertices that have scan data.
 /// \param regions, region  the region of the vertices; if `regions` is null, the whole skin
-std::vector<double> seen_distances(const WrapTemplate& wrap_template, const WrapResult& result,
-                                   const SkinRegions* regions = nullptr, std::size_t region = 0) {
+std::vector<double> visible_distances(const WrapTemplate& wrap_template, const WrapResult& result,
+                                      const SkinRegions* regions = nullptr,
+                                      std::size_t region = 0) {
   std::vector<double> distances;
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
     if (regions != nullptr && regions->region_of_vertex[static_cast<std::size_t>(v)] != region)
@@ -68,7 +69,7 @@ std::string farthest_region(const WrapTemplate& wrap_template, const WrapResult&
   double most = 0;
   std::string text;
   for (std::size_t r = 0; r < regions.names.size(); ++r) {
-    const double share = share_far(seen_distances(wrap_template, result, &regions, r));
+    const double share = share_far(visible_distances(wrap_template, result, &regions, r));
     if (share <= most) continue;
     most = share;
     text =
@@ -131,7 +132,7 @@ std::optional<VertexColours> doubt_colours(const WrapTemplate& wrap_template,
 }  // namespace
 
 WrapDistances measure_distances(const WrapTemplate& wrap_template, const WrapResult& result) {
-  const std::vector<double> distances = seen_distances(wrap_template, result);
+  const std::vector<double> distances = visible_distances(wrap_template, result);
   return {percentile(distances, 0.5), percentile(distances, 0.95)};
 }
 
@@ -194,7 +195,7 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const 
   std::vector<std::string> warnings = wrap_doubts(wrap_template, result);
   const std::vector<std::string> faults = scan_faults(wrap_template, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
-  const double share = share_far(seen_distances(wrap_template, result));
+  const double share = share_far(visible_distances(wrap_template, result));
   if (share > kMaxFarShare && faults.empty()) {
     warnings.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ",
                               kFarFromScanMm, " mm off the scan",
@@ -262,10 +263,10 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_
   report["output_scale"] = facts.output_scale;
   report["turned_degrees"] = rounded(result.pose.angle_degrees());
   report["pose_residual_mm"] = rounded(result.pose_residual_mm);
-  report["distance_mm"] = spread_json(seen_distances(wrap_template, result));
+  report["distance_mm"] = spread_json(visible_distances(wrap_template, result));
   for (std::size_t r = 0; r < regions.names.size(); ++r) {
     report["regions_mm"][regions.names[r]] =
-        spread_json(seen_distances(wrap_template, result, &regions, r));
+        spread_json(visible_distances(wrap_template, result, &regions, r));
   }
   report["without_data"] = rounded(share_without_data(wrap_template, result));
   if (facts.share_without_scan) report["textures_filled"] = rounded(*facts.share_without_scan);

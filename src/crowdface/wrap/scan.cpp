@@ -56,7 +56,7 @@ double largest(const std::vector<double>& areas) {
 
 /// If the scan has eyeballs (a modelled head), keeps only the components whose class `is_wanted`
 /// accepts; otherwise returns the scan unchanged.
-Scan of_modelled_head(const Scan& scan, const std::function<bool(PartClass)>& is_wanted) {
+Scan keep_part_classes(const Scan& scan, const std::function<bool(PartClass)>& is_wanted) {
   const Topology topology = topology_of(scan.triangles, scan.positions.rows());
   const Adjacency adjacency = build_adjacency(topology);
   const Components components = find_components(adjacency);
@@ -132,11 +132,11 @@ Scan remove_small_pieces(const Scan& scan, double min_share) {
 }
 
 Scan remove_covering_layers(const Scan& scan) {
-  return of_modelled_head(scan, [](PartClass of) { return of != PartClass::kBound; });
+  return keep_part_classes(scan, [](PartClass of) { return of != PartClass::kBound; });
 }
 
 Scan keep_skin(const Scan& scan) {
-  return of_modelled_head(scan, [](PartClass of) { return of == PartClass::kSkin; });
+  return keep_part_classes(scan, [](PartClass of) { return of == PartClass::kSkin; });
 }
 
 void weld_vertices(Scan& scan) {

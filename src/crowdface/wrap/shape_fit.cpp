@@ -77,21 +77,21 @@ class Equations {
     rows_.middleCols<3>(count_) = (weight * jacobian).transpose();
     values_.segment<3>(count_) = weight * value;
     count_ += 3;
-    if (count_ == kMaxRows) take_up();
+    if (count_ == kMaxRows) add_collected_rows();
   }
   void hold(Index unknown, double value, double weight) {
     matrix_(unknown, unknown) += weight;
     right_(unknown) += weight * value;
   }
   Eigen::VectorXd solve() {
-    take_up();
+    add_collected_rows();
     return Eigen::LDLT<Eigen::MatrixXd, Eigen::Lower>(matrix_).solve(right_);
   }
 
  private:
   static constexpr Index kMaxRows = 384;
 
-  void take_up() {
+  void add_collected_rows() {
     if (count_ == 0) return;  // Eigen divides by the count
     matrix_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.leftCols(count_));
     right_ += rows_.leftCols(count_) * values_.head(count_);

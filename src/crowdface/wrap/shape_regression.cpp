@@ -27,8 +27,8 @@ struct Observation {
 };
 
 /// Selects visible vertices by farthest-point sampling.
-std::vector<std::uint32_t> spread_places(const SkinMesh& skin, const Positions& positions,
-                                         std::size_t most) {
+std::vector<std::uint32_t> sample_visible_vertices(const SkinMesh& skin, const Positions& positions,
+                                                   std::size_t most) {
   std::vector<std::uint32_t> visible, places;
   for (std::uint32_t v = 0; v < skin.ambient_visibility.size(); ++v) {
     if (skin.ambient_visibility[v] > kUnfoldedSkinThreshold) visible.push_back(v);
@@ -164,7 +164,8 @@ Positions regress_shape(const SkinMesh& skin, const ShapeModel& model, const Pos
                         const ScanSurface& scan, const std::vector<WrapLandmark>& landmarks,
                         const RegressionOptions& options) {
   const Regression regression(model, options);
-  const std::vector<std::uint32_t> places = spread_places(skin, model.mean, options.sample_count);
+  const std::vector<std::uint32_t> places =
+      sample_visible_vertices(skin, model.mean, options.sample_count);
   Positions current = positions;
   for (const double reach : options.search_radii_mm) {
     throw_if_interrupted();

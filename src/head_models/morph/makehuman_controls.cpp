@@ -155,7 +155,7 @@ std::span<const char> sides_of(const Control& control) {
 
 /// Returns the interpolation weights of the targets for min, average and max amount; x is the
 /// amount, 0 … 1.
-std::array<double, 3> amounts(double x) {
+std::array<double, 3> amount_weights(double x) {
   return {std::max(0.0, 1 - 2 * x), 1 - std::abs(2 * x - 1), std::max(0.0, 2 * x - 1)};
 }
 
@@ -163,7 +163,7 @@ std::array<double, 3> amounts(double x) {
 /// targets of both sexes, two ages and three builds.
 void add_person(const MakeHumanPerson& person, double male_share, std::vector<TargetWeight>& out) {
   const double old_share = std::clamp((person.age_years - kYoung) / (kOld - kYoung), 0.0, 1.0);
-  const auto muscle = amounts(person.muscle), weight = amounts(person.weight);
+  const auto muscle = amount_weights(person.muscle), weight = amount_weights(person.weight);
   for (const bool male : {false, true}) {
     for (const bool old : {false, true}) {
       const double share = (male ? male_share : 1 - male_share) * (old ? old_share : 1 - old_share);
@@ -191,7 +191,7 @@ MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index)
   double sum = 0;
   for (std::uint32_t a = 0; a < 3; ++a) {
     // The fourth power gives most people one dominant ancestry.
-    const double x = 0.02 + random_unit({seed, index, "makehuman/ancestry"}, a);
+    const double x = 0.02 + random_uniform({seed, index, "makehuman/ancestry"}, a);
     person.ancestry[a] = x * x * x * x;
     sum += person.ancestry[a];
   }

@@ -166,7 +166,7 @@ std::vector<MakeHumanAttachment> makehuman_attachments(const fs::path& package) 
 
 std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                   std::uint64_t index) {
-  double left = random_unit({seed, index, "makehuman/hair"});
+  double left = random_uniform({seed, index, "makehuman/hair"});
   for (const HairShare& colour : kHairShares) {
     for (std::size_t a = 0; a < 3; ++a) left -= person.ancestry[a] * colour.share[a];
     if (left < 0) return std::string(colour.name);
@@ -194,7 +194,7 @@ std::vector<WeightedSkin> makehuman_skin_shares(const fs::path& package,
       // The package has two skins for each sex of young Caucasians, and one skin for each other
       // combination of age, ancestry and sex.
       const bool second = folder.starts_with("young_caucasian") &&
-                          random_unit({seed, index, "makehuman/skin"}) < 0.5;
+                          random_uniform({seed, index, "makehuman/skin"}) < 0.5;
       out.push_back({skin_picture(package / "public/data/skins" / folder /
                                   concat(folder, second ? "2" : "", ".json")),
                      share});
@@ -209,7 +209,7 @@ double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t i
 
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index) {
-  double left = random_unit({seed, index, "makehuman/eyes"});
+  double left = random_uniform({seed, index, "makehuman/eyes"});
   for (const EyeColour& colour : kEyeColours) {
     for (std::size_t a = 0; a < 3; ++a) left -= person.ancestry[a] * colour.share[a];
     if (left < 0) return std::string(colour.name);

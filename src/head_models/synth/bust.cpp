@@ -48,7 +48,8 @@ const Section kBack = {{{5.2, 0},
                         {12.3, -23.5},
                         {11.6, -28.0}}};
 
-const Vector3d kAxis(0, -16.4, -3.1);  ///< centre of the lower rim of the average head's neck, cm
+const Vector3d kRimCentre(0, -16.4,
+                          -3.1);  ///< centre of the lower rim of the average head's neck, cm
 
 // The texture shows the bust as a ring: kInner is the radius of the upper rim, kOuter the radius of
 // the lower edge, in texture coordinates.
@@ -69,7 +70,7 @@ Section section_at(const Vector2d& way) {
 
 /// Evaluates the spline, which goes from the first to the last point. \param share  parameter, 0 …
 /// 1
-Vector2d on_spline(const Section& points, double share) {
+Vector2d spline_point(const Section& points, double share) {
   const auto at = [&](int k) -> Vector2d {
     const int last = static_cast<int>(kPoints) - 1;
     if (k < 0) return 2 * points[0] - points[1];
@@ -85,7 +86,7 @@ Vector2d on_spline(const Section& points, double share) {
 }
 
 Vector3d placed(const Vector2d& way, const Vector2d& point) {
-  return kAxis + Vector3d(point.x() * way.x(), point.y(), point.x() * way.y());
+  return kRimCentre + Vector3d(point.x() * way.x(), point.y(), point.x() * way.y());
 }
 
 }  // namespace
@@ -98,17 +99,18 @@ Mesh bust_below(const Positions& rim) {
   mesh.uvs.resize(mesh.positions.rows(), 2);
   for (std::uint32_t i = 0; i < around; ++i) {
     const Vector3d start = rim.row(i).transpose();
-    const Vector2d off(start.x() - kAxis.x(), start.z() - kAxis.z()), way = off.normalized();
+    const Vector2d off(start.x() - kRimCentre.x(), start.z() - kRimCentre.z()),
+        way = off.normalized();
     Section section = section_at(way);
     // The head's rim differs a little from the rim of the ideal bust; spread the difference over
     // the first control points.
-    const Vector2d difference = Vector2d(off.norm(), start.y() - kAxis.y()) - section[0];
+    const Vector2d difference = Vector2d(off.norm(), start.y() - kRimCentre.y()) - section[0];
     constexpr std::array<double, 4> kFade = {1, 1, 0.6, 0.2};
     for (std::size_t k = 0; k < kFade.size(); ++k) section[k] += kFade[k] * difference;
     for (std::uint32_t ring = 0; ring <= rings; ++ring) {
       const double share = static_cast<double>(ring) / rings;
       const Index row = static_cast<Index>(ring) * rim.rows() + i;
-      const Vector3d point = ring == 0 ? start : placed(way, on_spline(section, share));
+      const Vector3d point = ring == 0 ? start : placed(way, spline_point(section, share));
       mesh.positions.row(row) = point.transpose();
       const double radius = kInner + (kOuter - kInner) * share;
       mesh.uvs.row(row) << 0.5 + radius * way.x(), 0.5 - radius * way.y();
@@ -130,7 +132,7 @@ Vector3d bust_point(const RowVector2d& uv) {
   const double radius = off.norm();
   const Vector2d way = radius > 0 ? Vector2d(off / radius) : Vector2d(0, 1);
   const double share = std::clamp((radius - kInner) / (kOuter - kInner), 0.0, 1.0);
-  return placed(way, on_spline(section_at(way), share));
+  return placed(way, spline_point(section_at(way), share));
 }
 
 }  // namespace crowdface::synth

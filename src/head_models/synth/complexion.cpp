@@ -63,7 +63,7 @@ void grow_beard(double kind, Complexion& look) {
 Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   const Person person = random_person(seed, index);
   const bool male = person.maleness > 0;
-  const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
+  const auto unit = [&](const char* purpose) { return random_uniform({seed, index, purpose}); };
   Complexion look;
   look.skin_tone =
       random_stratified({seed, index / 2, male ? "synth/tone_of_men" : "synth/tone_of_women"}, 5);

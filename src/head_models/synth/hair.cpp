@@ -33,7 +33,7 @@ double off_ears(const Vector3d& p, double away) {
 HairStyle random_hair_style(std::uint64_t seed, std::uint64_t index) {
   const Person person = random_person(seed, index);
   const Complexion look = random_complexion(seed, index);
-  const auto unit = [&](const char* purpose) { return random_unit({seed, index, purpose}); };
+  const auto unit = [&](const char* purpose) { return random_uniform({seed, index, purpose}); };
   const double kind = random_stratified({seed, index / 2, "synth/hair_style"}, 4);
   HairStyle style;
   style.curliness = smooth_step(0.35, 0.9, 0.75 * look.skin_tone + 0.5 * unit("synth/curls"));

@@ -24,14 +24,14 @@ using Eigen::Vector3d;
 
 constexpr int kPieces = 9, kPiecesOfShort = 6, kPiecesOfCurl = 6;  // quads along a card
 constexpr double kShort = 10;                                      // length of short hair, cm
-constexpr double kBetween = 0.78;                                  // distance between roots, cm
+constexpr double kRootSpacing = 0.78;                              // distance between roots, cm
 constexpr double kCardWidth = 1.1;                                 // cm
 
 struct Root {
   Vector3d place, normal;
 };
 
-/// Returns the roots of hair cards, spread over the scalp with a minimum distance of kBetween.
+/// Returns the roots of hair cards, spread over the scalp with a minimum distance of kRootSpacing.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
   const double least = cut.layers > 1 ? 0.1 : cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
@@ -42,7 +42,7 @@ std::vector<Root> roots_on_scalp(const HairCut& cut) {
     if (skin.relief_weight < 0.5) continue;
     if (distance_inside_hair(cut, p) < (at_nape ? 0.6 : least)) continue;
     const bool near = std::ranges::any_of(roots, [&](const Root& other) {
-      return (other.place - p).squaredNorm() < kBetween * kBetween;
+      return (other.place - p).squaredNorm() < kRootSpacing * kRootSpacing;
     });
     if (!near) roots.push_back({p, skin.normal});
   }
@@ -56,9 +56,9 @@ struct Card {
 };
 
 /// Makes the hair cards of one haircut.
-class Grower {
+class HairCardBuilder {
  public:
-  explicit Grower(const HairCut& cut)
+  explicit HairCardBuilder(const HairCut& cut)
       : cut_(cut),
         locks_(mix(7, 1, 5), 1.6),
         pieces_(std::max(cut.top_length, cut.side_length) > kShort ? kPieces : kPiecesOfShort) {}
@@ -71,7 +71,7 @@ class Grower {
   /// Traces a lock from its root: the lock first follows the combing direction on the head, then
   /// hangs down.
   Card comb(const Root& root, std::uint64_t number) const {
-    const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
+    const auto unit = [&](const char* purpose) { return random_uniform({17, number, purpose}); };
     const double top = smooth_step(3, 8, root.place.y()), level = unit("level");
     const double length = (cut_.side_length + top * (cut_.top_length - cut_.side_length)) *
                           (0.85 + 0.3 * unit("length"));
@@ -139,7 +139,7 @@ class Grower {
 
   /// Returns a short curl in a random direction; `layer` sets its height above the scalp.
   Card tangle(const Root& root, std::uint64_t number, int layer) const {
-    const auto unit = [&](const char* purpose) { return random_unit({17, number, purpose}); };
+    const auto unit = [&](const char* purpose) { return random_uniform({17, number, purpose}); };
     const double top = smooth_step(1, 7, root.place.y());
     const double level = 0.3 + 0.7 * (layer + 0.2 + 0.8 * unit("level")) / cut_.layers;
     const double length = (cut_.side_length + top * (cut_.top_length - cut_.side_length)) *
@@ -218,12 +218,12 @@ void add_card(const Card& card, double width, int strip, bool turned, HairMesh& 
 void add_hair_cards(const HairCut& cut, HairMesh& hair) {
   const std::vector<Root> roots = roots_on_scalp(cut);
   const double width = cut.layers > 1 ? 0.55 * kCardWidth : kCardWidth;
-  const Grower grower(cut);
+  const HairCardBuilder grower(cut);
   for (std::size_t r = 0; r < roots.size(); ++r) {
     for (int layer = 0; layer < cut.layers; ++layer) {
       const std::uint64_t number = r * 16 + static_cast<std::uint64_t>(layer);
-      const double strip = kCardStripCount * random_unit({17, number, "strip"});
-      const bool turned = random_unit({17, number, "turned"}) < 0.5;
+      const double strip = kCardStripCount * random_uniform({17, number, "strip"});
+      const bool turned = random_uniform({17, number, "turned"}) < 0.5;
       add_card(grower.grow(roots[r], number, layer), width, static_cast<int>(strip), turned, hair);
     }
   }

@@ -31,7 +31,7 @@ struct Strand {
 std::vector<Strand> draw_strands() {
   std::vector<Strand> strands;
   for (std::uint64_t s = 0; s < kTextureStripCount * kStrands; ++s) {
-    const auto unit = [&](const char* purpose) { return random_unit({29, s, purpose}); };
+    const auto unit = [&](const char* purpose) { return random_uniform({29, s, purpose}); };
     const std::uint64_t strip = s / kStrands;
     const auto within = static_cast<double>(s % kStrands);
     strands.push_back(

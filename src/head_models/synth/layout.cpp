@@ -14,9 +14,9 @@ namespace crowdface::synth {
 namespace {
 
 /// Joins the patches of the skin (see SkinPatch) into one mesh.
-class Sewing {
+class PatchJoiner {
  public:
-  explicit Sewing(const QuadCounts& counts)
+  explicit PatchJoiner(const QuadCounts& counts)
       : counts_(counts),
         front_(counts.quads_to_column(kFrontColumn)),
         deep_(counts.quads_to_column(kBackColumn) - front_),
@@ -163,7 +163,7 @@ class Sewing {
 
   /// A mesh vertex on the outline of an opening, with its ring coordinate Address::a, its mesh
   /// column i and its mesh row j.
-  struct Stitch {
+  struct OutlineVertex {
     Corner corner;
     double a;
     int i, j;
@@ -183,8 +183,8 @@ class Sewing {
 
   /// Returns the outline of an opening, counter-clockwise from the opening's upper left corner,
   /// seen from outside the head.
-  std::vector<Stitch> outline(const Span& s, int side) {
-    std::vector<Stitch> out;
+  std::vector<OutlineVertex> outline(const Span& s, int side) {
+    std::vector<OutlineVertex> out;
     const auto put = [&](int i, int j) {
       out.push_back({strip(i, j), around(s, side, i, j), i, j});
     };
@@ -199,10 +199,10 @@ class Sewing {
   /// with a core of quads.
   void add_rings(const Opening& opening, int side) {
     const Span span = span_of(opening, side);
-    const std::vector<Stitch> first = outline(span, side);
+    const std::vector<OutlineVertex> first = outline(span, side);
     const std::size_t n = first.size();
     std::vector<Corner> ring, next(n);
-    for (const Stitch& s : first) ring.push_back(s.corner);
+    for (const OutlineVertex& s : first) ring.push_back(s.corner);
     for (const double b : counts_.ring_coordinates(opening.patch)) {
       for (std::size_t p = 0; p < n; ++p) {
         next[p] = add({opening.patch, static_cast<double>(side), first[p].a, b});
@@ -218,7 +218,7 @@ class Sewing {
 
   /// Fills the innermost ring of an ear with a grid of quads.
   /// \param first  outline of the opening. \param ring  corners of the innermost ring.
-  void add_core(const Span& s, int side, const std::vector<Stitch>& first,
+  void add_core(const Span& s, int side, const std::vector<OutlineVertex>& first,
                 const std::vector<Corner>& ring) {
     std::map<std::pair<int, int>, Corner> core;
     for (std::size_t p = 0; p < first.size(); ++p) core[{first[p].i, first[p].j}] = ring[p];
@@ -248,7 +248,7 @@ class Sewing {
 }  // namespace
 
 Layout make_layout(Index vertices) {
-  return Sewing(nearest_counts(vertices)).sew();
+  return PatchJoiner(nearest_counts(vertices)).sew();
 }
 
 }  // namespace crowdface::synth

@@ -70,7 +70,7 @@ double coarseness(const Vector3d& p) {
 
 /// Fraction of a wave's amplitude that a mesh can represent, for the given wavelength and edge
 /// length.
-double carried(double wavelength, double edge) {
+double represented_fraction(double wavelength, double edge) {
   return smooth_step(2, 4, wavelength / edge);
 }
 
@@ -95,7 +95,8 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
       // Fade out lines that are too narrow for the mesh. Such lines would look like steps.
-      const double drawn = fold.wave_amplitude > 0 ? carried(4 * fold.width, edge_cm) : 1;
+      const double drawn =
+          fold.wave_amplitude > 0 ? represented_fraction(4 * fold.width, edge_cm) : 1;
       const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
       if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
     }
@@ -108,10 +109,10 @@ Relief::Relief(const Identity& identity, double edge_cm)
   // The wavelength of SmoothNoise is about 2.5 to 3 times its lattice spacing.
   for (const auto& [lane, spacing, amplitude] :
        {std::tuple{23U, 0.22, 0.0035}, std::tuple{24U, 0.1, 0.003}, std::tuple{25U, 0.05, 0.002}}) {
-    const double part = carried(2.5 * spacing, edge_cm);
+    const double part = represented_fraction(2.5 * spacing, edge_cm);
     if (part > 0) fine_octaves_.push_back(octave(lane, spacing, amplitude * rough * part));
   }
-  lip_depth_ = 0.012 * carried(0.45, edge_cm) * (1 + 0.4 * aged);
+  lip_depth_ = 0.012 * represented_fraction(0.45, edge_cm) * (1 + 0.4 * aged);
 }
 
 void Relief::add_stroke(std::size_t fold_index, double side, double depth) {

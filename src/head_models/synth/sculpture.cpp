@@ -20,62 +20,64 @@ double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radi
 }
 
 /// Distance from p to a capsule from a to b, whose radius changes linearly from ra to rb.
-double rod(const Vector3d& p, const Vector3d& a, const Vector3d& b, double ra, double rb) {
+double capsule_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b, double ra,
+                        double rb) {
   const Vector3d axis = b - a;
   const double t = std::clamp((p - a).dot(axis) / axis.squaredNorm(), 0.0, 1.0);
   return (p - a - t * axis).norm() - (ra + (rb - ra) * t);
 }
 
 /// Smooth union of two distances with a blend width of about k.
-double melt(double a, double b, double k) {
+double smooth_union(double a, double b, double k) {
   const double h = std::max(k - std::abs(a - b), 0.0) / k;
   return std::min(a, b) - h * h * k / 4;
 }
 /// Smooth difference: removes body b from body a.
-double carve(double a, double b, double k) {
-  return -melt(-a, b, k);
+double smooth_difference(double a, double b, double k) {
+  return -smooth_union(-a, b, k);
 }
 
 double skull(const Vector3d& p) {
   double d = ellipsoid(p, {0, 2.7, -1.0}, {7.75, 8.3, 9.35});
-  d = melt(d, ellipsoid(p, {0, 3.9, 2.5}, {6.4, 5.9, 6.4}), 2.0);
-  return melt(d, ellipsoid(p, {0, -3.0, 2.4}, {6.0, 7.4, 6.4}), 1.6);
+  d = smooth_union(d, ellipsoid(p, {0, 3.9, 2.5}, {6.4, 5.9, 6.4}), 2.0);
+  return smooth_union(d, ellipsoid(p, {0, -3.0, 2.4}, {6.0, 7.4, 6.4}), 1.6);
 }
 
 double jaw(const Vector3d& p) {
-  const double mandible = rod(p, {3.95, -6.9, 1.5}, {1.65, -10.0, 6.6}, 0.95, 1.2);
-  const double ramus = rod(p, {5.5, -2.3, 0.4}, {3.95, -6.8, 1.5}, 1.2, 0.95);
+  const double mandible = capsule_distance(p, {3.95, -6.9, 1.5}, {1.65, -10.0, 6.6}, 0.95, 1.2);
+  const double ramus = capsule_distance(p, {5.5, -2.3, 0.4}, {3.95, -6.8, 1.5}, 1.2, 0.95);
   const double chin = ellipsoid(p, {0, -10.15, 7.45}, {2.2, 1.65, 1.95});
   const double floor = ellipsoid(p, {0, -9.2, 3.7}, {3.2, 2.5, 4.5});
-  return melt(melt(melt(mandible, ramus, 1.4), chin, 2.4), floor, 2.0);
+  return smooth_union(smooth_union(smooth_union(mandible, ramus, 1.4), chin, 2.4), floor, 2.0);
 }
 
 double cheek(const Vector3d& p) {
   const double front = ellipsoid(p, {3.5, -3.2, 6.0}, {2.4, 2.4, 2.4});
-  const double bone = rod(p, {4.6, -2.3, 5.6}, {6.1, -1.8, 1.4}, 1.0, 0.6);
+  const double bone = capsule_distance(p, {4.6, -2.3, 5.6}, {6.1, -1.8, 1.4}, 1.0, 0.6);
   const double hollow = ellipsoid(p, {3.0, -6.6, 4.8}, {2.3, 3.2, 3.0});
   const double masseter = ellipsoid(p, {4.15, -5.0, 2.8}, {1.5, 2.6, 2.0});
-  return melt(melt(melt(front, bone, 2.0), hollow, 2.2), masseter, 2.0);
+  return smooth_union(smooth_union(smooth_union(front, bone, 2.0), hollow, 2.2), masseter, 2.0);
 }
 
 double nose(const Vector3d& p) {
-  double d = rod(p, {0, 0.7, 8.7}, {0, -3.1, 10.75}, 0.42, 0.74);
-  d = melt(d, ellipsoid(p, {0, -3.2, 9.5}, {1.35, 1.7, 1.5}), 0.7);
-  d = melt(d, rod(p, {0.35, 0.2, 8.6}, {0.85, -2.8, 9.5}, 0.4, 0.5), 1.1);
-  d = melt(d, ellipsoid(p, {0, -3.4, 10.82}, {0.95, 0.85, 0.85}), 0.6);
-  d = melt(d, rod(p, {0, -3.95, 11.0}, {0, -4.6, 9.9}, 0.32, 0.36), 0.3);
-  d = melt(d, rod(p, {0.4, -3.55, 10.75}, {1.1, -3.75, 10.05}, 0.56, 0.52), 0.4);
-  return melt(d, ellipsoid(p, {1.15, -3.85, 10.0}, {0.6, 0.66, 0.95}), 0.35);
+  double d = capsule_distance(p, {0, 0.7, 8.7}, {0, -3.1, 10.75}, 0.42, 0.74);
+  d = smooth_union(d, ellipsoid(p, {0, -3.2, 9.5}, {1.35, 1.7, 1.5}), 0.7);
+  d = smooth_union(d, capsule_distance(p, {0.35, 0.2, 8.6}, {0.85, -2.8, 9.5}, 0.4, 0.5), 1.1);
+  d = smooth_union(d, ellipsoid(p, {0, -3.4, 10.82}, {0.95, 0.85, 0.85}), 0.6);
+  d = smooth_union(d, capsule_distance(p, {0, -3.95, 11.0}, {0, -4.6, 9.9}, 0.32, 0.36), 0.3);
+  d = smooth_union(d, capsule_distance(p, {0.4, -3.55, 10.75}, {1.1, -3.75, 10.05}, 0.56, 0.52),
+                   0.4);
+  return smooth_union(d, ellipsoid(p, {1.15, -3.85, 10.0}, {0.6, 0.66, 0.95}), 0.35);
 }
 
 double upper_lip(const Vector3d& p) {
-  const double side = rod(p, {0.5, -6.52, 9.62}, {2.5, -6.97, 8.4}, 0.38, 0.2);
-  return melt(side, ellipsoid(p, {0, -6.62, 9.68}, {0.5, 0.4, 0.44}), 0.5);
+  const double side = capsule_distance(p, {0.5, -6.52, 9.62}, {2.5, -6.97, 8.4}, 0.38, 0.2);
+  return smooth_union(side, ellipsoid(p, {0, -6.62, 9.68}, {0.5, 0.4, 0.44}), 0.5);
 }
 
 double lower_lip(const Vector3d& p) {
-  return melt(rod(p, {0.5, -7.42, 9.52}, {2.45, -7.06, 8.4}, 0.44, 0.2),
-              ellipsoid(p, {0, -7.48, 9.52}, {0.65, 0.45, 0.45}), 0.6);
+  return smooth_union(capsule_distance(p, {0.5, -7.42, 9.52}, {2.45, -7.06, 8.4}, 0.44, 0.2),
+                      ellipsoid(p, {0, -7.48, 9.52}, {0.65, 0.45, 0.45}), 0.6);
 }
 
 double neck(const Vector3d& p) {
@@ -85,11 +87,11 @@ double neck(const Vector3d& p) {
   const double z = p.z() + 2.3 + 0.1 * (-10 - p.y());
   const double wide = 4.9 + 0.04 * down * down, deep = 5.15 + 0.014 * down * down;
   const double r = std::sqrt(p.x() * p.x() / (wide * wide) + z * z / (deep * deep));
-  double d = -melt((1 - r) * std::min(wide, deep), -(p.y() + 2.5), 3.5);
+  double d = -smooth_union((1 - r) * std::min(wide, deep), -(p.y() + 2.5), 3.5);
   // The sternocleidomastoid, from behind the ear to the breastbone below the end of the neck.
-  d = melt(d, rod(p, {4.7, -6.5, -1.6}, {1.6, -18.0, 2.0}, 0.8, 0.7), 1.6);
+  d = smooth_union(d, capsule_distance(p, {4.7, -6.5, -1.6}, {1.6, -18.0, 2.0}, 0.8, 0.7), 1.6);
   // The larynx.
-  return melt(d, rod(p, {0, -12.4, 2.9}, {0, -14.2, 2.6}, 0.5, 0.6), 1.2);
+  return smooth_union(d, capsule_distance(p, {0, -12.4, 2.9}, {0, -14.2, 2.6}, 0.5, 0.6), 1.2);
 }
 
 }  // namespace
@@ -101,22 +103,22 @@ double skin_distance(const Vector3d& point) {
   const double x = std::sqrt(point.x() * point.x() + kJoint * kJoint);
   const Vector3d p(x, point.y(), point.z());
   double d = skull(p);
-  d = melt(d, jaw(p), 1.4);
-  d = melt(d, cheek(p), 2.4);
-  d = melt(d, neck(p), 1.6);
+  d = smooth_union(d, jaw(p), 1.4);
+  d = smooth_union(d, cheek(p), 2.4);
+  d = smooth_union(d, neck(p), 1.6);
   if (p.z() < 3) return d;
-  d = melt(d, ellipsoid(p, {0, -6.9, 6.7}, {2.9, 2.6, 3.0}), 1.6);
-  d = melt(d, rod(p, {0.8, 1.8, 8.45}, {4.3, 1.65, 6.8}, 0.8, 0.5), 1.2);
-  d = melt(d, rod(p, {4.3, 1.65, 6.7}, {5.3, -1.2, 5.3}, 0.5, 0.5), 2.2);
-  d = melt(d, ellipsoid(p, {0, 0.9, 7.8}, {1.5, 2.3, 1.45}), 1.2);
-  d = carve(d, ellipsoid(p, {3.2, -0.1, 9.7}, {1.8, 1.15, 2.2}), 0.8);
-  d = carve(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
-  d = melt(d, (p - eye_centre()).norm() - (kEyeRadius + 0.13), 0.35);
-  d = melt(d, nose(p), 0.6);
+  d = smooth_union(d, ellipsoid(p, {0, -6.9, 6.7}, {2.9, 2.6, 3.0}), 1.6);
+  d = smooth_union(d, capsule_distance(p, {0.8, 1.8, 8.45}, {4.3, 1.65, 6.8}, 0.8, 0.5), 1.2);
+  d = smooth_union(d, capsule_distance(p, {4.3, 1.65, 6.7}, {5.3, -1.2, 5.3}, 0.5, 0.5), 2.2);
+  d = smooth_union(d, ellipsoid(p, {0, 0.9, 7.8}, {1.5, 2.3, 1.45}), 1.2);
+  d = smooth_difference(d, ellipsoid(p, {3.2, -0.1, 9.7}, {1.8, 1.15, 2.2}), 0.8);
+  d = smooth_difference(d, ellipsoid(p, {1.75, -0.12, 9.0}, {0.5, 0.55, 1.25}), 0.5);
+  d = smooth_union(d, (p - eye_centre()).norm() - (kEyeRadius + 0.13), 0.35);
+  d = smooth_union(d, nose(p), 0.6);
   // The groove between the lips fades towards the corners of the mouth.
   const double groove = 0.1 + 0.5 * smooth_step(1.5, 2.4, p.x());
-  const double lips = melt(upper_lip(p), lower_lip(p), groove);
-  d = melt(d, lips, 0.4 + 0.4 * smooth_step(-7.6, -8.4, p.y()));
+  const double lips = smooth_union(upper_lip(p), lower_lip(p), groove);
+  d = smooth_union(d, lips, 0.4 + 0.4 * smooth_step(-7.6, -8.4, p.y()));
   return d;
 }
 

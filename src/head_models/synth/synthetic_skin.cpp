@@ -13,7 +13,7 @@ namespace {
 
 /// Opacity of painted hair roots below hair cards. If a face has a bald crown, but its texture is
 /// blended from heads with hair, more opaque roots would be visible on the crown.
-constexpr double kRoots = 0.3;
+constexpr double kRootOpacity = 0.3;
 
 /// Writes a colour as three bytes.
 void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> painted(int size, const std::vector<synth::AtlasTexel>
 }  // namespace
 
 SyntheticSkins::SyntheticSkins(int size, SyntheticHeads::Scalp scalp)
-    : size_(size), scalp_hair_(scalp == SyntheticHeads::Scalp::kShorn ? kRoots : 1) {
+    : size_(size), scalp_hair_(scalp == SyntheticHeads::Scalp::kShorn ? kRootOpacity : 1) {
   require(size >= 64 && size <= 8192, "textures of ", size, " texels");
   atlas_ = synth::skin_atlas(size);
   texel_cm_ = synth::texel_cm(size, atlas_);
