@@ -9,13 +9,13 @@
 
 namespace crowdface {
 
-void Complaints::add(const YamlPlace& place, std::string expected, ExitCode exit_code) {
-  complaints_.push_back({place, std::move(expected), exit_code});
+void Complaints::add(const YamlPlace& place, std::string message, ExitCode exit_code) {
+  complaints_.push_back({place, std::move(message), exit_code});
 }
 
-void Complaints::add_at(const YamlNode& node, const std::string& expected, ExitCode exit_code) {
+void Complaints::add_at(const YamlNode& node, const std::string& message, ExitCode exit_code) {
   if (node.kind == YamlNode::Kind::kRefused) return;
-  add(node.place, node.path.empty() ? expected : concat(node.path, ": ", expected), exit_code);
+  add(node.place, node.path.empty() ? message : concat(node.path, ": ", message), exit_code);
 }
 
 std::nullopt_t Complaints::add_mismatch(const YamlNode& node, const std::string& expected) {
@@ -42,7 +42,7 @@ void Complaints::report_to(Problems& problems) const {
   };
   std::ranges::stable_sort(sorted, {}, key);
   for (std::size_t i = 0; i < std::min(sorted.size(), kMaxReportedComplaints); ++i) {
-    problems.add(sorted[i].exit_code, concat(sorted[i].place.text(), ": ", sorted[i].expected));
+    problems.add(sorted[i].exit_code, concat(sorted[i].place.text(), ": ", sorted[i].message));
   }
   if (sorted.size() > kMaxReportedComplaints) {
     problems.add(ExitCode::kUsage,

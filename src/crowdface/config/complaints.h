@@ -15,15 +15,15 @@ class Complaints {
  public:
   struct Complaint {
     YamlPlace place;
-    std::string expected;
+    std::string message;
     ExitCode exit_code;
   };
 
-  void add(const YamlPlace& place, std::string expected, ExitCode exit_code = ExitCode::kUsage);
+  void add(const YamlPlace& place, std::string message, ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: MESSAGE" at the node's place in the file, where PATH is the node's
   /// path of keys. Adds nothing if the node has the kind kRefused, because such a node already has
   /// a complaint.
-  void add_at(const YamlNode& node, const std::string& expected,
+  void add_at(const YamlNode& node, const std::string& message,
               ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: expected EXPECTED, found …" at a node's place in the file.
   ///
