@@ -246,7 +246,7 @@ void init(const InitOptions& options) {
   facts.uses_rigid_alignment = analysis.stands_apart;
   for (const fs::path& head : files) {
     facts.head_names.push_back(head.stem().string());
-    if (!is_name(facts.head_names.back())) {
+    if (!is_valid_name(facts.head_names.back())) {
       throw InvalidInput(invalid_head_name_message(facts.head_names.back(), head));
     }
   }

@@ -58,7 +58,7 @@ std::vector<int> groups_of(const std::vector<FacePlan>& crowd) {
   return groups;
 }
 
-std::map<std::string, double> set_barycentrics(const AttachmentOptions& draw, Index target = 0) {
+std::map<std::string, double> shares_of(const AttachmentOptions& draw, Index target = 0) {
   constexpr std::uint64_t kFaces = 20000;
   std::map<std::string, double> shares;
   for (std::uint64_t i = 1; i <= kFaces; ++i) {
@@ -70,11 +70,11 @@ std::map<std::string, double> set_barycentrics(const AttachmentOptions& draw, In
 }
 
 TEST(AttachmentDraw, FollowsSharesAndNone) {
-  const auto shares = set_barycentrics(draw_of({{"bob", "hair", {}, 3, {}},
-                                                {"bun", "hair", {}, 1, {}},
-                                                {"wig", "hair", {}, 0, {}},
-                                                {"round", "glasses", {}, 1, {}}},
-                                               {{"glasses", 0.8}, {"hair", 0.1}}));
+  const auto shares = shares_of(draw_of({{"bob", "hair", {}, 3, {}},
+                                         {"bun", "hair", {}, 1, {}},
+                                         {"wig", "hair", {}, 0, {}},
+                                         {"round", "glasses", {}, 1, {}}},
+                                        {{"glasses", 0.8}, {"hair", 0.1}}));
   EXPECT_NEAR(shares.at("bob"), 0.675, 0.015);
   EXPECT_NEAR(shares.at("bun"), 0.225, 0.015);
   EXPECT_NEAR(shares.at("round"), 0.2, 0.015);

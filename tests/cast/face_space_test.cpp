@@ -193,7 +193,7 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
         recipe.asymmetry = asymmetry;
         recipe.mirrored = is_mirrored;
         points.push_back(space.point(recipe));
-        const double w = mirrored_weight(recipe);
+        const double w = mirror_image_weight(recipe);
         const auto built = [&](const Recipe& of) {
           const Positions blended = blend_exact(faces_, *filter_, regions_, of);
           return blend_with_mirrored(blended, mirrored(mirror, blended), w);

@@ -48,8 +48,8 @@ bool is_unmirrored(const Recipe& recipe) {
   return recipe.asymmetry == 1 && !recipe.mirrored;
 }
 
-double mirrored_weight(const Recipe& recipe) {
-  return mirrored_weight(recipe.asymmetry, recipe.mirrored);
+double mirror_image_weight(const Recipe& recipe) {
+  return mirror_image_weight(recipe.asymmetry, recipe.mirrored);
 }
 
 std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t region,

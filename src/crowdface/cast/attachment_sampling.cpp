@@ -99,7 +99,7 @@ class AttachmentChooser {
                     const std::vector<FacePlan>& crowd, const std::vector<FacePlan>& sequence)
       : options_(options) {
     for (const AttachmentItem& item : options.items) {
-      if (!contains(distributions_, item.kind)) distributions_.push_back(item.kind);
+      if (!contains(kinds_, item.kind)) kinds_.push_back(item.kind);
     }
     for (const int group : groups) group_indices_.emplace_back(group, group_sizes_[group]++);
     for (const auto& quota : options.quotas) {
@@ -136,8 +136,8 @@ class AttachmentChooser {
     std::optional<HairColour> hair;
     if (hair_) hair = hairs_[face.id] = hair_->colour_of(face, heads_[face.id]);
     Items placed;
-    for (const std::string& kind : distributions_) {
-      const AttachmentItem* one = sample_one(kind, face, placed);
+    for (const std::string& kind : kinds_) {
+      const AttachmentItem* one = draw_one(kind, face, placed);
       if (one == nullptr) continue;
       placed.push_back(one);
       ++wearer_counts_[similar_faces_key(face)][one->name];
@@ -179,8 +179,8 @@ class AttachmentChooser {
     return items;
   }
 
-  const AttachmentItem* sample_one(const std::string& kind, const FacePlan& face,
-                                   const Items& placed) const {
+  const AttachmentItem* draw_one(const std::string& kind, const FacePlan& face,
+                                 const Items& placed) const {
     Items items = wearable(kind, heads_.at(face.id));
     if (items.empty()) return nullptr;
     const std::string purpose =
@@ -374,7 +374,7 @@ class AttachmentChooser {
 
   const AttachmentOptions& options_;
   /// kinds of attachments, in the order of the first item of each kind
-  std::vector<std::string> distributions_;
+  std::vector<std::string> kinds_;
   std::map<std::string, KindQuotas> quotas_;
   /// for each sampled face: the face's group, and the face's index within the group
   std::vector<std::pair<int, std::uint64_t>> group_indices_;

@@ -242,7 +242,7 @@ const float* FaceSpace::displacement_field(std::size_t region, Index head, Index
 /// Returns the shape of a recipe's face with the recipe's extrapolation factors. If any factor is
 /// not 1, also returns the face's shape with all factors 1.
 std::vector<FaceSpace::Shape> FaceSpace::shapes_of(const Recipe& recipe) const {
-  const double w = mirrored_weight(recipe);
+  const double w = mirror_image_weight(recipe);
   require(w == 0 || mirror_variant_count() == 2, "a mirrored face, and no mirror images of heads");
   std::vector<Shape> shapes = shapes_of_mirror_variant(recipe, w == 1 ? 1 : 0);
   if (w == 0 || w == 1) return shapes;

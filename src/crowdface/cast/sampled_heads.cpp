@@ -88,7 +88,7 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
 /// recipe's mirroring and asymmetry require.
 template <class Property>
 Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {
-  const double w = mirrored_weight(recipe);
+  const double w = mirror_image_weight(recipe);
   if (w == 0) return property(heads);
   require(heads.mirror_images != nullptr, "a mirrored face, and no mirror images of heads");
   if (w == 1) return property(*heads.mirror_images);

@@ -116,7 +116,7 @@ std::optional<std::string> read_text(const YamlNode& node, const std::string& ex
 }
 
 std::optional<std::string> read_name(const YamlNode& node, Complaints& out) {
-  if (node.kind != YamlNode::Kind::kScalar || !is_name(node.text)) {
+  if (node.kind != YamlNode::Kind::kScalar || !is_valid_name(node.text)) {
     return out.add_mismatch(
         node, "a name of 1 to 64 letters (a-z), digits, '_', '-' or '.', not starting with '.'");
   }

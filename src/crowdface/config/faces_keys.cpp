@@ -26,7 +26,7 @@ void add_head(const fs::path& file, const std::string& name, const YamlNode& nod
               ConfigDraft& draft) {
   const std::string quoted_if_invalid = quoted(file.string());
   expect_file(node, file, draft);
-  if (!is_name(name)) {
+  if (!is_valid_name(name)) {
     draft.complaints.add_at(node, invalid_head_name_message(name, file));
   } else if (name == "all" || name == "target") {
     draft.complaints.add_at(node,
@@ -163,7 +163,7 @@ Codec<Axis> axis() {
 /// Returns a head's name for use in a YAML comment. Quotes an invalid name, because it may contain
 /// a line end.
 std::string quoted_if_invalid(const std::string& name) {
-  return is_name(name) ? name : quoted(name);
+  return is_valid_name(name) ? name : quoted(name);
 }
 
 std::string name_some(std::vector<std::string> names) {

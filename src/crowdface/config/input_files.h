@@ -34,7 +34,7 @@ std::string left_out_meshes_message(const std::filesystem::path& folder);
 /// two folders deep. Empty if no such pattern matches at least kMinHeads files.
 std::string suggested_head_pattern(const std::filesystem::path& folder);
 
-/// Returns the message for a head whose file name gives an invalid head name (see is_name).
+/// Returns the message for a head whose file name gives an invalid head name (see is_valid_name).
 std::string invalid_head_name_message(const std::string& name, const std::filesystem::path& file);
 
 /// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path. `*`

@@ -222,7 +222,7 @@ void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, Co
   static const std::set<std::string> reserved = {"all", "default", "none"};
   const Names regions = draft.config.region_names();
   std::string why;
-  if (!is_name(entry.key)) {
+  if (!is_valid_name(entry.key)) {
     why = "is not a valid name; expected letters (a-z), digits, '_', '-' or '.'";
   } else if (reserved.contains(entry.key) || contains(regions, entry.key)) {
     why = "is a reserved word or the name of a region; rename the band";

@@ -31,7 +31,7 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
     throw_if_system_error(file, error);
     if (is_neutral) continue;
     const std::string name = file.stem().string();
-    if (!is_name(name)) {
+    if (!is_valid_name(name)) {
       draft.complaints.add_at(
           node, concat("the name of a shape is its file name; expected at most 64 letters (a-z), "
                        "digits, '_', '-' and '.', found ",

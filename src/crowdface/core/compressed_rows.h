@@ -42,7 +42,7 @@ struct CompressedRows {
 /// \param visit  visit(put) calls put(group, item) for each item. `visit` is called twice and must
 ///   pass the same items in the same order both times.
 template <class T, class Visit>
-CompressedRows<T> group_facing_pairs(std::size_t group_count, const Visit& visit) {
+CompressedRows<T> compressed_rows(std::size_t group_count, const Visit& visit) {
   CompressedRows<T> result{.offsets = std::vector<std::uint32_t>(group_count + 1, 0), .items = {}};
   visit([&](std::size_t group, const T&) { ++result.offsets[group + 1]; });
   for (std::size_t g = 0; g < group_count; ++g) result.offsets[g + 1] += result.offsets[g];

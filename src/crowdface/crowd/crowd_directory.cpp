@@ -281,7 +281,7 @@ std::vector<std::string> ids_in_plan(const CrowdDirectory& directory) {
     const auto line = parse_shallow_json(text);
     if (!line.is_object() || !line.contains("id") || !line["id"].is_string()) return;
     const auto id = line["id"].get<std::string>();
-    if (is_name(id, kMaxIdLength)) ids.push_back(id);
+    if (is_valid_name(id, kMaxIdLength)) ids.push_back(id);
   });
   return ids;
 }

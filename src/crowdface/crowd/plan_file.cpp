@@ -129,7 +129,7 @@ class LineReader {
   /// checks that the name is valid there.
   std::string file_name(const Json& json, const std::string& key, std::size_t longest) const {
     std::string name = text(json, key);
-    if (!is_name(name, longest)) {
+    if (!is_valid_name(name, longest)) {
       fail(key, "a name of letters (a-z), digits, '_', '-' or '.', not starting with '.'",
            quoted(std::string_view(name)));
     }

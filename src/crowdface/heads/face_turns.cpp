@@ -134,7 +134,8 @@ std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
   if (recipe.asymmetry != 1) {
     const RigidMotion of_image =
         after(mean_motion_, motion_of_mirror_image(after(back, motion), *plane));
-    motion = between(motion, of_image, mirrored_weight(recipe.asymmetry, false), neck_.seam_centre);
+    motion =
+        between(motion, of_image, mirror_image_weight(recipe.asymmetry, false), neck_.seam_centre);
   }
   return recipe.mirrored ? after(motion_of_mirror_image(mean_motion_, *plane), after(back, motion))
                          : motion;

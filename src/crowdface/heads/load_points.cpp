@@ -40,7 +40,7 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
   }
   if (names.empty()) {
     for (const YamlEntry& entry : node.entries) {
-      if (!is_name(entry.key))
+      if (!is_valid_name(entry.key))
         complaints.add_at(entry.value,
                           "not a valid name; expected letters (a-z), digits, '_', '-' and '.'");
       names.push_back(entry.key);

@@ -158,7 +158,7 @@ void require_near_heads(const Fit& fit, const Config& config, const Inputs& inpu
 /// \throws InvalidInput if the axes have different lengths (non-uniform scale), are not orthogonal,
 ///         or are mirrored.
 Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, const Config& config) {
-  constexpr double kSimilarNormalCosine = 1e-3;
+  constexpr double kAlike = 1e-3;
   Eigen::Matrix3d axes;
   std::array<double, 3> lengths;
   for (Index c = 0; c < 3; ++c) {
@@ -168,8 +168,7 @@ Eigen::Matrix3d joint_axes(const GltfRig::Joint& joint, const Frame& frame, cons
   }
   const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
   const double turned = axes.col(0).cross(axes.col(1)).dot(axes.col(2));
-  if (!(*least > 0) || *most > (1 + kSimilarNormalCosine) * *least ||
-      std::abs(turned - 1) > kSimilarNormalCosine) {
+  if (!(*least > 0) || *most > (1 + kAlike) * *least || std::abs(turned - 1) > kAlike) {
     refuse_file(config.rig, concat("the joint ", quoted(joint.name),
                                    " is scaled non-uniformly, mirrored or sheared; expected a rig "
                                    "with its scale applied"));

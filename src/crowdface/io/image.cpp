@@ -115,7 +115,7 @@ void check_kind(const path& file, std::string_view format, const ImageHeader& sp
 }
 
 std::size_t value_count(const ImageHeader& header) {
-  return static_cast<std::size_t>(header.width) * static_cast<std::size_t>(facts.height) *
+  return static_cast<std::size_t>(header.width) * static_cast<std::size_t>(header.height) *
          static_cast<std::size_t>(header.channels);
 }
 
@@ -207,7 +207,7 @@ std::vector<T> in_display_window(const std::vector<T>& pixels, const ImageHeader
   const Place right =
       std::min(Place{header.x} + header.width, Place{header.full_x} + header.full_width);
   const Place bottom =
-      std::min(Place{header.y} + facts.height, Place{header.full_y} + header.full_height);
+      std::min(Place{header.y} + header.height, Place{header.full_y} + header.full_height);
   if (left >= right) return out;
   for (Place y = std::max(header.y, header.full_y); y < bottom; ++y) {
     const auto from =
@@ -225,7 +225,7 @@ std::vector<T> in_display_window(const std::vector<T>& pixels, const ImageHeader
 void crop_to_display_window(const path& file, const ImageHeader& header, const ImageLimits& limits,
                             Image& image) {
   if (header.x == header.full_x && header.y == header.full_y && header.width == header.full_width &&
-      facts.height == header.full_height) {
+      header.height == header.full_height) {
     return;
   }
   ImageHeader shown = header;
@@ -242,8 +242,8 @@ void crop_to_display_window(const path& file, const ImageHeader& header, const I
 
 Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const auto [codec, header, picture] = open_checked(file, mapped, limits);
-  Image image{header.width, facts.height, header.channels,     header.alpha_channel,
-              {},           {},           header.channel_names};
+  Image image{header.width, header.height,       header.channels, header.alpha_channel, {},
+              {},           header.channel_names};
   if (!limits.is_crowdface_file) image.memory = reserve_image_memory(file, pixel_bytes(header));
   std::string error;
   if (!codec.read(picture.get(), make_room(file, header, image), error)) {

@@ -34,7 +34,7 @@ OIIO::TypeDesc type_of(ValueType values) {
 ImageHeader facts_of(const OIIO::ImageSpec& spec) {
   ImageHeader header;
   header.width = spec.width;
-  facts.height = spec.height;
+  header.height = spec.height;
   header.depth = spec.depth;
   header.channels = spec.nchannels;
   header.x = spec.x;

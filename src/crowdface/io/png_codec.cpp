@@ -84,7 +84,7 @@ void* open_png(const std::string& /*format*/, const std::string& /*file*/, std::
     return nullptr;
   }
   header.width = header.full_width = static_cast<int>(png_get_image_width(png, info));
-  facts.height = header.full_height = static_cast<int>(png_get_image_height(png, info));
+  header.height = header.full_height = static_cast<int>(png_get_image_height(png, info));
   header.channels = png_get_channels(png, info);
   header.alpha_channel = header.channels % 2 == 0 ? header.channels - 1 : -1;
   const bool words = png_get_bit_depth(png, info) == 16;

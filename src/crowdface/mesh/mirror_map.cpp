@@ -46,7 +46,7 @@ Positions blend_with_mirrored(const Positions& positions, const Positions& image
   return result;
 }
 
-double mirrored_weight(double asymmetry, bool mirrored) {
+double mirror_image_weight(double asymmetry, bool mirrored) {
   return (mirrored ? 1 + asymmetry : 1 - asymmetry) / 2;
 }
 

@@ -107,7 +107,7 @@ Positions FaceBuilder::rebuild(const Recipe& recipe, PreviousFace& previous) con
 void FaceBuilder::finish(const Recipe& recipe, Positions& face) const {
   if (recipe.asymmetry != 1) {
     face = blend_with_mirrored(face, mirrored(mirror(), face),
-                               mirrored_weight(recipe.asymmetry, false));
+                               mirror_image_weight(recipe.asymmetry, false));
   }
   correct_contacts(recipe, face);
   if (follower_) follower_->move_parts(recipe.target, face);
@@ -149,7 +149,7 @@ SkinDefects FaceBuilder::defects(const SkinCheck& check, const Recipe& recipe,
     mixed = target_positions(inputs_.head_set, recipe);
     if (recipe.asymmetry != 1) {
       mixed = blend_with_mirrored(*mixed, mirrored(mirror(), *mixed),
-                                  mirrored_weight(recipe.asymmetry, false));
+                                  mirror_image_weight(recipe.asymmetry, false));
     }
   }
   const Positions& target =

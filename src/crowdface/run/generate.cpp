@@ -341,7 +341,7 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   if (is_new && !crowd->crowd_plan.crowd.empty())
     timed(stages, "setup", [&] { return &face_stages.get(); });
   const CrowdLock lock(directory, options.shard);
-  open_output(job, options.replace);
+  prepare_output_folder(job, options.replace);
   const CrowdLog log(directory.log(options.shard));
   memory.replay();
   std::optional<ShardProgress> progress;
@@ -405,7 +405,7 @@ void plan_job(const Job& job, const GenerateOptions& options) {
     StageSeconds stages;
     const auto crowd = cast_job(job, options, stages);
     const CrowdLock lock(directory, {});
-    open_output(job, options.replace);
+    prepare_output_folder(job, options.replace);
     write_plan(job, directory, crowd->crowd_plan, crowd->casting, crowd->neck_colours(job),
                [](const fs::path& path, const TextPieces& text) { return write_file(path, text); });
     lock.require_same_folder();

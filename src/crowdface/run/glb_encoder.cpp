@@ -150,7 +150,7 @@ GlbLook look_of(const Attachment& item, bool own_texture) {
 GlbPart part_of(const Attachment& item, const GlbLook& look, const Inputs& inputs,
                 const DetailLevel* level) {
   const CompressedRows<Influence> influences = influences_of(item, inputs);
-  GivenNormals fixed = normals_at_ring(inputs, item, level);
+  GivenNormals fixed = normals_at_neck_ring(inputs, item, level);
   std::vector<std::string> targets;
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   if (level == nullptr) {

@@ -30,11 +30,11 @@ ShardProgress::ShardProgress(std::filesystem::path file, std::size_t face_count,
 }
 
 void ShardProgress::step() {
-  constexpr std::chrono::seconds kRootSpacing(5);
+  constexpr std::chrono::seconds kBetween(5);
   const std::lock_guard lock(mutex_);
   ++notes_.finished_face_count;
   ++notes_.made_face_count;
-  if (Clock::now() - last_write_ >= kRootSpacing) write();
+  if (Clock::now() - last_write_ >= kBetween) write();
 }
 
 void ShardProgress::end(ShardState state, std::string_view reason) {

@@ -100,7 +100,7 @@ MeshEncoders usd_encoders(const MeshSource& source) {
   for (const Shape& shape : inputs.shapes.shapes) targets.push_back(shape.name);
   const auto make_part = [&](const Attachment& item, const DetailLevel* here) {
     const auto& [prim, materials, of_face] = looks.at(&item);
-    GivenNormals fixed = normals_at_ring(inputs, item, here);
+    GivenNormals fixed = normals_at_neck_ring(inputs, item, here);
     if (here == nullptr) {
       return UsdaPart(prim, item.file.topology, item.file.uvs, materials, of_face, targets,
                       std::move(fixed));

@@ -317,10 +317,10 @@ std::map<std::string, double> cross_validate_wrap(const WrapTemplate& wrap_templ
                                                   const ShapeModel* model, const Scan& scan,
                                                   const std::vector<WrapLandmark>& landmarks,
                                                   const std::optional<PoseHint>& hint) {
-  constexpr std::size_t kOneByOne = 12, kFoldStrain = 4;
+  constexpr std::size_t kOneByOne = 12, kFolds = 4;
   std::map<std::string, double> unseen;
   if (!hint && landmarks.size() <= kMinLandmarks) return unseen;
-  const std::size_t folds = landmarks.size() < kOneByOne ? landmarks.size() : kFoldStrain;
+  const std::size_t folds = landmarks.size() < kOneByOne ? landmarks.size() : kFolds;
   for (std::size_t fold = 0; fold < folds; ++fold) {
     std::vector<WrapLandmark> known, left_out;
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
