@@ -122,7 +122,7 @@ Digest key_of(const Inputs& inputs, const HeadSet& resized_head, double share, d
   key.add_array(std::span(inputs.head_set.topology.corner_uvs));
   key.add_array(numbers_of(inputs.head_set.uvs));
   key.add_array(std::span(inputs.materials.material_of_face));
-  key.add_array(numbers_of(typical.heads[0].positions));
+  key.add_array(numbers_of(resized_head.heads[0].positions));
   for (const Digest& head : inputs.head_digests) key.add(head);
   if (!inputs.shapes.shapes.empty()) key.add(inputs.shapes_digest);
   if (inputs.heads_on_body) key.add(inputs.heads_on_body->digest);

@@ -126,7 +126,7 @@ class Canvas {
   }
 
   /// \param u, v  texture coordinates relative to the tile.
-  BilinearSample texels(double u, double v) const {
+  BilinearSample bilinear_sample(double u, double v) const {
     const double x = std::clamp(u * size_ - 0.5, 0.0, size_ - 1.0);
     const double y = std::clamp((1 - v) * size_ - 0.5, 0.0, size_ - 1.0);
     const int left = static_cast<int>(x), top = static_cast<int>(y);
@@ -251,7 +251,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       if (!vertex_has_priority(v)) continue;
       for (const UvSample& sample : samples.items_of(v)) {
         if (sample.tile != tile) continue;
-        bilinear_samples.push_back(canvas.texels(sample.u - column, sample.v - row));
+        bilinear_samples.push_back(canvas.bilinear_sample(sample.u - column, sample.v - row));
         weights.push_back(alpha.row(v).data());
       }
     }
