@@ -20,12 +20,10 @@ constexpr std::uint32_t kMaxAttemptsPerFounder = 64;
 /// number of acceptable candidates among which the founder of a family without parents is chosen
 constexpr int kCandidatesPerFounder = 24;
 
-/// Returns the options of the search for a founder, who is not part of the crowd: the options have
-/// no minimum distances and no limit on weights.
-DiversityOptions without_distance_limits(DiversityOptions diversity) {
+/// Returns the options of the search for a founder. A founder is not part of the crowd, so the
+/// founder may be at any distance from the crowd's faces.
+DiversityOptions options_of_founder(DiversityOptions diversity) {
   diversity.min_distance_mm = 0;
-  diversity.min_distance_to_heads_mm = 0;
-  diversity.max_weight = 1;
   diversity.max_attempts = kMaxAttemptsPerFounder;
   return diversity;
 }
@@ -64,7 +62,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
                                       CrowdSoFar& crowd, FamilySeparation& family_separation,
                                       RejectionCounts& rejections) {
   FamilySampler sampler(casting, family, judge, unrelated, crowd);
-  const DiversityOptions of_founder = without_distance_limits(casting.diversity);
+  const DiversityOptions of_founder = options_of_founder(casting.diversity);
   const bool drawn = sampler.needs_parents();
   const std::uint32_t attempts_each = kMaxAttemptsPerFounder * max_attempts_factor(casting);
   for (std::uint32_t f = 0; f < (drawn ? kMaxCouples + kMaxFounders : kMaxFounders); ++f) {

@@ -72,17 +72,18 @@ class Clearance {
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
-    /// `low`: indices of two neighbouring points of the low profile (see GapSection). `high`:
-    /// indices of two neighbouring points of the high profile. Indices count the points of the low
+    /// `low_indices`: two neighbouring points of the low profile (see GapSection). `high_indices`:
+    /// two neighbouring points of the high profile. Indices count the points of the low
     /// profile first.
-    std::array<std::uint32_t, 2> low, high;
+    std::array<std::uint32_t, 2> low_indices, high_indices;
     std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 
     /// Returns the height of the high point above the low point.
     /// \param heights  Heights of all points.
     double gap(std::span<const double> heights) const {
-      return high_weights[0] * heights[high[0]] + high_weights[1] * heights[high[1]] -
-             low_weights[0] * heights[low[0]] - low_weights[1] * heights[low[1]];
+      return high_weights[0] * heights[high_indices[0]] +
+             high_weights[1] * heights[high_indices[1]] - low_weights[0] * heights[low_indices[0]] -
+             low_weights[1] * heights[low_indices[1]];
     }
   };
   /// Returns pairs of opposite points: each profile point, and the point at the same depth on each
