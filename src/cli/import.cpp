@@ -88,8 +88,7 @@ void add_masks(const PaintedMasks& masks, const std::string& kind, const HeadReq
   }
 }
 
-/// Returns one value for each vertex: whether the vertex belongs to the skin. Where polygons
-/// overlap in the texture, skin polygons take priority over other polygons.
+/// Returns one value for each vertex: whether the vertex belongs to the skin.
 std::vector<bool> skin_of(const MakeHumanHeads& model) {
   const Topology& topology = model.neutral().topology;
   std::vector<bool> skin(static_cast<std::size_t>(topology.vertex_count), false);

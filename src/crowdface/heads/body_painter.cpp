@@ -123,7 +123,7 @@ BlendedPicture BodyPainter::paint(const Positions& ring_densities) const {
   for (std::size_t i = 0; i < neck_.body_rim.size(); ++i) {
     added.row(neck_.body_rim[i]) = difference.row(static_cast<Index>(i));
   }
-  PictureFields fields;
+  VertexFactorsOfImage fields;
   fields.heads = {0};
   for (const std::uint32_t vertex : texels_->vertices()) {
     for (Index c = 0; c < 3; ++c) fields.values.push_back(static_cast<float>(added(vertex, c)));

@@ -87,11 +87,11 @@ class SkinContacts {
   /// Places sections along the gap of one group of facing pairs.
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
-  /// Sets the vertices that a group's corrections move, and the kernel values (see KernelValue) at
-  /// these vertices.
+  /// Computes which vertices move when the gaps of a section group are corrected, and the kernel
+  /// values (see KernelValue) at these vertices.
   ///
   /// \param mean_head     The mean head, #V by 3.
-  /// \param near_skin     The skin around the group, ascending.
+  /// \param near_skin     The vertices of the skin around the group, ascending.
   /// \param side_weights  For each vertex of the mesh: ½ on the gap's high side, −½ on the low
   ///                      side, smooth in between.
   /// \param skin_extent   Extent of the whole skin.

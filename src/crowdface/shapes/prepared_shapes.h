@@ -146,7 +146,7 @@ struct PreparedShapes {
                      PreparedShape& prepared) const;
   void prepare_lids(const Displacements& moves, const Adjacency& adjacency,
                     PreparedShape& prepared) const;
-  /// Returns the skin in which to search for the intersections that the shape causes on faces.
+  /// Returns the part of the skin in which the shape may cause intersections on blended heads.
   SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
                                                  const PreparedShape& prepared) const;
   void add_shape_sets();

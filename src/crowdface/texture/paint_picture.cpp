@@ -36,7 +36,7 @@ class RowBuffer {
 
 /// Interpolates the fields at a row's covered texels. Writing a span may also change texels beyond
 /// the end of the span; the next span then overwrites these texels.
-void interpolate(const SurfaceTexels& texels, int y, const PictureFields& fields,
+void interpolate(const SurfaceTexels& texels, int y, const VertexFactorsOfImage& fields,
                  const RowBuffer& buffer) {
   const auto row = static_cast<float>(y);
   const std::size_t width = fields.values_per_vertex();
@@ -155,7 +155,7 @@ BlendedPicture blank_picture(const SurfaceTexels& texels, const MapCoding& codin
 
 BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
                              const std::vector<std::shared_ptr<const TextureMap>>& maps,
-                             const PictureFields& fields) {
+                             const VertexFactorsOfImage& fields) {
   BlendedPicture result = blank_picture(texels, coding);
   const auto channels = static_cast<std::size_t>(result.channels);
   std::vector<RowSums> row_sums(static_cast<std::size_t>(texels.height()));

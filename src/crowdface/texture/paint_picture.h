@@ -11,7 +11,7 @@ namespace crowdface {
 /// The input of paint_picture for one texture image of one face. Each vertex in the image has a
 /// base value per channel, and a factor by which the map of each head is multiplied. Base values
 /// and factors are interpolated linearly within triangles.
-struct PictureFields {
+struct VertexFactorsOfImage {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads whose maps contribute to the image, ascending
   /// for each vertex: a base value per channel, then a factor per head
@@ -25,6 +25,6 @@ struct PictureFields {
 /// \param maps    one map per head, each with the size of the picture.
 BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
                              const std::vector<std::shared_ptr<const TextureMap>>& maps,
-                             const PictureFields& fields);
+                             const VertexFactorsOfImage& fields);
 
 }  // namespace crowdface

@@ -204,10 +204,11 @@ TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinate
   region_area_fractions_ = region_area_fractions(regions, options_.vertex_areas);
 }
 
-PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& recipe) const {
+VertexFactorsOfImage TextureBlender::vertex_factors_of_image(std::size_t picture,
+                                                             const Recipe& recipe) const {
   const auto& maps = textures_.maps[picture];
   const FaceWeights weights = face_weights(recipe, maps, region_area_fractions_);
-  PictureFields fields;
+  VertexFactorsOfImage fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
     // Keep the head only if its weight is positive in at least one region or in the target colours.
@@ -267,7 +268,7 @@ PictureFields TextureBlender::picture_fields(std::size_t picture, const Recipe& 
 
 BlendedPicture TextureBlender::blend(const Recipe& recipe, std::size_t picture) const {
   return paint_picture(texels_[picture], codings_[picture], textures_.maps[picture],
-                       picture_fields(picture, recipe));
+                       vertex_factors_of_image(picture, recipe));
 }
 
 std::size_t TextureBlender::memory_bytes() const {

@@ -67,7 +67,7 @@ class TextureBlender {
  private:
   /// Computes, for one texture image of a face, the base value and the heads' factors at each
   /// vertex.
-  PictureFields picture_fields(std::size_t picture, const Recipe& recipe) const;
+  VertexFactorsOfImage vertex_factors_of_image(std::size_t picture, const Recipe& recipe) const;
 
   const RegionWeights& regions_;
   const CrowdTextures& textures_;

@@ -47,8 +47,8 @@ double v_at_distance_from_hairline(const HairCut& cut, double within) {
   constexpr double kTips = 0.02, kSpan = 0.75;
   const double closed = within + kRim - kFade;
   if (closed <= 0) return kTips + kSpan * std::max(0.0, 1 + closed / kFade);
-  // Farther from the hairline, straight hair shows the part of the texture without strand tips. For
-  // curls, v varies too, so that curls differ in both directions.
+  // Farther from the hairline, straight hair shows the part of the texture without strand tips.
+  // Curls (more than one layer) use different values of v, so that neighbouring curls differ.
   return kTips + kSpan - (cut.layers > 1 ? 0.25 * triangle_wave(closed / 1.2) : 0);
 }
 
