@@ -40,7 +40,7 @@ def identifiers():
     declaration = re.compile(r"^\s*(?:class|struct|enum class|(?=\S)[\w:<>,&*\s\[\]]+?[\s&*])(\w{3,})\s*[({=;]")
     scope_start = re.compile(r"^(\s*)(?:class|struct|enum class) (\w+)[^;]*\{$")
     for path in sources(".h"):
-        scopes = []  # (indentation, name) of the classes around the line
+        scopes = []  # (indentation, name) of the classes around the line; no name: of a function or a list
         lines = [line.split("//")[0].rstrip() for line in path.read_text().split("\n")]
         for number, code in enumerate(lines):
             indentation = len(code) - len(code.lstrip())
@@ -48,7 +48,8 @@ def identifiers():
                 scopes.pop()
             before = lines[number - 1] if number else ""
             begins = not before or before.endswith((";", "{", "}", ":", ">"))  # no second line of a declaration
-            match = declaration.match(code) if begins else None
+            is_local = any(name is None for _, name in scopes)
+            match = declaration.match(code) if begins and not is_local else None
             if match and not code.lstrip().startswith(("#", "namespace", "return", "using", "}", "if", "for", "static_assert")):
                 whole = code.strip()
                 for following in lines[number + 1 : number + 6]:
@@ -57,20 +58,21 @@ def identifiers():
                     whole += " " + following.strip()
                 scope = "::".join(name for _, name in scopes)
                 yield f"{path.relative_to(ROOT)}: {f'[in {scope}] ' if scope else ''}{whole}"
-            if start := scope_start.match(code):
-                scopes.append((len(start[1]), start[2]))
+            if code.endswith("{") and not code.startswith(("namespace", "extern")):
+                start = scope_start.match(code)
+                scopes.append((indentation, start[2] if start else None))
 
 
 def sentences():
-    """Sentences of the docs, without code blocks, tables and headings."""
+    """Sentences of the docs, without code blocks, formulas, tables and headings."""
     for path in [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]:
         prose = re.sub(r"```.*?```", "", path.read_text(), flags=re.S)
         for paragraph in re.split(r"\n\s*\n", prose):
-            if re.match(r"\s*[#|!<]", paragraph):
+            if re.match(r"\s*[#|!<]|    ", paragraph):
                 continue
-            text = " ".join(re.sub(r"^\s*([-*]|\d+\.) ", "", line).strip() for line in paragraph.split("\n"))
+            text = " ".join(re.sub(r"^\s*([-*]|\d+\.) ", "", line).strip() for line in paragraph.strip().split("\n"))
             for sentence in re.split(r"(?<=[.!?]) +(?=[A-Z`\[])", text):
-                if len(sentence.split()) > 4:
+                if len(sentence.split()) > 4 and re.search(r"[.!?:][)*]*$", sentence):  # else a formula goes on
                     yield f"{path.relative_to(ROOT)}: {sentence}"
 
 

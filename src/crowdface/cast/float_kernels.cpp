@@ -114,10 +114,10 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   for (; i < count; ++i) to[i] += factor * from[i];
 }
 
-/// Does the work of add_product for kVectors vectors of factors, at as many columns as kWidth SIMD
-/// vectors hold.
+/// Like add_product, for kVectors rows of `factors` and for a group of columns that fills kWidth
+/// SIMD registers.
 ///
-/// \param stride  distance between the first factors of successive vectors
+/// \param stride  distance between two rows of `factors`
 template <std::size_t kVectors, std::size_t kWidth>
 void add_product_at_columns(const float* factors, std::size_t stride, std::size_t count,
                             const float* rows, std::size_t width, float* to) {

@@ -28,8 +28,8 @@ constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices 
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;  // largest number of Gauss-Seidel sweeps in a round
 constexpr int kRounds = 3;    // largest number of rounds of fit_gaps
-/// Regularisation: the gap of a section may miss its range by this fraction of the section's
-/// amplitude (the size of its correction), so that neighbouring sections get similar amplitudes.
+/// Regularisation, so that neighbouring sections get similar corrections: the gap of a section may
+/// be outside its allowed range by this fraction of the section's correction.
 constexpr double kGapCompliance = 0.001;
 /// Largest amplitude of a section (the size of the section's correction), as a multiple of the
 /// largest deviation of any gap from its range before the correction.

@@ -28,7 +28,8 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
   return count > 0 ? Eigen::RowVector2d(sum / count) : sum;
 }
 
-/// Returns one sample for each corner that has a texture coordinate, in the order of the corners.
+/// Returns the samples of each vertex: one sample for each corner of a polygon at this vertex that
+/// has a texture coordinate, in the order of the corners.
 UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& uvs,
                             UvTiling tiling) {
   const auto for_each_sample = [&](const auto& put) {

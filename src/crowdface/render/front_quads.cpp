@@ -63,10 +63,10 @@ HWY_INLINE void put_in_pixel(const QuadOnPixels& on, const Quad& quad,
   const Lanes lanes;
   const ProjectedVertex* const vertices[] = {placed + quad[0], placed + quad[1], placed + quad[2],
                                              placed + quad[3]};
-  for (std::uint32_t i = 0; i < pixel.positions->count();
+  for (std::uint32_t i = 0; i < pixel.samples->count();
        i += static_cast<std::uint32_t>(hn::Lanes(lanes))) {
-    const Numbers x = hn::Add(hn::Set(lanes, left), hn::LoadU(lanes, pixel.positions->x() + i));
-    const Numbers y = hn::Add(hn::Set(lanes, top), hn::LoadU(lanes, pixel.positions->y() + i));
+    const Numbers x = hn::Add(hn::Set(lanes, left), hn::LoadU(lanes, pixel.samples->x() + i));
+    const Numbers y = hn::Add(hn::Set(lanes, top), hn::LoadU(lanes, pixel.samples->y() + i));
     Corner c[4];
     for (int k = 0; k < 4; ++k) {
       c[k] = {hn::Sub(hn::Set(lanes, vertices[k]->x), x),
@@ -99,7 +99,7 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
     for (int y = begin->top; y <= begin->bottom; ++y) {
       for (int x = begin->left; x <= begin->right; ++x) {
         const SampledPixel& pixel = pixels[y * kRimmedSide + x];
-        if (pixel.positions == nullptr) continue;
+        if (pixel.samples == nullptr) continue;
         put_in_pixel(*begin, quads[begin->quad], placed, static_cast<float>(corner_x + x),
                      static_cast<float>(corner_y + y), pixel, inverse_depth, fronts);
       }

@@ -70,7 +70,7 @@ class PixelSamples {
 /// The samples of a pixel: their positions in the pixel, and the index of the first sample among
 /// the samples of all pixels.
 struct SampledPixel {
-  const PixelSamples* positions = nullptr;  ///< null: no samples in this pixel
+  const PixelSamples* samples = nullptr;  ///< null: no samples in this pixel
   std::uint32_t first_sample = 0;
 };
 
