@@ -40,8 +40,8 @@ struct FamilyOptions {
   /// are derived
   double max_distance_mm = 2.5;
   double min_distance_mm = 0;  ///< smallest distance between members
-  /// whether members are as similar as twins: within 0.5 mm of a common face that is not in the
-  /// crowd
+  /// Whether members are as similar as twins: all are within 0.5 mm of the same face. This face is
+  /// not in the crowd.
   bool are_twins = false;
   Range age = {0, 0};  ///< ages of the members, see apply_age
   /// limits that replace the crowd's or group's limits on the same measurements

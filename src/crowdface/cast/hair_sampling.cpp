@@ -73,8 +73,9 @@ std::string HairChooser::key_in_hair_colours(const FacePlan& face) const {
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. Among all faces in `entries_of_faces_`
-/// with the same key, each colour has the fraction that the config specifies.
+/// Returns the colour that `hair_colours` gives the face. The colours are distributed so that, among
+/// the faces with the same key in `entries_of_faces_`, each colour has the fraction that the config
+/// specifies.
 std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face) {
   const std::string entry = key_in_hair_colours(face);
   const auto shares = options_.hair_colours.find(entry);

@@ -148,8 +148,8 @@ EditSession::JudgingData EditSession::make_judging_data() const {
 }
 
 std::vector<HeadSmoothing> EditSession::preview_levels() const {
-  if (!preview_prepared_) return head_levels(job_.config, prepared_);
-  return head_levels(with_fitted_levels(job_.config), *preview_prepared_);
+  if (!preview_prepared_) return head_smoothings(job_.config, prepared_);
+  return head_smoothings(with_fitted_levels(job_.config), *preview_prepared_);
 }
 
 Positions EditSession::build(const Recipe& recipe) const {

@@ -144,7 +144,7 @@ CachedPatches patches_of(const Config& config, const Inputs& inputs, const Prepa
     Progress progress("comparing heads patch by patch",
                       patch_count(static_cast<std::size_t>(inputs.head_set.topology.vertex_count)));
     return interpolate_fields(
-        head_levels(config, prepared), make_tested_levels(*prepared.nodes).levels,
+        head_smoothings(config, prepared), make_tested_levels(*prepared.nodes).levels,
         vertex_order_for_patches(inputs.head_set.heads.front().positions, two_edges), left,
         [&](std::size_t patches) {
           throw_if_interrupted();
@@ -230,7 +230,7 @@ void throw_if_truncated(const PreparedHeads& prepared) {
   }
 }
 
-std::vector<HeadSmoothing> head_levels(const Config& config, const PreparedHeads& prepared) {
+std::vector<HeadSmoothing> head_smoothings(const Config& config, const PreparedHeads& prepared) {
   std::vector<HeadSmoothing> result;
   for (const StoredLevels& stored : prepared.levels) {
     HeadSmoothing levels{stored.fields, {}};

@@ -57,8 +57,8 @@ PreparedHeads prepare(const Config& config, const Inputs& inputs,
 void prepare_heads(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,
                    const CacheFolder& cache, const std::function<bool(std::size_t)>& is_wanted);
 
-/// The fitted levels in the form that blending needs.
-std::vector<HeadSmoothing> head_levels(const Config& config, const PreparedHeads& prepared);
+/// The prepared smoothing of each head, in the form that blending needs.
+std::vector<HeadSmoothing> head_smoothings(const Config& config, const PreparedHeads& prepared);
 
 /// Calls `work`. If a cache entry was truncated while in use, warns and calls `work` again, at most
 /// three times in all. `work` must prepare the heads anew and skip what it has already finished.

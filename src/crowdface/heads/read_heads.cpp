@@ -351,14 +351,15 @@ std::vector<HeadFile> read_heads(const std::vector<fs::path>& paths, const Cache
   return read;
 }
 
-Positions read_positions(const fs::path& file, const Topology& topology, std::string_view others) {
+Positions read_positions(const fs::path& file, const Topology& topology,
+                         std::string_view name_of_meshes) {
   ObjFile mesh = read_mesh_as_obj(file);
   const std::string difference = first_difference(topology, mesh.topology);
   if (difference.empty()) return std::move(mesh.positions);
   if (const auto vertices = match_vertices_by_corners(topology, mesh.topology, mesh.positions)) {
     return mesh.positions(*vertices, kAllColumns);
   }
-  refuse_file(file, concat("not the same mesh as ", others, ": ", difference));
+  refuse_file(file, concat("not the same mesh as ", name_of_meshes, ": ", difference));
 }
 
 void cache_heads(const std::vector<HeadFile>& heads, const fs::path& cache) {

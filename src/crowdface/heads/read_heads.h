@@ -37,10 +37,10 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
                                  const CacheFolder& cache, Problems& problems);
 
 /// Reads the vertex positions of a mesh file.
-/// \param others  what messages call the meshes with `topology`, such as "the heads"
+/// \param name_of_meshes  what messages call the meshes with `topology`, such as "the heads"
 /// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
-                         std::string_view others);
+                         std::string_view name_of_meshes);
 
 /// Stores large files that the cache lacks. A cache that cannot be written only causes a warning.
 void cache_heads(const std::vector<HeadFile>& heads, const std::filesystem::path& cache);

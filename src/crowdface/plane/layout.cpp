@@ -116,8 +116,8 @@ PlanePoint sample_polygon(const std::vector<PlanePoint>& polygon, double pick, d
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
     total += cross(polygon[0], polygon[i], polygon[i + 1]);
   }
-  // The polygon is divided into a fan of triangles. Find the triangle that contains the fraction
-  // `pick` of the polygon's area.
+  // The polygon is divided into a fan of triangles. Find the triangle in which the cumulative area
+  // reaches the fraction `pick` of the polygon's area.
   std::size_t triangle = 1;
   double left = pick * total;
   for (; triangle + 2 < polygon.size(); ++triangle) {

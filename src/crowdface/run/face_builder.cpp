@@ -65,8 +65,8 @@ void FaceBuilder::use_masks(const Config& config, const RegionWeights& regions) 
   if (inputs_.heads_on_body && inputs_.heads_on_body->has_differing_poses())
     poses_.emplace(inputs_, prepared_, regions);
   if (config.smoothing.levels != LevelRepresentation::kExact) {
-    blender_.emplace(inputs_.head_set, head_levels(config, prepared_), prepared_.patches.patches,
-                     regions_);
+    blender_.emplace(inputs_.head_set, head_smoothings(config, prepared_),
+                     prepared_.patches.patches, regions_);
   }
 }
 

@@ -20,7 +20,7 @@ std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inpu
                                         const PreparedHeads& prepared, const FaceSamples& samples) {
   const std::vector<std::uint64_t> levels = stored_smoothing_levels(inputs.max_level);
   const std::vector<HeadSmoothing> fitted =
-      prepared.filter ? std::vector<HeadSmoothing>() : head_levels(config, prepared);
+      prepared.filter ? std::vector<HeadSmoothing>() : head_smoothings(config, prepared);
   std::vector<Trajectory> trajectories(inputs.head_set.heads.size());
   for (std::size_t h = 0; h < trajectories.size(); ++h) {
     if (prepared.filter) {

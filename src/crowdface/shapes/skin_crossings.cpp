@@ -153,7 +153,7 @@ class SkinCrossings::Repair {
   /// \param before  Pairs that intersected before the move. A pair still intersects if none of its
   ///                vertices moved.
   void search_again(const std::vector<Pair>& before) {
-    for (const DisplacementRow& row : searched_skin_.rows) {
+    for (const DisplacementRow& row : searched_skin_.skin_displacements) {
       if (changed_[row.vertex]) mesh_.row(row.vertex) = place_of(row).transpose();
     }
     searched_skin_.search.update(mesh_, changed_, boxes_);
@@ -200,14 +200,14 @@ class SkinCrossings::Repair {
     const SmoothedVectors field(std::move(around), unit * kCell, unit * kAveragedRadius,
                                 unit * kUnchangedRadius);
     std::vector<SmoothedVectors::Sample> samples;
-    for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
-      const DisplacementRow& row = searched_skin_.rows[i];
+    for (std::uint32_t i = 0; i < searched_skin_.skin_displacements.size(); ++i) {
+      const DisplacementRow& row = searched_skin_.skin_displacements[i];
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       if (field.affects(here)) samples.push_back({i, here, row3(shape_.moves, row.row)});
     }
     const Eigen::Vector3d& up = axes_.up;
     for (auto [number, by] : field.changes(samples)) {
-      const DisplacementRow& row = searched_skin_.rows[number];
+      const DisplacementRow& row = searched_skin_.skin_displacements[number];
       if (side(row.vertex) != 0) by -= (1 - kLidHeightFactor) * by.dot(up) * up;
       move(row, by);
     }
@@ -221,21 +221,22 @@ class SkinCrossings::Repair {
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, searched_skin_.search);
     std::vector<Eigen::Vector3d> around;
     const auto shaped = [&](std::uint32_t i) { return row3(searched_skin_.shaped_positions, i); };
-    for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
-      if (std::ranges::binary_search(crossing, searched_skin_.rows[i].vertex)) {
+    for (std::uint32_t i = 0; i < searched_skin_.skin_displacements.size(); ++i) {
+      if (std::ranges::binary_search(crossing, searched_skin_.skin_displacements[i].vertex)) {
         around.push_back(shaped(i));
       }
     }
     const SmoothedVectors field(std::move(around), unit * kCell, unit * kAveragedRadius,
                                 unit * kUnchangedRadius);
     std::vector<SmoothedVectors::Sample> samples;
-    for (std::uint32_t i = 0; i < searched_skin_.rows.size(); ++i) {
-      const DisplacementRow& row = searched_skin_.rows[i];
+    for (std::uint32_t i = 0; i < searched_skin_.skin_displacements.size(); ++i) {
+      const DisplacementRow& row = searched_skin_.skin_displacements[i];
       if (!searched_skin_.brings_distant_skin_together && side(row.vertex) == 0) continue;
       if (!field.affects(shaped(i))) continue;
       samples.push_back({i, shaped(i), place_of(row) - face_.face_motion.apply(shaped(i))});
     }
-    for (const auto& [number, by] : field.changes(samples)) move(searched_skin_.rows[number], by);
+    for (const auto& [number, by] : field.changes(samples))
+      move(searched_skin_.skin_displacements[number], by);
   }
 
   /// Pushes the upper lid forward over the lower lid. Pushing the upper lid up would open the eye,
@@ -261,7 +262,7 @@ class SkinCrossings::Repair {
     }
     for (auto& [v, push] : wanted) push = push.normalized();
     const double reach = kPushRadius * skin_.extent_, by = grown * kPushLength * skin_.extent_;
-    for (const DisplacementRow& row : searched_skin_.rows) {
+    for (const DisplacementRow& row : searched_skin_.skin_displacements) {
       if (side(row.vertex) == 0) continue;
       const Eigen::Vector3d here = row3(face_.rest, row.vertex);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -315,7 +316,8 @@ SkinCrossings::SearchedSkin SkinCrossings::find_searched_skin(const Positions& n
   shape.add_to(shaped);
   SearchedSkin searched_skin{{}, {}, std::move(side), {}, {}};
   for (std::uint32_t row = 0; row < shape.vertices.size(); ++row) {
-    if (is_skin_[shape.vertices[row]]) searched_skin.rows.push_back({row, shape.vertices[row]});
+    if (is_skin_[shape.vertices[row]])
+      searched_skin.skin_displacements.push_back({row, shape.vertices[row]});
   }
   searched_skin.shaped_positions.resize(static_cast<Index>(searched_skin.rows.size()), 3);
   for (std::size_t i = 0; i < searched_skin.rows.size(); ++i) {
