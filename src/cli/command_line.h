@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-// These declarations stand in for the headers of CLI11. Only command_line.cpp and main.cpp include
-// these headers, because they are slow to compile.
+// Declarations of CLI11 classes. Only command_line.cpp and main.cpp include the headers of CLI11,
+// because these headers are slow to compile.
 namespace CLI {
 class App;
 class Option;
@@ -21,9 +21,13 @@ class OptionHandle {
  public:
   explicit OptionHandle(CLI::Option& option) : option_(&option) {}
   OptionHandle required() const;
+  /// Accepts only these words as values.
   OptionHandle one_of(const std::vector<std::string>& words) const;
+  /// Shows this text in the help as the default value.
   OptionHandle show_default(const std::string& text) const;
+  /// Reports an error if this option is given without the option `other`.
   OptionHandle needs(const std::string& other) const;
+  /// Reports an error if this option is given together with one of the options `others`.
   OptionHandle excludes(const std::vector<std::string>& others) const;
 
  private:

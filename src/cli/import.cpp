@@ -62,8 +62,11 @@ void add_heads(const HeadModel& model, const std::string& kind, const HeadReques
   files.push_back(text_file(request.directory / "tags.yaml", format_tags(tagged, title)));
 }
 
-/// Paints the region masks. Fails for a model without eyes or teeth; therefore call this function
-/// before files are written. \param first see paint_masks.
+/// Paints the region masks. Call this function before writing files, because it may throw.
+/// \param first  whether each vertex has priority over other vertices where polygons overlap in the
+///               texture, as in paint_masks; empty: all vertices have priority.
+/// \throws InvalidInput if the heights of eyes and mouth cannot be found, for example because the
+///         model has no eyes or no teeth.
 template <class Model>
 PaintedMasks masks_of(const Model& model, const ImportOptions& options,
                       const std::vector<bool>& first = {}) {

@@ -36,6 +36,7 @@ class SynthHair {
     bool female, curly, bald;
     auto operator<=>(const HairStyle&) const = default;  // NOLINT(modernize-use-nullptr)
   };
+  /// Returns whether a registered head may wear the haircut.
   bool is_used(const synth::HairCut& cut) const;
   std::set<HairStyle> used_hair_styles_;
 };

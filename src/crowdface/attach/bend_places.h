@@ -14,10 +14,11 @@ namespace crowdface {
 /// nearby nodes.
 struct BendNodes {
   /// A point of the attachment becomes a node if its distance from each earlier node is at least
-  /// this fraction of the radius of the earlier node's patch. (ShapeBend ignores earlier nodes that
-  /// are far along the surface.)
+  /// this fraction of the radius of the earlier node's patch. (ShapeBend ignores an earlier node
+  /// whose root is far away along the skin's surface.)
   static constexpr double kNodeSpacing = 0.3;
-  /// Distance up to which a node influences points, in multiples of kNodeSpacing.
+  /// Distance up to which a node influences points, in multiples of the node spacing (kNodeSpacing
+  /// times the radius of the node's patch).
   static constexpr double kInfluenceRadius = 2;
 
   /// The weight of one node's motion in the motion of one point.
@@ -26,7 +27,7 @@ struct BendNodes {
     float weight;        ///< not normalised: the weights of a point do not sum to one
   };
   std::vector<FittedSkin::Patch> patches;   ///< the patch of each node
-  CompressedRows<NodeWeight> node_weights;  ///< one row per point of the attachment
+  CompressedRows<NodeWeight> node_weights;  ///< for each point of the attachment: weights of nodes
 
   std::size_t memory_bytes() const {
     std::size_t bytes = node_weights.items.size() * sizeof(NodeWeight);

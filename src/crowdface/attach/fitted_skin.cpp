@@ -18,8 +18,8 @@ namespace crowdface {
 namespace {
 
 /// The radius of the patch around a point on the skin is kMinRadiusMm millimetres or
-/// kMinRadiusSpacings vertex spacings, whichever is larger. For a point at distance d from the skin,
-/// the radius is larger by kRadiusGrowth · d.
+/// kMinRadiusSpacings vertex spacings, whichever is larger. For a point at distance d from the
+/// skin, the radius is larger by kRadiusGrowth · d.
 constexpr double kMinRadiusMm = 6, kMinRadiusSpacings = 3, kRadiusGrowth = 1.5;
 /// The radius of a patch is at least kRadiusFactor times the distance from the patch's centre to
 /// the kMinVertices-th nearest vertex of the skin.

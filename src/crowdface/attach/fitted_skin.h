@@ -76,16 +76,17 @@ class FittedSkin {
   struct Level {
     double spacing;
     std::vector<std::uint32_t> vertices;
-    std::vector<double> areas;  ///< area of the cell that each vertex represents
+    std::vector<double> areas;  ///< #V: area of skin that the vertex represents in this level
     PointGrid grid;
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
-  /// Adds a level of one skin vertex in each cubic cell with edges of length `spacing`.
+  /// Adds a level that contains one skin vertex of each cubic cell; cell edges have the length
+  /// `spacing`.
   void add_coarser_level(double spacing);
   /// Returns Patch::radius for the patch around a point.
   double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
-  /// Adds the vertices of a level that are inside the patch. Their weights are multiplied by
-  /// `share`.
+  /// Adds to `patch` the vertices of a level that are inside the patch.
+  /// \param share  Factor on the weights of the added vertices.
   void add_patch_vertices(const Level& level, const Eigen::Vector3d& point, double share,
                           Patch& patch) const;
 

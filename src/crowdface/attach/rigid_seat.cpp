@@ -19,8 +19,8 @@ constexpr double kSocketRadiusMm = 15;
 constexpr std::size_t kMinSocketVertices = 12;
 /// Maximum number of steps that move the attachment out of the skin.
 constexpr int kMaxPushSteps = 8;
-/// Weight in the least-squares step of a motion of one millimetre, relative to the weight of a
-/// vertex that is one millimetre too near to the skin.
+/// Weight of each squared unknown of the motion in a least-squares step that moves the attachment
+/// out of the skin. The weights of all vertices that are too near to the skin sum to 1.
 constexpr double kMotionWeight = 0.02;
 
 }  // namespace

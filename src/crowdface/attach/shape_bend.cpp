@@ -21,14 +21,15 @@ namespace {
 /// Minimum radius of the patch of skin around a root. Where the skin has few vertices, the radius
 /// is larger.
 constexpr double kMinPatchRadiusMm = 3;
-/// A point of the attachment that is farther than kMaxAnchorShiftMm millimetres from its root uses
-/// a larger patch.
+/// Largest distance between a point of the attachment and its anchor, which is the centre of the
+/// point's patch. If the root is farther away, the anchor lies off the skin and the patch is
+/// larger.
 constexpr double kMaxAnchorShiftMm = 10;
 /// A patch contains only vertices whose distance from the root along the surface is at most
 /// kMaxSurfaceRatio times the patch's radius.
 constexpr double kMaxSurfaceRatio = 1.5;
-/// If fewer than kMinPatchVertices vertices of a patch are near the root along the surface, the patch
-/// keeps all its vertices, because a few vertices do not determine a rotation reliably.
+/// If fewer than kMinPatchVertices vertices of a patch are near the root along the surface, the
+/// patch keeps all its vertices, because a few vertices do not determine a rotation reliably.
 constexpr std::size_t kMinPatchVertices = 6;
 
 /// The root of a point is ambiguous if two parts of the skin are about equally near to the point,
@@ -70,8 +71,10 @@ class RootSearch {
     /// Whether the root is ambiguous (see kAmbiguousMm). Points with ambiguous roots come last, so
     /// that their search starts at the root of an adjacent point.
     bool is_ambiguous;
-    double distance;              ///< distance of the point from the nearest skin vertex
-    std::uint32_t point, vertex;  ///< point of the attachment; skin vertex where its search starts
+    double distance;  ///< distance of the point from the nearest skin vertex
+    /// `point`: a point of the attachment. `vertex`: the skin vertex at which the search for the
+    /// point's root starts.
+    std::uint32_t point, vertex;
 
     auto operator<=>(const QueueEntry&) const = default;  // NOLINT(modernize-use-nullptr)
   };

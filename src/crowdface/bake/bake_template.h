@@ -41,7 +41,7 @@ class BakeTemplate {
 
   /// Marks vertices outside the skin.
   static constexpr std::uint32_t kNotSkin = kNoIndex;
-  /// For each vertex of the template, its row in the skin, or kNotSkin.
+  /// For each vertex of the template: its row in the arrays of skin vertices, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
 
   /// The picture into which a vertex is baked, and the vertex's position in this picture.

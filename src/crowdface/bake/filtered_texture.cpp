@@ -14,7 +14,8 @@ namespace crowdface {
 namespace {
 
 constexpr int kBlockSide = 4;
-constexpr int kMaxTaps = 6;  ///< largest number of lookups along a side of the parallelogram
+/// Largest number of samples along one side of the parallelogram in mean_at.
+constexpr int kMaxTaps = 6;
 constexpr int kLevelRows = 16;
 
 std::vector<float> values_of(const MapCoding& coding) {

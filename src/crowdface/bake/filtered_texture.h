@@ -29,9 +29,9 @@ class FilteredTexture {
                          const Eigen::Vector2d& to_lower_texel) const;
 
  private:
-  /// A level of the pyramid: each texel is the mean of 4 by 4 texels of the next finer level. A
-  /// texel holds three values, multiplied by the covered fraction of the texel's area, and this
-  /// fraction as its fourth number.
+  /// A level of the pyramid: each texel is the mean of 4 by 4 texels of the next finer level. The
+  /// fourth number of a texel is the fraction of its area that the surface covers. The first three
+  /// numbers are the mean values over the covered area, multiplied by this fraction.
   struct Level {
     int width = 0, height = 0;
     std::vector<Eigen::Array4f> texels;

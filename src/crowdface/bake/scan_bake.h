@@ -84,9 +84,10 @@ class ScanBake {
   /// One texel of a picture.
   struct Texel {
     const SurfaceTexels::Triangle* triangle = nullptr;
-    std::array<std::uint32_t, 3> rows = {};  ///< rows of the triangle's corners in the skin
-    Eigen::Vector3d to_right_texel;          ///< vector to the next texel on the right
-    Eigen::Vector3d to_lower_texel;          ///< vector to the next texel below
+    /// skin vertices at the corners of the triangle, as row indices of `positions_`
+    std::array<std::uint32_t, 3> rows = {};
+    Eigen::Vector3d to_right_texel;  ///< vector to the next texel on the right
+    Eigen::Vector3d to_lower_texel;  ///< vector to the next texel below
   };
   /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
   /// the template instead of the scan.

@@ -54,8 +54,8 @@ std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, 
   return covered;
 }
 
-/// The lower corner of the unit square of texture space that contains the centre of a polygon.
-/// Textures repeat in each unit square.
+/// Returns the lower left corner (u, v) of the unit square of texture space that contains the
+/// centre of a polygon. Textures repeat in each unit square.
 std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
                                       const TextureCoordinates& uvs) {
   constexpr double kFarthest = 1e6;
@@ -194,8 +194,8 @@ ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
   std::vector<bool> is_done(static_cast<std::size_t>(rows.rows()), false);
   for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
     const Triangle& corners = scan.triangles[t];
-    // Average over a parallelogram whose sides are half of two edges of the triangle: vertices are
-    // farther apart than texels.
+    // Average over a parallelogram whose sides are half as long as two edges of the triangle,
+    // because vertices are farther apart than texels.
     const Eigen::Vector3d first = row3(scan.positions, corners[0]);
     ScanArea area{static_cast<std::uint32_t>(t),
                   {},

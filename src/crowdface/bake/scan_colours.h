@@ -22,8 +22,9 @@ struct MeshMaps {
   std::vector<std::unique_ptr<const FilteredTexture>> textures;
   /// for each polygon, an index into `textures`, or kNoIndex; may be empty
   std::vector<std::uint32_t> texture_of_face;
-  std::vector<std::array<std::int32_t, 2>>
-      tile_of_face;  ///< lower corner of each polygon's unit square of texture space
+  /// for each polygon: lower left corner (u, v) of the unit square of texture space that contains
+  /// the polygon's centre
+  std::vector<std::array<std::int32_t, 2>> tile_of_face;
 };
 
 /// Reads texture files, and marks the texels that the polygons cover.
@@ -31,7 +32,7 @@ struct MeshMaps {
 MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
                         const Topology& topology, const TextureCoordinates& uvs);
 
-/// A point of a scan, and the parallelogram around it that one texel shows.
+/// A point of a scan, and the parallelogram around this point that one texel covers.
 struct ScanArea {
   std::uint32_t triangle = 0;              ///< index of a triangle of the scan
   std::array<double, 3> barycentric = {};  ///< barycentric coordinates of the point

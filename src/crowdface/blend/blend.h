@@ -27,7 +27,7 @@ Positions target_positions(const HeadSet& heads, const Recipe& recipe);
 /// The second form keeps a vertex bit-identical to B if the vertex is fixed or if D_k = 0 there
 /// (when the target is blended with itself). For a mixture, B is the weighted mean of its heads.
 ///
-/// \param regions  α, #V by #regions, where rows sum to one; the regions of the recipe.
+/// \param regions  α of the recipe's regions, #V by #regions; rows sum to one.
 /// \return         #V by 3, in the unit of the heads.
 /// \throws BrokenPrecondition if recipe, regions and heads do not fit together.
 Positions blend_exact(const HeadSet& heads, const ChebyshevFilter& filter,

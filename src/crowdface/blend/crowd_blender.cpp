@@ -88,9 +88,9 @@ void CrowdBlender::find_regions() {
 std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t region) const {
   std::vector<double> sums(field_count(), 0.0);
   for (const LevelWeights& at : weights_by_level(recipe, region)) {
-    // A head may be both target and source, or lend detail to adjacent bands. Add up the head's
-    // weights before multiplying by the functions φ. Then weights that cancel give exactly zero,
-    // and a target that is blended with itself does not change.
+    // A head may occur twice, as the target and as a source, or as a source of adjacent bands. Add
+    // up the head's weights before multiplying by the functions φ. Then weights that cancel give
+    // exactly zero, and a target that is blended with itself does not change.
     std::vector<double> shares(levels_.size(), 0.0);
     for (const SourceWeight& part : at.weights) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
@@ -106,8 +106,8 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
   return {sums.begin(), sums.end()};
 }
 
-/// A batch of faces that are computed in one pass. For each face, contains the coefficients of all
-/// heads' fields.
+/// A batch of faces that are computed in one pass, with the coefficients of each face for the
+/// fields of all heads.
 class CrowdBlender::Crowd {
  public:
   Crowd(const CrowdBlender& blender, std::span<const Recipe* const> recipes,

@@ -24,8 +24,8 @@ namespace crowdface {
 /// For M faces, each region of a patch takes two matrix products. The first product multiplies the
 /// fields of all heads at the patch's skeleton (the vertices from which all vertices of the patch
 /// are interpolated) by a matrix with M columns of coefficients. The second product multiplies the
-/// skeleton's interpolation weights by the result of the first. All M faces share the cost of
-/// reading the fields.
+/// skeleton's interpolation weights by the first product. All M faces share the cost of reading
+/// the fields.
 ///
 /// The bits of a face do not depend on the faces that are blended with it, the number of threads or
 /// the instruction set. A face whose coefficients are all zero (the target blended with itself) is

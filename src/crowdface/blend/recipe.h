@@ -34,11 +34,11 @@ struct BandRecipe {
 
 /// The recipe of one region. The base class is the region's coarsest band (the only band in Eq. 7).
 struct RegionRecipe : BandRecipe {
-  /// from coarse to fine; the level of each band is at most the level of the band before
+  /// from coarse to fine; the level of each band is at most the level of the next coarser band
   std::vector<BandRecipe> finer_bands;
   /// The weights of the heads in the region's textures, by ascending head; no weight is zero. If
-  /// empty, the weights of the finest band are used instead. If Recipe::colours is not empty, these
-  /// weights are unused.
+  /// `colours` is empty, the weights of the finest band are used instead. If Recipe::colours is not
+  /// empty, Recipe::colours is used instead.
   std::vector<SourceWeight> colours = {};
 };
 
@@ -69,8 +69,8 @@ struct Recipe {
   bool mirrored = false;  ///< whether the whole face, including its parts, is mirrored
 };
 
-/// Returns whether the blended face stays as it is, because it is not mirrored and its asymmetry is
-/// 1.
+/// Returns whether the recipe leaves the blended face without mirroring: `mirrored` is false and
+/// `asymmetry` is 1.
 bool is_unmirrored(const Recipe& recipe);
 /// Returns the weight with which the face's mirror image is mixed into the face, see
 /// mirror_image_weight(double, bool).
@@ -145,8 +145,9 @@ Matrix target_matrix(const Recipe& recipe, const HeadMatrix& head_matrix) {
 ///
 /// \param anchors      one anchor per head.
 /// \param sources      heads that lend detail, ascending.
-/// \param max_sources  number of weights to keep before the normalisation, the largest first; of
-///                     equal weights, the first. ω_0 is always kept and does not count.
+/// \param max_sources  If given, only this number of the largest weights is kept before the
+///                     normalisation; among equal weights, those of the first heads. ω_0 is always
+///                     kept, in addition to this number.
 std::vector<SourceWeight> weights_at_position(const std::vector<PlanePoint>& anchors, Index target,
                                               const std::vector<Index>& sources,
                                               const PlanePoint& position,

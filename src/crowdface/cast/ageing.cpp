@@ -33,8 +33,8 @@ class AgedHeads {
   }
 
   bool has(Index head) const { return std::ranges::binary_search(heads_, head); }
-  /// Returns the head of the age class that is nearest to `head`. (The mean of several old heads
-  /// would have no wrinkles.)
+  /// Returns, of all heads of the age class, the head nearest to `head`. (The mean of several old
+  /// heads would have no wrinkles.)
   Index nearest_to(Index head) const {
     return *std::ranges::min_element(heads_, {}, [&](Index other) { return rank(head, other); });
   }

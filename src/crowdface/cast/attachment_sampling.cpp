@@ -385,7 +385,7 @@ class AttachmentChooser {
   std::map<std::string, Index> heads_;
   /// colour of the items that a family wears, by (family, kind)
   std::map<std::pair<std::string, std::string>, std::string> family_colours_;
-  /// how many faces wear each item, for each set of similar faces; by similar_faces_key
+  /// for each set of similar faces, by similar_faces_key: how many faces of the set wear each item
   std::map<std::string, WearerCounts> wearer_counts_;
   WearerCounts all_wearer_counts_;           ///< how many of all sampled faces wear each item
   std::optional<HairChooser> hair_;          ///< empty if no item has a tint
@@ -414,7 +414,7 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     if (found != versions_by_id.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // by face id: index, in the list of the face's versions, of the version that got attachments last
+  // by face id: the version that got attachments last, as an index into the face's versions
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
   // Chooses attachments for the replacements of rejected faces, in the order of rejection. Stops at

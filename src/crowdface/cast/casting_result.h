@@ -34,9 +34,9 @@ struct ChangedFace;
 /// A change of a face, and its origin.
 struct AppliedChange {
   FaceChange change;
-  std::string origin;  ///< who requests the change, such as "review 2"
-  /// the original of which the changed face becomes a variant, as it was before all changes of the
-  /// same origin; null if the changed face becomes no variant
+  std::string origin;  ///< source of the change: "config", or a review such as "review 2"
+  /// If the change turns the face into a variant of another face (the original): the original
+  /// before all changes of `origin`. Otherwise null.
   std::shared_ptr<const ChangedFace> variant_of;
   /// smallest allowed distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;

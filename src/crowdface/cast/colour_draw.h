@@ -24,12 +24,14 @@ struct ColourOptions {
 /// Sets each face's own colours, Recipe::colours. The colours are a mixture of two random heads;
 /// the second head has a weight of at most one half. Both heads are drawn uniformly from the heads
 /// whose tags match the tags of the face's typical head. The random numbers of a sampled face
-/// depend only on the face's index and attempt, and the random numbers of other faces only on the
-/// id, so the colours do not depend on other faces.
+/// depend only on the face's index and attempt. The random numbers of a face that is neither
+/// sampled nor a member of a family depend only on the face's id. So the colours of these faces do
+/// not depend on any other face.
 ///
-/// A family has one complexion. A face with parents gets half of each parent's colours, without the
-/// heads whose tags do not match the tags of the face's typical head. The members of a family
-/// without parents share colours that are chosen once for the family. Faces that already have
+/// A face with parents gets half of each parent's colours, without the heads whose tags do not
+/// match the tags of the face's typical head. If no head is left, or if a family has no parents,
+/// the members get random colours. The random numbers then depend only on the family's name, so
+/// members whose typical heads have matching tags get the same colours. Faces that already have
 /// colours keep their colours.
 ///
 /// \param crowd  In the order of the plan: parents before children.

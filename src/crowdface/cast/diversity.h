@@ -75,8 +75,8 @@ struct BelievabilityOptions {
     kAuto,  ///< check whole meshes if they have at most 200,000 polygons
     kAll,
     kNone,
-    /// casting accepts a candidate only after checking its whole mesh; the report lists the
-    /// results, too
+    /// check the whole mesh of each candidate before casting accepts the candidate, and list the
+    /// results in the report
     kJudge,
   };
   MeshChecks meshes = MeshChecks::kAuto;

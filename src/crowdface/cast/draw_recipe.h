@@ -41,7 +41,7 @@ struct CastingOptions {
   HeadTags tags = {};                ///< the tags of each head; or empty
   /// distributions that the measurements of the crowd should have
   std::vector<TraitTarget> trait_targets = {};
-  std::vector<FaceChange> changes = {};  ///< changes of single faces by the config
+  std::vector<FaceChange> changes = {};  ///< changes of single faces that the config requests
 };
 
 /// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the

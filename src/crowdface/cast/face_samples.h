@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Indices of the vertices at which faces are compared and judged, so that meshes need not be
-/// built.
+/// Indices of the vertices at which faces are compared and judged. The positions of these vertices
+/// are enough, so no mesh needs to be built.
 using FaceSamples = std::vector<std::uint32_t>;
 
 /// Chooses samples on the skin (the largest component). Half of the samples are distributed by area

@@ -140,9 +140,10 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
     row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
-/// Computes the coordinate functions, in the order of FunctionRowOrder. Three rows (x, y, z) belong to
-/// the mean head, to each head's deviation from the mean head, and to each displacement field: the
-/// part of a mode that belongs to one head, multiplied by the weights of one region.
+/// Computes the coordinate functions, in the order of FunctionRowOrder. Each of the following has
+/// three rows (x, y, z): the mean head, each head's deviation from the mean head, and each
+/// displacement field. A displacement field is the part of a mode that belongs to one head,
+/// multiplied by the weights of one region.
 ///
 /// \param max_coefficients  #modes: the largest absolute coefficient of each mode over all levels.
 ///                          Modes have unit length, so each mode's rows are multiplied by this

@@ -31,8 +31,9 @@ class FaceSpace {
   /// with all extrapolation factors 1. The second variant is needed because two faces that differ
   /// only in extrapolation are the same person.
   struct Point {
-    Eigen::VectorXf coordinates_with_extrapolation;  ///< of the built face, #dimensions
-    /// of the face with all extrapolation factors 1, #dimensions
+    /// the face's coordinates with the extrapolation factors of the recipe, #dimensions
+    Eigen::VectorXf coordinates_with_extrapolation;
+    /// the face's coordinates with all extrapolation factors 1, #dimensions
     Eigen::VectorXf coordinates_without_extrapolation;
   };
 
@@ -54,8 +55,8 @@ class FaceSpace {
   /// Returns the points of several recipes. Faster than separate calls of `point`.
   std::vector<Point> points(std::span<const Recipe* const> recipes) const;
   /// Returns the point of an input head or, if faces may be mirrored, of a head's mirror image: the
-  /// mirror images have the numbers from head_count() on. Heads are not extrapolated, so both
-  /// variants of the point are equal.
+  /// mirror images have the numbers from head_count() on. Heads are not extrapolated, so the point
+  /// has the same coordinates with and without extrapolation.
   Point head_point(Index head) const;
 
   Index dimensions() const { return tables_.principal_directions.rows() + 1; }
@@ -67,11 +68,11 @@ class FaceSpace {
   /// Returns the root mean square distance between two faces in mm: the smaller of the distances
   /// with and without extrapolation.
   static double distance(const Point& a, const Point& b);
-  /// A point, and the products of one region's metric with both coordinate vectors of the point.
+  /// A point, and one region's metric multiplied by the point's coordinates.
   struct RegionPoint {
     const Point* point = nullptr;
-    /// the region's metric multiplied by the coordinates of `point`, #dimensions; empty if there is
-    /// only one region
+    /// the region's metric multiplied by the point's coordinates with and without extrapolation,
+    /// #dimensions each; empty if there is only one region
     Eigen::VectorXf metric_times_coordinates_with_extrapolation,
         metric_times_coordinates_without_extrapolation;
   };

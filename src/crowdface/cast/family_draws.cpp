@@ -344,7 +344,7 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   const std::string purpose = concat(key.purpose_prefix, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
   draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
-  // how_far: 0 gives the smallest, 1 the largest distance from the founder
+  // `how_far` ranges from 0 (smallest distance from the founder) to 1 (largest distance)
   draft.distance_mm = kMinDistanceFraction + (1 - kMinDistanceFraction) * how_far;
   draft.distance_mm *= max_distance_from_founder_mm(family_plan);
   if (family_plan.founder_is_prototype_of_twins) {

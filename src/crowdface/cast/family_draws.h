@@ -37,7 +37,8 @@ inline constexpr double kMaxFractionOfNearerStrangersForFounder = 0.06;
 /// member's distance from the founder is random, and at most max_distance.
 class FamilySampler {
  public:
-  /// \param crowd  All faces except this family, but including the parents, who are found by id.
+  /// \param crowd  All faces except the members of this family. Parents are found among these faces
+  ///               by id.
   FamilySampler(const CastingOptions& casting, const FamilyOptions& family, const FaceJudge& judge,
                 const UnrelatedFaces& unrelated, const CrowdSoFar& crowd);
 

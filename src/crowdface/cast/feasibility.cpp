@@ -7,8 +7,8 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of candidates in all trials together. Trials that have begun are finished, and
-/// trials continue until one succeeds, even if they exceed this number.
+/// No further trial begins once all trials together have used this number of candidates, provided
+/// that a trial has succeeded.
 constexpr std::uint64_t kMaxTrialCandidates = 200'000;
 /// Largest number of faces in a trial.
 constexpr std::uint64_t kMaxTrialFaces = 400;

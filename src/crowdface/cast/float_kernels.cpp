@@ -78,8 +78,8 @@ double fixed_order_dot(const float* a, const float* b, std::size_t count) {
   return sum_of(Products{a, b}, count);
 }
 
-/// The terms that add_scaled_and_sum_squares adds up. Computing a term also adds the scaled number
-/// to the number in `to`.
+/// The terms that add_scaled_and_sum_squares adds up: term i is (to[i] + factor·from[i])².
+/// Computing term i also stores to[i] + factor·from[i] in to[i].
 struct SquaresAfter {
   float factor;
   const float* from;

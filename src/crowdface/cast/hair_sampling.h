@@ -56,8 +56,9 @@ class HairChooser {
   std::map<std::string, EntryOfFace> entries_of_faces_;
   /// by key in `hair_colours`: number of faces in `entries_of_faces_` with this key
   std::map<std::string, std::uint64_t> entry_sizes_;
-  /// By key in `hair_colours`: for each face in `entries_of_faces_` with this key, the index of the
-  /// face's colour among the entry's colours. −1: the face has none of these colours.
+  /// By key in `hair_colours`. A vector has one element for each face in `entries_of_faces_` with
+  /// this key: the index of the face's colour among the colours of the entry, or −1 if the face has
+  /// none of these colours.
   std::map<std::string, std::vector<int>> colour_indices_;
   /// hair colours without the grey of age, by the face's id
   std::map<std::string, HairColour> base_colours_;

@@ -96,8 +96,8 @@ class LikenessTree {
 
   const std::vector<FaceSpace::Point>& points_;
   const std::vector<bool>& gone_;
-  /// One tree over the points with extrapolation. If a face is extrapolated, also a second tree,
-  /// over the points without extrapolation.
+  /// The first tree contains the points with extrapolation. If any face is extrapolated, a second
+  /// tree contains the points without extrapolation.
   std::vector<std::pair<Variant, PointTree>> variants_;
 };
 

@@ -32,8 +32,8 @@ class PointTree {
   /// Visits the blocks of points in the leaves. Of two child nodes, visits the child nearer to the
   /// query first.
   ///
-  /// \param is_wanted    is_wanted(squared distance from the query, bounds): whether to visit a
-  ///                     node.
+  /// \param is_wanted    is_wanted(d, bounds) returns whether to visit the node with these bounds.
+  ///                     d is the squared distance from the query to the node's bounding box.
   /// \param visit_block  Called with the number of each visited block.
   template <class IsWanted, class VisitBlock>
   void visit(const std::vector<float>& query, const IsWanted& is_wanted,
@@ -74,8 +74,8 @@ class PointTrees {
   void add(const Eigen::VectorXf& point);
   Index size() const { return size_; }
   /// Returns the nearest of the points with numbers in [begin, end) whose squared distance is below
-  /// `limit_squared`; of equally near points, the first. The result does not depend on the other
-  /// points, not even in its last bits.
+  /// `limit_squared`; of equally near points, the first. The distance of the returned point does
+  /// not depend on which other points the set contains, not even in the last bits.
   ///
   /// \param sufficient_squared_distance  at most `limit_squared`; the search ends at the first
   ///                                     point whose squared distance is smaller.

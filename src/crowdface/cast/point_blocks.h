@@ -78,7 +78,8 @@ class PointBlocks {
   /// values.
   Lanes squared_distances(const std::vector<float>& query, Index block, float bound) const;
   /// Searches one block for points that are nearer than `best` and have numbers in [begin, end).
-  /// The result does not depend on the other points, not even in its last bits.
+  /// The distance of a point does not depend on which other points the block contains, not even in
+  /// the last bits.
   void search(const std::vector<float>& query, Index block, Index begin, Index end,
               NearestPoint& best) const;
 

@@ -37,7 +37,7 @@ struct PositionDistribution {
   /// kAround: the head whose anchor is the centre; empty: the face's target
   std::optional<Eigen::Index> head;
   double radius = 0;  ///< kAround: radius of the disc, in units of the weight plane
-  PlanePoint at = PlanePoint::Zero();  ///< kFixed: the position
+  PlanePoint at = PlanePoint::Zero();  ///< kFixed: the point at which the position always is
   /// kAnchored: the largest distance from the anchor, as a fraction of the distance between the
   /// anchor and the random point of the hull. 0: the position is always the anchor.
   double pull = 0.25;
@@ -99,7 +99,7 @@ const auto& weighted_choice(const Things& things, double random_number, const We
     if (remaining < std::invoke(weight, thing)) return thing;
     remaining -= std::invoke(weight, thing);
   }
-  // rounding errors can leave a remainder after the last weight
+  // reached only if rounding errors leave a remainder after the last weight
   return things.back();
 }
 

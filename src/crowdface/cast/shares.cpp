@@ -23,8 +23,9 @@ std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether face `n` must be assigned to some share. Otherwise, the shares could not get all
-/// their faces (⌊q·m⌋ of the first m faces for share q), for some m from n to n + horizon.
+/// Returns whether face `n` must be assigned to one of the shares. Share q must get at least ⌊q·m⌋
+/// of the first m faces. So face `n` must be assigned if, for any m from n to n + horizon, all
+/// shares together still need more faces than the faces n + 1 to m.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -94,8 +95,8 @@ std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint6
   };
   const std::size_t none = shares.size();
   shares.push_back(std::max(0.0, 1 - std::reduce(shares.begin(), shares.end())));
-  // can_serve looks `horizon` faces ahead. The horizon contains two faces of the smallest share,
-  // but at most 1000 faces.
+  // can_serve looks `horizon` faces ahead: far enough for two faces of the smallest share, but at
+  // most 1000 faces.
   double smallest = 1;
   for (const double share : shares) {
     if (share > kRounding) smallest = std::min(smallest, share);

@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Returns a random recipe such as casting might generate, drawn from all heads and levels.
-/// FaceSpace computes its principal directions from the faces of such recipes (the training set),
+/// Returns a random recipe like the recipes of casting, drawn from all heads and all levels.
+/// FaceSpace computes its principal directions from the faces of these recipes (the training set),
 /// so that the directions cover all differences between faces. If there are mirror images, faces
 /// are mirrored and vary in asymmetry.
 ///

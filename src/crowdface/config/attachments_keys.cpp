@@ -184,7 +184,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
     }
-    // Three rules:
+    // Refuse quotas that break one of three rules:
     // - A kind with an entry in `attachments.none` has no quota for the whole kind.
     // - A kind has either one quota for the whole kind, or quotas for its items and colours.
     // - The quotas of a kind add up to at most 1.

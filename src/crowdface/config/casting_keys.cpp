@@ -209,7 +209,7 @@ std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
   const std::size_t in_group = head_count_of_rarer_sex(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.head_names.size();
   struct Proposal {
-    std::size_t heads;  ///< smallest number of heads for which this distance is proposed
+    std::size_t heads;  ///< smallest number of heads for which `distance` is proposed
     const char* distance;
   };
   constexpr std::size_t kEnough = 5;

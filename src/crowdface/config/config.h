@@ -94,9 +94,9 @@ enum class SheetLabel {
 enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
 enum class SheetFormat { kPng, kExr, kPdf };
 
-/// A config file after reading and checking; all names are replaced by indices. Members have the
-/// names of the YAML keys, which docs/config.md explains. Paths are absolute or relative to the
-/// working directory.
+/// A config file after reading and checking. Names of heads, regions and bands are replaced by
+/// indices. Most members have the names of the YAML keys, which docs/config.md explains. Paths are
+/// absolute or relative to the working directory.
 struct Config {
   std::filesystem::path file;  ///< path of the config file
 
@@ -181,18 +181,19 @@ struct Config {
   /// GLB file with joints and with the parts bound to these joints; empty: none
   std::filesystem::path rig;
 
-  /// The ring of vertices at the neck where the meshes of all faces end.
+  /// The neck ring: the ring of vertices at the neck where the meshes of all faces end.
   struct Neck {
     std::filesystem::path body;  ///< mesh of the body to which the faces are attached; empty: none
     std::optional<Eigen::Index> neck_head;  ///< head whose neck all faces get (key `like`)
     bool uses_mean_neck = false;            ///< whether all faces get the mean of the heads' necks
-    /// file that lists the vertices of this ring on the heads; empty: the ring is the open border
-    /// of the heads' meshes
+    /// file that lists the vertices of the neck ring on the heads; empty: the neck ring is the open
+    /// border of the heads' meshes
     std::filesystem::path rim;
-    /// file that lists the body's vertices at the ring; empty: the vertices are an open border of
-    /// the body
+    /// file that lists the vertices of the neck ring on the body; empty: the neck ring is an open
+    /// border of the body's mesh
     std::filesystem::path body_rim;
-    /// distance from the ring, along the skin, over which a face is bent to fit the ring
+    /// A face is bent to fit the neck ring. The bend fades out over this distance from the ring,
+    /// measured along the skin.
     double falloff_mm = 60;
     /// the body's colour texture, which is tinted for each face; empty: none
     std::filesystem::path body_texture;

@@ -21,8 +21,8 @@ struct StarterLines {
   std::string comment_beside = {};  ///< comment after the value, on the same line
   std::string comment_above = {};   ///< comment on the lines before the key
 };
-/// A function that returns a key's part of a starter config; nothing: the starter config does not
-/// contain the key.
+/// A function that returns what a starter config contains for one key. If the starter config does
+/// not contain the key, the function returns nothing.
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
 /// One row, which describes one key, of the tables in docs/config.md.
@@ -204,8 +204,8 @@ std::string write_sections(const Keys<Section>& keys, const std::vector<Section>
   }));
 }
 
-/// Returns the starter lines of the section's keys, as a text that is the value of the section.
-/// Returns an empty text if no key has starter lines.
+/// Returns the value of a section in a starter config: the starter lines of all keys of the
+/// section. Returns an empty text if no key has starter lines.
 template <class Section>
 std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   std::string text;

@@ -90,8 +90,8 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
   if (faces == nullptr) return review;
   if (!draft.complaints.expect_map(*faces, "a mapping from faces to marks, {market_0007: reject}"))
     return review;
-  // Each mark must name a face of this crowd. Parents that casting made for a family, and faces
-  // written by hand, cannot be rejected.
+  // Each entry of `faces` must name a face of this crowd. The mark `reject` is refused for parents
+  // that casting made for a family, and for faces written by hand.
   for (const YamlEntry& entry : faces->entries) {
     ReviewMark mark;
     mark.id = entry.key;

@@ -11,7 +11,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kLargestTrait = 1000;  ///< in mm, in degrees, or as a ratio
+/// Largest accepted value of a measurement: in mm, in degrees, or as a ratio.
+constexpr double kLargestTrait = 1000;
 
 std::vector<std::string> measurement_names() {
   return texts_of(measurements(), [](const Measurement& of) { return of.name; });

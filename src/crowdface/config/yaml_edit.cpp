@@ -92,8 +92,8 @@ std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
   if (is_folder(file)) {
     return refuse("expected a config file, found a folder");
   }
-  // Read at most a few bytes more than the limit. This is enough for YamlText::find_problem to
-  // refuse longer files.
+  // Read at most four bytes more than the limit, so that YamlText::find_problem sees that a longer
+  // file is too long.
   std::string text(input_limits().yaml_bytes + 4, '\0');
   try {
     const OpenedFile opened = open_for_reading(file);

@@ -11,8 +11,8 @@ namespace crowdface {
 /// The place where a config value is written: in a file, or on the command line (line 0).
 struct YamlPlace {
   std::shared_ptr<const std::string> source;  ///< file name, or the option as the user typed it
-  int line = 0;    ///< counts from 1; 0: on the command line, or the whole file
-  int column = 0;  ///< counts from 1, in characters, not in bytes
+  int line = 0;    ///< line number from 1; 0: the place is the command line or the whole file
+  int column = 0;  ///< column number from 1, in characters, not in bytes
   /// Returns "file:line:column", or `source` alone if line is 0.
   std::string text() const;
 };
@@ -31,8 +31,8 @@ struct YamlNode {
   };
   Kind kind = Kind::kNothing;
   YamlPlace place;
-  /// path of keys from the root, such as "crowd.count"; items of lists count from 1, as in "recipes
-  /// #2"
+  /// path of keys from the root, such as "crowd.count"; an item of a list has a number from 1, as
+  /// in "recipes #2"
   std::string path;
   std::string text;  ///< kScalar: the value as it is written
   /// kScalar: whether the value is in quotes, so that it is a text and not a number

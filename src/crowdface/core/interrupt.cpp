@@ -25,7 +25,7 @@ constexpr timespec kGrace = {0, 700'000'000};  ///< time from a signal to end_pr
 timer_t grace_timer;
 const int kGraceSignal = SIGRTMIN;
 
-/// Ends the program immediately. This leaves no half-written output file, because a file gets its
+/// Ends the program immediately. No output file is left half-written, because a file gets its
 /// final name only when it is complete.
 extern "C" void end_program(int) {
   for (const char* text : {"error: ", kMessage, "\n"}) {

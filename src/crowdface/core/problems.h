@@ -12,7 +12,8 @@ namespace crowdface {
 class Problems {
  public:
   /// Adds an error, unless the same message was added before.
-  /// \param message  one or more lines: file, place, what was expected, what was found.
+  /// \param message  one or more lines: file, location in the file, what was expected, what was
+  ///                 found.
   void add(ExitCode code, std::string message);
   void add(const Error& error) { add(error.code(), error.what()); }
   bool empty() const { return messages_.empty(); }

@@ -33,12 +33,15 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Counts finished steps.
   void step(std::size_t step_count = 1);
+  /// Seconds since the construction.
   double seconds() const { return clock_() - start_seconds_; }
   /// Returns an estimate of the time that the remaining steps take; nothing if it is not known yet.
   std::optional<double> seconds_left() const;
 
  private:
+  /// Shows the progress, unless it was shown a short time ago. The caller must hold mutex_.
   void show(std::size_t finished_steps);
   std::optional<double> seconds_left(std::size_t finished_steps) const;
 
@@ -50,7 +53,7 @@ class Progress {
   mutable std::mutex mutex_;
   StepRate rate_;  ///< guarded by mutex_
   double last_shown_seconds_;
-  bool has_shown_ = false;
+  bool has_shown_ = false;  ///< whether `show` has written a line
 };
 
 /// A function that receives the name of a stage, the number of finished steps and the number of all

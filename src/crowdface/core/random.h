@@ -13,8 +13,8 @@ namespace crowdface {
 /// Generator: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").
 struct RandomKey {
   std::uint64_t seed = 0;
-  std::uint64_t index = 0;        ///< number of the face or head
-  std::string_view purpose = {};  ///< what the number is used for, such as "position/top"
+  std::uint64_t index = 0;        ///< index of the face or head that the random number is for
+  std::string_view purpose = {};  ///< what the random number is used for, such as "position/top"
   std::uint32_t attempt = 0;      ///< number of rejected earlier samples for this face
 };
 

@@ -6,7 +6,7 @@ namespace crowdface {
 // Version numbers of algorithms. When the output bytes of an algorithm change, raise its constant
 // and regenerate tests/golden. The program then recomputes results of older versions.
 
-/// Version of the skin positions of a face. Part of the `settings` of every recipe.
+/// Version of the skin positions of a face. Part of the hash `settings` of every recipe.
 inline constexpr int kBlendVersion = 7;
 /// Version of the placement of parts such as eyes and teeth. Included in the `settings` if heads
 /// have parts.

@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-/// Rounds to four decimals, as plans and reports do.
+/// Rounds to four decimals, the precision of numbers in plans and reports.
 inline double rounded(double value) {
   return std::round(value * 1e4) / 1e4;
 }

@@ -44,7 +44,7 @@ Claim claim(int fd) {
   return errno == EWOULDBLOCK || errno == EINTR ? Claim::kTaken : Claim::kImpossible;
 }
 
-/// A temporary file beside its target. It stays locked until it is renamed, so that
+/// A temporary file beside its target. The file stays locked until it is renamed, so that
 /// remove_temporary_files, on any machine, can distinguish it from a file that a killed run left
 /// behind.
 class TemporaryFile {

@@ -72,8 +72,8 @@ std::set<std::string> recorded_files(const CrowdDirectory& directory, std::strin
   return names;
 }
 
-/// The files of all faces: the files that ledgers record, and files of faces in the plan that a
-/// killed run wrote but did not record.
+/// The files of all faces: the files that ledgers record, and the files that a killed run wrote for
+/// planned faces but did not record.
 std::vector<fs::path> files_of_faces(const CrowdDirectory& directory) {
   const std::set<std::string> recorded = recorded_files(directory, "faces/");
   std::set<std::string> ids;

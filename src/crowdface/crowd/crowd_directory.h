@@ -35,9 +35,10 @@ struct CrowdDirectory {
   std::filesystem::path founders() const { return root / "founders.jsonl"; }
   /// The faces that reviews rejected, in the format of the plan.
   std::filesystem::path rejected() const { return root / "rejected.jsonl"; }
-  /// The folder with copies of the reviews that the crowd depends on. `number` is the position of a
-  /// review in the order of the reviews, counted from 1.
+  /// The folder with copies of the reviews that the crowd depends on.
   std::filesystem::path reviews() const { return root / "reviews"; }
+  /// Path of the copy of a review.
+  /// \param number  position in the order of the reviews, counted from 1.
   std::filesystem::path review(std::size_t number) const;
   /// The existing review files: review(1), review(2), … up to the first number without a file.
   std::vector<std::filesystem::path> stored_reviews() const;
@@ -65,10 +66,11 @@ struct CrowdDirectory {
   std::filesystem::path log(const Shard& shard) const { return shard_path(log(), shard); }
   std::filesystem::path ledger(const Shard& shard) const { return shard_path(ledger(), shard); }
   std::filesystem::path lock(const Shard& shard) const { return shard_path(lock(), shard); }
-  /// The existing ledgers and logs of all shards, sorted by name.
+  /// The existing ledgers of all shards, sorted by name.
   std::vector<std::filesystem::path> shard_ledgers() const {
     return existing_shard_paths(ledger());
   }
+  /// The existing logs of all shards, sorted by name.
   std::vector<std::filesystem::path> shard_logs() const { return existing_shard_paths(log()); }
   /// The existing ledgers of all shards, then the ledger of the whole crowd, which need not exist.
   std::vector<std::filesystem::path> ledgers() const;
@@ -107,8 +109,8 @@ struct CrowdDirectory {
   std::filesystem::path gallery_face(const std::string& id) const {
     return gallery_faces() / numbered_subfolder(id) / (id + ".js");
   }
-  /// Folder of scripts with the recipes of a large crowd, for the gallery. Each script holds
-  /// `faces_per_folder` faces.
+  /// Folder of scripts from which the gallery reads the recipes of a large crowd. Each script holds
+  /// the recipes of `faces_per_folder` faces.
   std::filesystem::path gallery_pages() const { return gallery() / "data/pages"; }
   std::filesystem::path gallery_head(const std::string& name) const {
     return gallery() / "data/heads" / (name + ".js");

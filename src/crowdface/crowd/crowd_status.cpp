@@ -50,8 +50,8 @@ void for_each_line_of(const fs::path& path, const Use& use) {
   }
 }
 
-/// Ids of faces that have a line in any ledger. Does not compare the lines with the files: a run
-/// that continues the crowd or gathers its shards does that.
+/// Ids of faces that have a line in any ledger. Does not check whether the files still match these
+/// lines; runs that continue the crowd or gather its shards check the files.
 std::unordered_set<std::string> faces_in_ledgers(const CrowdDirectory& directory) {
   std::unordered_set<std::string> ids;
   for (const fs::path& path : directory.ledgers()) {

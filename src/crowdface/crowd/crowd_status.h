@@ -32,8 +32,9 @@ struct ShardStatus {
 };
 
 struct CrowdStatus {
-  bool is_planned = false;                ///< whether the plan exists
-  bool is_report_written = false;         ///< whether the report exists; it is written last
+  bool is_planned = false;  ///< whether the plan exists
+  /// whether the report exists (a run writes the report after all faces and sheets)
+  bool is_report_written = false;
   std::uint64_t face_count = 0;           ///< number of faces in the plan
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun
@@ -46,7 +47,7 @@ struct CrowdStatus {
 struct TaskEnd {
   std::optional<std::uint64_t> exit_code;  ///< nothing if the task has not ended
   std::string reason;                      ///< last error in the log
-  bool is_requeued = false;                ///< the task has asked Slurm to run it again
+  bool is_requeued = false;                ///< whether the task has asked Slurm for another run
 };
 TaskEnd parse_task_end(std::string_view log);
 

@@ -177,7 +177,7 @@ void add_identity_columns(const std::vector<FacePlan>& crowd, const PlanNames& n
   }
 }
 
-/// To add a column, add a row here.
+/// Returns all columns of the table. To add a column, add an entry here.
 /// \param names  must outlive the columns.
 TableColumns table_columns(const PlanNames& names) {
   using Face = const FacePlan&;

@@ -47,7 +47,7 @@ void add_counts(const LedgerEntry& entry, FileCounts& counts) {
   }
 }
 
-/// The counts of files as JSON.
+/// Returns the FileCounts of all entries as JSON text.
 std::string count_files(const std::vector<LedgerEntry>& entries) {
   FileCounts counts;
   for (const LedgerEntry& entry : entries) add_counts(entry, counts);

@@ -52,7 +52,8 @@ struct LedgerLines {
   bool is_complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
-/// \param item  reads only items whose names start with this text; empty: all items.
+/// Reads the lines of a ledger file.
+/// \param item  reads only lines of items whose names start with this text; empty: all lines.
 /// \return no lines if the file does not exist.
 /// \throws IoError.
 LedgerLines read_ledger(const std::filesystem::path& path, std::string_view item = {});

@@ -77,7 +77,8 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
 
   std::unordered_map<std::string, std::size_t> rows_;
   std::size_t depth_ = 0;
-  std::array<std::string, kDeepest> keys_;  ///< keys of the objects around the current value
+  /// keys of the JSON objects that enclose the current value
+  std::array<std::string, kDeepest> keys_;
 };
 
 }  // namespace

@@ -41,7 +41,7 @@ enum class ShardState {
   /// working, or killed without notice; only the time since the last write distinguishes the two
   kWorking,
   kDone,         ///< all faces of the shard are done
-  kInterrupted,  ///< stopped by a signal; the next run continues
+  kInterrupted,  ///< stopped by a signal; the next run continues the shard
   kFailed
 };
 std::string_view name_of(ShardState state);

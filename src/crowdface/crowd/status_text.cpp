@@ -109,8 +109,8 @@ std::string format_status_json(const CrowdStatus& status) {
                               {"machine", shard.machine},
                               {"reason", shard.reason}});
   }
-  // Write ASCII only. `printable` escapes some other characters before a text is printed, and these
-  // escapes are not valid JSON.
+  // Write ASCII only, because `printable` later escapes some non-ASCII characters in a way that is
+  // not valid JSON.
   return json.dump(-1, ' ', true, Json::error_handler_t::replace) + "\n";
 }
 

@@ -35,8 +35,8 @@ namespace {
 class EditorLock {
  public:
   /// Takes the lock.
-  /// \param folder  must exist. Receives the lock file and the file with the editor's address; only
-  ///                the user who started the editor can read the address file.
+  /// \param folder  folder for the lock file and for the file with the editor's address; must
+  ///                exist. Only the user who started the editor can read the address file.
   /// \throws UsageError with the address of the other editor if there is one.
   explicit EditorLock(const std::filesystem::path& folder)
       : address_(folder / ".address"),

@@ -297,8 +297,8 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
 }
 
 /// The skin of a face. "picture" and "normals" are JPEG files in the layout of the atlas; "rough"
-/// and "colours" have values at the preview's vertices. Omits a key if faces have no textures or
-/// vertex colours of this kind.
+/// and "colours" have values at the preview's vertices. Omits each of these keys for which the face
+/// has no texture (or no vertex colours).
 HttpAnswer EditApi::skin(const HttpRequest& request, const std::string&) {
   const FacePlan face = face_in(parse_json_body(request));
   BinaryAnswer answer;

@@ -57,7 +57,9 @@ class EditApi {
   Handler paint_masks, undo_masks, save_masks, use_regions;
   // Handlers of requests that add heads.
   Handler begin_drop, receive_dropped_file, add_heads;
+  /// The answer to requests that paint: the painted masks.
   HttpAnswer painted_masks() const;
+  /// Returns a function that builds a face and writes its mesh.
   EditedFolder::WriteMesh mesh_writer();
   /// Returns a path for new masks at which no file exists yet. Files of earlier masks are not
   /// overwritten, so that the user can undo steps.
@@ -80,6 +82,7 @@ class EditApi {
   /// The value of a section in the file of edits, as a text; null if the file has no such section.
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json measures_json(const FaceMeasures& measures) const;
+  /// Stores the number if it is the largest number that the page has sent.
   void note_request_number(const std::string& page, std::uint64_t request_number);
   /// Returns whether the page has sent a request with a larger number.
   bool is_outdated_request(const std::string& page, std::uint64_t request_number);
@@ -95,7 +98,7 @@ class EditApi {
   EditExpressions expressions_;
   DroppedFiles dropped_;     ///< files that the user drags from the desktop and drops on the page
   RegionPainting painting_;  ///< guarded by `build_mutex_`
-  std::mutex build_mutex_;   ///< builds one face at a time, because each build uses all cores
+  std::mutex build_mutex_;   ///< only one face is built at a time, because a build uses all cores
   /// Number of sampling attempts so far, so that each request samples different faces.
   std::atomic<std::uint32_t> sampling_attempts_ = 0;
   std::mutex newest_requests_mutex_;

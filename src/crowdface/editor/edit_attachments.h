@@ -36,11 +36,14 @@ class EditAttachments {
 
   /// The attachments of a face. Returns nothing while an attachment is being bound to the heads for
   /// the first time; binding takes seconds if there are expressions.
-  /// \param face    the edited face; determines the attachments that are sampled for the face
+  /// \param face       the edited face; determines the attachments that are sampled for the face
   /// \param opened_id  id of the crowd's face from which the edit began, or empty. The edited face
-  ///                keeps the attachments of the crowd's face.
-  /// \param chosen  maps each kind to "draw", "none" or a name; missing kinds are sampled
-  /// \param moves   displacements of the face, which the attachments follow
+  ///                   keeps the attachments of the crowd's face.
+  /// \param chosen     maps each kind of attachments to "draw" (sampled), "none" or the name of an
+  ///                   attachment; missing kinds are sampled
+  /// \param positions  vertices of the face, without the displacements
+  /// \param moves      displacements of the face's vertices, for example by expressions; the
+  ///                   attachments follow the vertices
   /// \throws UsageError if a kind or a name does not exist.
   std::optional<std::vector<PlacedAttachment>> attachments_of(const FacePlan& face,
                                                               const std::string& opened_id,
@@ -59,15 +62,15 @@ class EditAttachments {
   /// Returns the binding of an attachment to the heads. The first call for an attachment starts a
   /// thread that computes the binding.
   BindingFuture binding(const std::string& name);
-  /// Returns the crowd's face with the id `opened_id`. If the crowd has no such face, returns `face`
-  /// with sampled attachments.
+  /// Returns the crowd's face with the id `opened_id`. If the crowd has no face with this id,
+  /// returns `face` with sampled attachments.
   FacePlan with_sampled_attachments(const FacePlan& face, const std::string& opened_id) const;
 
   const Job& job_;
   const std::vector<FacePlan>* crowd_;
   std::mutex mutex_;
   std::map<std::string, BindingFuture>
-      bindings_;  ///< the bindings of the attachments that a face has worn, by name
+      bindings_;  ///< for the name of each attachment requested so far: its binding
   AttachmentSurfaces surfaces_;
   ShownAttachments shown_;
 };

@@ -34,10 +34,11 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
-  /// The smaller of two distances to `nearest_head`: `nearest_head_distance_as_built_mm`, and the
-  /// distance without extrapolation (all extrapolation factors 1).
+  /// Distance to `nearest_head`: the minimum of the distance of the face itself
+  /// (`nearest_head_distance_as_built_mm`) and the distance of the face without extrapolation (all
+  /// extrapolation factors 1).
   double nearest_head_distance_mm = 0;
-  /// distance from the face, with the extrapolation factors of its recipe, to `nearest_head`
+  /// distance to `nearest_head` of the face as built: with the extrapolation factors of its recipe
   double nearest_head_distance_as_built_mm = 0;
   /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
   /// which the user began the edit.
@@ -152,7 +153,7 @@ class EditSession {
 
   Job job_;
   TextureAtlas textures_;
-  /// The result of another thread, which reduces the mesh while the following members are
+  /// The preview mesh. A separate thread computes the preview mesh while the following members are
   /// constructed.
   std::future<PreviewMesh> preview_future_;
   std::optional<std::vector<FacePlan>> crowd_;

@@ -31,15 +31,15 @@ class EditedFolder {
   explicit EditedFolder(std::filesystem::path path);
 
   const std::filesystem::path& path() const { return path_; }
-  /// Checks that the path still leads to the folder that the constructor opened. Code outside this
+  /// Checks that path() still leads to the folder that the constructor opened. Code outside this
   /// class must call this function before it writes to the folder.
-  /// \throws IoError if another folder has replaced the folder.
+  /// \throws IoError if the path leads to another folder.
   void require_same_folder() const { handle_.require_still_at_path(); }
 
   /// Returns the state text that a page saved last; empty if no page has saved a state.
   std::string saved_state() const;
-  /// Makes `page` the only page that may save the state, because two pages would overwrite each
-  /// other's steps.
+  /// Makes `page` the only browser page that may save the state. If two pages could save, each
+  /// page would overwrite the editing steps of the other page.
   void set_only_saving_page(std::string page);
   /// Saves the state of a page.
   /// \param page  the page that sends the state, or empty if no page has called

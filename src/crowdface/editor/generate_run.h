@@ -14,9 +14,9 @@ namespace crowdface {
 
 /// Progress of a run, parsed from log lines such as "info: casting: 12/24, 3.1/s, 4 s left".
 struct RunProgress {
-  std::uint64_t done = 0, total = 0;
-  double seconds_left = 0;
-  std::string message;  ///< the last line of the log; a prefix "info: " is removed
+  std::uint64_t done = 0, total = 0;  ///< finished items and all items of the current stage
+  double seconds_left = 0;            ///< estimated from the rate; 0 if unknown
+  std::string message;                ///< the last line of the log; a prefix "info: " is removed
 };
 RunProgress read_progress(std::string_view log);
 

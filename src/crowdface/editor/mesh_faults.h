@@ -22,7 +22,8 @@ class MeshFaults {
 
   /// One sentence for each fault that is visible on the mesh: gums or mouth lining that protrude
   /// through the skin, and exceeded limits of believability. Returns nothing if the config turns
-  /// these checks off or the meshes are too large for them. Takes some tenths of a second.
+  /// these checks off or if the meshes are too large for these checks. Takes some tenths of a
+  /// second.
   /// \param face  built from this recipe, #V by 3.
   std::vector<std::string> faults_of(const Recipe& recipe, const Positions& face) const;
 

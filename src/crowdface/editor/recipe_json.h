@@ -14,8 +14,8 @@ namespace crowdface {
 nlohmann::ordered_json recipe_to_json(const FacePlan& face, const CastingOptions& casting,
                                       const Config& config);
 
-/// Reads a face from an entry that recipe_to_json or a user wrote. Does not apply the config's
-/// ages: without an age in the entry, the face keeps the shape that the recipe gives.
+/// Reads a face from an entry that recipe_to_json or a user wrote. If the entry has no age, the
+/// shape of the face is not aged, even if the config samples ages.
 /// \throws UsageError that lists all mistakes, with the same texts as for mistakes in a config.
 FacePlan face_of_json(const nlohmann::ordered_json& recipe, const CastingOptions& casting,
                       const Config& config);

@@ -24,8 +24,8 @@ struct PaintedRegions {
 /// The painted regions of a job, for the editor's page. Not thread-safe.
 class RegionPainting {
  public:
-  /// Reads the brush strokes that an earlier editor painted on the same masks but did not save as
-  /// masks, and applies them again.
+  /// Applies the stored brush strokes again: strokes that the user painted on the same masks in an
+  /// earlier run of the editor, and whose result was not saved as masks.
   /// \param session  must outlive this object
   /// \param strokes  file that stores the strokes
   RegionPainting(EditSession& session, const std::filesystem::path& strokes);
@@ -66,8 +66,10 @@ class RegionPainting {
   void delete_stored_strokes() { strokes_.clear(); }
 
  private:
+  /// Returns `painter_`; creates the painter at the first call.
   MaskPainter& painter();
   SurfacePoint surface_point_of(const nlohmann::ordered_json& point);
+  /// Returns the index of the region whose name is the value of `key`.
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   void paint(const nlohmann::ordered_json& body);
   /// Discards the painted masks. Then applies all strokes and undo steps that the file stores.

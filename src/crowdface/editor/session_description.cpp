@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The description of a job that the page receives before it shows the first face.
+// Describes a job as JSON. The page loads this description before it shows the first face.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

@@ -13,7 +13,7 @@ namespace crowdface {
 /// The rotation, shift and scale of a head relative to the reference head.
 struct HeadPose {
   double angle_degrees = 0;  ///< rotation that aligns the head with the reference
-  /// distance between the heads' centroids, as a fraction of the head's size
+  /// distance between the centroids of head and reference, as a fraction of the head's size
   double relative_shift = 0;
   double scale = 1;  ///< size of the head relative to the reference
   /// Whether left and right are swapped: the head fits the reference several times better after a
@@ -21,8 +21,8 @@ struct HeadPose {
   bool is_mirrored = false;
 };
 
-/// Poses of all heads relative to the medoid (the head nearest in pose to all others). Only skin
-/// vertices count.
+/// Poses of all heads relative to the reference head. The reference is the medoid: the head whose
+/// pose is nearest to the poses of all other heads. Uses only skin vertices.
 std::vector<HeadPose> head_poses(const HeadSet& heads, const Components& components);
 
 /// A message that says why `align_heads` refuses a head even with `rigid`: the head is mirrored, or

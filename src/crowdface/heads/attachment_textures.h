@@ -19,10 +19,10 @@ namespace crowdface {
 struct HeadTextureFiles {
   struct File {
     std::filesystem::path path;  ///< an existing file
-    std::filesystem::path name;  ///< as in the material file; may contain <UDIM>
+    std::filesystem::path name;  ///< path as in the material file; may contain <UDIM>
   };
   std::vector<File> files;  ///< without duplicates, in the order in which polygons first use them
-  /// for each polygon, an index into `files`, or kNoIndex; empty if no head has such files
+  /// for each polygon, an index into `files`, or kNoIndex; empty if no head has files of this kind
   std::vector<std::uint32_t> file_of_face;
 };
 
@@ -32,7 +32,7 @@ struct FoundTextureFiles {
   std::vector<HeadTextureFiles> heads;  ///< #heads
   /// column and row of each polygon's UDIM tile
   std::vector<std::array<std::int32_t, 2>> tile_of_face;
-  std::vector<std::string> warnings;  ///< without duplicates; each names the heads that it concerns
+  std::vector<std::string> warnings;  ///< without duplicates; each warning names its heads
 
   bool has_files() const;
   /// Whether two heads have different textures.
@@ -46,8 +46,8 @@ void leave_out_files(FoundTextureFiles& textures, const std::set<std::filesystem
 /// \return one warning per file.
 std::vector<std::string> leave_out_unreadable_files(FoundTextureFiles& textures);
 
-/// Reads material files and checks which textures exist, without reading the textures. Warnings
-/// about material files are in the item of the colour textures.
+/// Reads material files and checks which textures exist, without reading the textures. Stores
+/// warnings about material files in the result's item for colour textures.
 /// \param heads  topology and texture coordinates that all heads share
 /// \param files  the file of each head
 /// \return one item per kind of texture: always the colours, then each kind that any head has.

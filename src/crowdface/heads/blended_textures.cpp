@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 constexpr int kMaxDefaultSide = 4096;
 
 /// For each image of the layout, the texture files of one head that are merged into this image, as
-/// indices into placed.files. Empty if the head has no texture for some polygon of the image.
+/// indices into placed.files; no indices if some polygon of the image has no texture on the head.
 std::vector<std::vector<std::uint32_t>> rows_in_pictures(const HeadTextureFiles& placed,
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {

@@ -26,6 +26,7 @@ class BodyPainter {
   const Topology& topology() const { return topology_; }
   const TextureCoordinates& uvs() const { return uvs_; }
 
+  /// Paints the body's texture for one face.
   /// \param ring_densities  optical densities of the face's skin at the ring, #rim by 3
   BlendedPicture paint(const Positions& ring_densities) const;
 
@@ -33,7 +34,7 @@ class BodyPainter {
   const HeadsOnBody& neck_;
   Topology topology_;
   TextureCoordinates uvs_;
-  std::shared_ptr<const TextureMap> map_;
+  std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
   std::unique_ptr<const SurfaceTexels> texels_;
   Positions body_optical_densities_;  ///< the body's colours at the ring of the neck, #rim by 3
   /// Spreads colour differences from the ring over the body, with the method that NeckBend uses for

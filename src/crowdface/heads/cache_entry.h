@@ -72,9 +72,9 @@ struct EntryArray {
   std::array<char, 4> type;  ///< see detail::number_type
   /// Number of contiguous numbers in one element, or in one row of a row-major matrix.
   std::uint32_t columns;
-  std::uint64_t rows;
-  const void* data;
-  std::uint64_t bytes;  ///< size of the numbers in memory
+  std::uint64_t rows;   ///< number of elements, or of rows of a row-major matrix
+  const void* data;     ///< the first number
+  std::uint64_t bytes;  ///< size of all numbers in memory
   /// Keeps the numbers alive until the entry is written; null if the caller keeps the numbers
   /// alive.
   std::shared_ptr<const void> owner;
@@ -205,9 +205,9 @@ class CacheEntry {
   }
   const StoredArray& find_array(std::string_view name, const std::array<char, 4>& type) const;
   const char* at(const StoredArray& row) const { return file_->bytes().data() + row.offset; }
-  /// Rejects the entry as an entry of another version or for other data if `matches` is false.
+  /// If `matches` is false, rejects the entry: it has another version or holds other data.
   void require_match(bool matches) const;
-  /// Rejects the entry as too short or too long if `fits` is false.
+  /// If `fits` is false, rejects the entry: its size is wrong.
   void require_size_fits(bool fits) const;
 
   std::filesystem::path path_;

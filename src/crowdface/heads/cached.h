@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads values from the cache, or computes and stores them. If an entry is damaged or has another
 // version or other content, these functions log a warning and compute the value again. If the cache
-// cannot be written, they only log a warning.
+// cannot be written, these functions only log a warning.
 //
 // One function lists the arrays of a value, for reading and for writing: `visit(arrays, value)`
 // calls `arrays("name", member)` for each array, with an ArrayReader or an ArrayWriter.

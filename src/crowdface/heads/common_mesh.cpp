@@ -82,9 +82,9 @@ bool has_same_corner_uvs(const HeadMesh& first, const HeadMesh& found) {
   return true;
 }
 
-/// The vertices of a head that match the vertices of the first head.
+/// The vertices of a head, matched to the vertices of the first head.
 struct VertexMatch {
-  Vertices vertices;         ///< for each vertex of the first head: the matching vertex
+  Vertices vertices;         ///< for each vertex of the first head: the head's matching vertex
   bool has_own_uvs = false;  ///< whether the two heads have different texture coordinates
 };
 
@@ -199,7 +199,7 @@ HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
 }
 
 /// Finds the mesh of heads whose exports may have split vertices. Corners share a vertex in the
-/// result if they share a vertex in any head and have the same position in each head.
+/// result if they share a vertex in any head and have equal positions on each head.
 /// \param heads  heads with the same polygons, whose vertices the reader has not joined
 /// \param made   receives the mesh if no head has this mesh
 /// \return a head with the mesh
@@ -311,8 +311,8 @@ void replace_mesh(HeadFile& head, const HeadFile& mesh_source, const ColourRows&
   FileMesh mesh;
   mesh.topology = mesh_source.mesh->topology;
   mesh.uvs = mesh_source.mesh->uvs;
-  // If the head has several materials, only the file of `mesh_source` tells which of the new
-  // polygons has which material.
+  // If the head has several materials, only the file of `mesh_source` tells the material of each
+  // polygon of the new mesh.
   mesh.materials =
       head.file.materials.size() == 1 ? head.file.materials : mesh_source.file.materials;
   mesh.positions = head.file.positions;

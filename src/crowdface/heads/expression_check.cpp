@@ -27,7 +27,7 @@ constexpr double kEyesAboveMouthMm = 65;
 
 /// A Gaussian window on the skin, seen from the front; in millimetres.
 struct Window {
-  double across, above_mouth;  ///< position of the centre: outwards from the symmetry plane, and up
+  double across, above_mouth;  ///< centre: distance from the symmetry plane, height over the mouth
   double sigma_across = 4, sigma_up = 3.5;  ///< standard deviations of the Gaussian
 };
 
@@ -188,7 +188,8 @@ class FaceSkin {
     LinearForm form;
     for (const Term& term : movement.terms) {
       // kReach: half the size of the window, in standard deviations. kDepth: how far behind the
-      // foremost vertex of the window a vertex may lie, in millimetres.
+      // foremost vertex of the window a vertex may lie, in millimetres. kMinWeightSum: smallest sum
+      // of the vertices' Gaussian weights; windows with a smaller sum contain too few vertices.
       constexpr double kReach = 2.4, kDepth = 15, kMinWeightSum = 0.5;
       const Window& window = term.window;
       const double across = side * window.across;
@@ -215,7 +216,7 @@ class FaceSkin {
  private:
   struct SkinVertex {
     Index index;
-    /// millimetres to the left of the symmetry plane, above the mouth, and along axes.front
+    /// coordinates in millimetres: to the left of the symmetry plane, above the mouth, and forwards
     double across, above_mouth, front;
   };
   static double square(double x) { return x * x; }
@@ -294,8 +295,8 @@ struct LargestDeviation {
   const char* text = nullptr;  ///< start of the warning
 };
 
-/// Updates each head's largest deviation: stores this movement for the heads that deviate more in
-/// this movement than in all earlier ones.
+/// Updates each head's largest deviation: stores `movement` for the heads that deviate more in
+/// `movement` than in all earlier movements.
 void update_largest(const Movement& movement, const FaceSkin& skin,
                     const HeadDisplacements& displacements,
                     std::vector<LargestDeviation>& largest) {

@@ -23,9 +23,9 @@ struct PlacedAttachment {
   Positions positions;               ///< the attachment's vertices on the face
   /// displacements of the attachment's vertices, one item for each shape (expression) of the face
   std::vector<Displacements> moves = {};
-  /// For a body with a separate texture for each face: the face's id, and the content of a PNG
-  /// file. Otherwise empty.
+  /// for a body with a separate texture for each face: the face's id; otherwise empty
   std::string face_id = {};
+  /// for a body with a separate texture for each face: the texture as a PNG file; otherwise empty
   std::string_view texture_png = {};
 
   ColouredAttachment look() const { return {item, colour}; }

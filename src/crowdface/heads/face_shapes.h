@@ -28,8 +28,8 @@ class FaceShapes {
   /// The shapes of an input head.
   std::vector<Displacements> shapes_of_head(Index head) const;
 
-  /// Returns the shape that `shape` corrects when both are applied together, if there is one (see
-  /// find_prerequisites).
+  /// Returns the prerequisite of a corrective shape (see find_prerequisites); nothing if `shape` is
+  /// not corrective.
   std::optional<std::size_t> prerequisite_of(std::size_t shape) const;
   std::size_t memory_bytes() const;
 

@@ -63,18 +63,20 @@ class FaceTextures {
   std::vector<double> head_weights_in_mean_colour(const Recipe& recipe) const;
 
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
+  /// An image that is made for each face: image `index` of a blender.
   struct Picture {
     const TextureBlender* blender;
     std::size_t index;  ///< index among the blender's images
   };
-  std::vector<Picture> pictures_;
+  std::vector<Picture> pictures_;  ///< in the order of face_picture_names
   const Inputs& inputs_;
   /// whether colours are blended; if not, a face has the colours of its target
   bool are_blended_;
   std::vector<double> region_area_fractions_;  ///< fraction of the face's area in each region
   /// for each vertex, whether it gets the target's colours without blending, as the eyes do
   std::vector<bool> uses_target_colours_only_;
-  std::optional<SeamColours> seam_;  ///< empty without colours at the neck's ring
+  /// nothing if the heads are not on a body or have no colours at the neck's ring
+  std::optional<SeamColours> seam_;
   std::unique_ptr<const BodyPainter> body_;
 };
 

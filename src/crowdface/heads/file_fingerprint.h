@@ -13,8 +13,8 @@ namespace crowdface {
 
 /// Finds the stored hash of a file that is about to be read, if the file has not changed since it
 /// was last read. Requires `CacheFolder::skips_hash_of_unchanged_files`. A file counts as unchanged
-/// if device, inode, size, mtime and ctime (which no program can set) are the same. Without stored
-/// hashes, the program would have to hash gigabytes before it could show anything.
+/// if device, inode, size, mtime and ctime are the same. (No program can set the ctime.) Without
+/// stored hashes, the program would have to hash gigabytes before it could show anything.
 class FileFingerprint {
  public:
   /// \param cache  the cache that stores the fingerprints of files that were read before
@@ -37,7 +37,7 @@ class FileFingerprint {
   static std::optional<Stamp> stamp_of(const std::filesystem::path& file);
 
   std::filesystem::path file_, cache_;
-  std::optional<Stamp> stamp_;
+  std::optional<Stamp> stamp_;  ///< the file's stamp at the construction of this object
   std::optional<Digest> digest_;
 };
 

@@ -40,8 +40,8 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
   arrays("numbers", fields.quantized_values);
 };
 
-/// Whether an entry has these sizes and consistent fields. Also fills in the members that follow
-/// from the sizes.
+/// Whether a prepared head that was read from the cache has these sizes and consistent fields.
+/// First sets the members of its fields that the cache does not store: vertex count and rank.
 bool is_head(PreparedHead& head, const HeadCacheSizes& sizes) {
   const Eigen::MatrixXd& coefficients = head.levels.function_coefficients;
   LevelFields& fields = head.levels.fields;

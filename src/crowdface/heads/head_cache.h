@@ -31,7 +31,7 @@ struct StoredLevels {
 /// The cached data of a head: the trajectories of the sample points during smoothing, and the
 /// fitted levels. With `levels: exact`, there are no fitted levels.
 struct PreparedHead {
-  Trajectory smoothing_trajectory;  ///< of the sample points
+  Trajectory smoothing_trajectory;  ///< trajectories of the sample points
   StoredLevels levels;
 };
 

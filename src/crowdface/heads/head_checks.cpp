@@ -61,8 +61,8 @@ bool has_only_faces_of(const Topology& first, const Topology& found) {
   return true;
 }
 
-/// If a mesh has clearly other proportions than the first head, returns the end of a message that
-/// asks whether the mesh is only a part of a head; otherwise empty.
+/// If the proportions of a mesh clearly differ from the proportions of the first head, returns the
+/// end of a message that asks whether the mesh is only a part of a head; otherwise empty.
 std::string part_of_head(const Positions& first, const Positions& found) {
   constexpr double kMinShare = 0.7;  // heads of people differ less in their proportions
   const auto sizes = [](const Positions& positions) -> Eigen::Array3d {
@@ -188,10 +188,9 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
 
 std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
-  // kMaxMm: largest distance between two heads that may be the same person. kMaxOfOthers: largest
-  // ratio of this distance to the distance between another head and its nearest head (median over
-  // all other heads). kIdenticalMm: largest distance between two copies of one head; below it, the
-  // ratio does not matter.
+  // Two heads may be the same person if their distance is at most kMaxMm and small for this crowd:
+  // at most kMaxOfOthers times the median, over all other heads, of the distance to the nearest
+  // head. Heads at most kIdenticalMm apart are copies of one head; the median does not matter then.
   constexpr double kMaxMm = 1, kMaxOfOthers = 0.4, kIdenticalMm = 0.01;
   const std::vector<Head>& heads = inputs.head_set.heads;
   std::vector<Positions> sampled(heads.size());

@@ -16,7 +16,7 @@ struct HeadFile {
   Digest text_digest;              ///< hash of the file's bytes
   Digest mesh_digest;              ///< HeadMesh::digest of `mesh`
   std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
-  bool is_cached = false;          ///< whether the cache has the head
+  bool is_cached = false;          ///< whether the cache has an entry for the head's file
   /// whether the file has several vertices at the same position, which the reader has joined
   bool has_joined_vertices = false;
 };

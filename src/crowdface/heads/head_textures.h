@@ -19,8 +19,9 @@ namespace crowdface {
 /// The parts of an image file's name that are the same for all faces. The full name also contains
 /// the face's id.
 struct PictureName {
-  std::string material;  ///< name of the image's material; empty if there is only one
-  int tile = 0;          ///< UDIM tile number; 0: none
+  /// the material's name, made unique; empty if all images have the same texture file
+  std::string material;
+  int tile = 0;  ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
   /// Whether all texture files from which the image is blended have 8 bits per value, and whether
   /// at least one of these files has floats.
@@ -81,7 +82,7 @@ class FaceTextureSet {
     std::size_t index = 0;  ///< index among the images of its kind
   };
   TextureSet texture_set_;
-  std::vector<ImageIndex> image_indices_;  ///< one per image, see `add`
+  std::vector<ImageIndex> image_indices_;  ///< indexed by the parameter `picture` of `add`
   int max_px_;
 };
 

@@ -18,11 +18,11 @@ namespace crowdface {
 struct HeadsOnBody {
   /// How a head was placed on the body.
   struct Head {
-    RigidMotion placement;  ///< from the head's file to its place on the body; scale 1
+    RigidMotion placement;  ///< maps positions in the head's file to the body; scale 1
     /// The rotation of the placed head into the common pose of all heads, see rotation_vector; zero
     /// if the head has that pose.
     Eigen::Vector3d pose_rotation = Eigen::Vector3d::Zero();
-    double shift_mm = 0;  ///< rms distance by which placement and pose rotation move the ring
+    double shift_mm = 0;  ///< rms distance by which placement and pose rotation move the neck ring
     double rotation_degrees = 0;  ///< angle of placement and pose rotation together
     /// after placement and pose rotation: largest distance between a vertex of the head's ring and
     /// the matching vertex of the body's ring
@@ -31,12 +31,12 @@ struct HeadsOnBody {
   Seam seam;
   std::vector<Head> heads;
   Eigen::Vector3d seam_centre;      ///< centre of the seam between heads and body
-  Positions mean_before_placement;  ///< mean of the heads before they were placed
+  Positions mean_before_placement;  ///< mean of the heads before they were placed on the body
   double mm_per_unit = 1;
   /// The body, if renders or mesh files contain it or if each face gets a texture of the body.
   /// Otherwise null.
   std::shared_ptr<const Attachment> body;
-  Rim body_rim;  ///< the body's vertex for each vertex of the ring; empty without `body`
+  Rim body_rim;  ///< for each vertex of the heads' ring, the body's vertex; empty without `body`
   bool is_body(const Attachment& item) const { return body.get() == &item; }
 
   bool has_differing_poses() const {
@@ -44,8 +44,8 @@ struct HeadsOnBody {
                                [](const Head& head) { return !head.pose_rotation.isZero(0); });
   }
 
-  /// hash of the seam, of `falloff`, of the heads' pose rotations, and of the body and its texture,
-  /// if there are any
+  /// hash of the seam, of `falloff`, and of the heads' pose rotations; also of the body and the
+  /// body's texture, if the config has them
   Digest digest;
 };
 

@@ -33,7 +33,7 @@ struct HeadsOnBody;  // heads/heads_on_body.h
 /// A mesh that faces may wear, such as hair or glasses, and the material files of this mesh.
 struct Attachment {
   std::string name, kind;
-  AttachmentMove moves = AttachmentMove::kBend;
+  AttachmentMove moves = AttachmentMove::kBend;  ///< how the attachment follows the skin
   ObjFile file;
   Digest text_digest;  ///< hash of the file's bytes
   MaterialFiles materials;
@@ -43,7 +43,7 @@ struct Attachment {
 /// An attachment, and the colour that a face gives to this attachment.
 struct ColouredAttachment {
   const Attachment* item;
-  std::optional<HairColour> colour = {};  ///< if the attachment has a tint
+  std::optional<HairColour> colour = {};  ///< nothing if the attachment has no tint
 
   /// The colour as text, see colour_label; empty without a colour.
   std::string label() const { return colour ? colour_label(*colour) : std::string(); }
@@ -57,7 +57,7 @@ struct ColouredAttachment {
 
 /// All attachments of a crowd.
 struct AttachmentSet {
-  /// positions of the head that all attachments are fitted to, #V by 3; no rows if there are no
+  /// vertex positions of the head for which the attachments were made, #V by 3; no rows without
   /// attachments
   Positions fitted_head_positions;
   std::vector<Attachment> items;
@@ -109,8 +109,9 @@ struct Inputs {
   FaceMaterials materials;  ///< material of each polygon of the first head
   Adjacency adjacency;
   Components components;
-  PartList parts;              ///< empty for `parts: none`
-  Components skin_components;  ///< the components, with all skin merged into the largest
+  PartList parts;  ///< empty for `parts: none`
+  /// like `components`, but all components of skin are merged into the largest one
+  Components skin_components;
   std::shared_ptr<const MirrorMap> mirror_map;  ///< null unless the config asks for mirrored faces
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body;
@@ -141,7 +142,7 @@ struct Inputs {
   void warn(std::string text);
 };
 
-/// The numbers of a matrix, in the order in which they lie in memory.
+/// The numbers of a matrix in memory order.
 template <class Rows>
 auto numbers_of(const Rows& rows) {
   return std::span(rows.data(), static_cast<std::size_t>(rows.size()));

@@ -76,8 +76,8 @@ Matrix3d rotation_of_rim(const Positions& rim, const Positions& goal) {
   return counts ? turned.rotation : Matrix3d::Identity();
 }
 
-/// The poses of the heads, measured on the skin above the bend. Also measures the pose of a body
-/// mesh that has the heads' vertices.
+/// The poses of the heads, measured on the skin above the bend of the neck. `rotation_to` measures
+/// the pose of another mesh with the same topology.
 struct Poses {
   std::vector<std::uint32_t> skin;
   Vector3d across;              ///< the axis through the ears
@@ -111,8 +111,8 @@ struct Poses {
     return sum / static_cast<double>(turns.size());
   }
 
-  /// Returns the rotation from the heads' common pose into the pose of `mesh`, which has the heads'
-  /// vertices.
+  /// Returns the rotation from the heads' common pose into the pose of `mesh`.
+  /// \param mesh  vertex positions in the vertex order of the heads
   Matrix3d rotation_to(const HeadSet& heads, const Rim& rim, const Positions& mesh) const {
     return pose_difference(head_motion(mean(heads, rim, skin), mesh(skin, kAllColumns)).rotation,
                            across);
@@ -227,8 +227,8 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
 }
 
 /// Unit normals at the ring of the neck, #rim by 3.
-/// \param areas, body_areas  the area vectors around each vertex of the ring, on the heads and on the
-///                        body
+/// \param areas       the heads' area vectors around each vertex of the ring
+/// \param body_areas  the body's area vectors around each vertex of the ring
 Positions normals_of(Positions areas, const Positions& body_areas) {
   areas += body_areas;
   for (Index i = 0; i < areas.rows(); ++i) areas.row(i) = row3(areas, i).normalized().transpose();

@@ -17,7 +17,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxPoints = 1000;
-constexpr double kFarthest = 1e7;  ///< same limit as for the heads' coordinates
+constexpr double kFarthest = 1e7;  ///< largest absolute coordinate; heads have the same limit
 
 std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints& complaints) {
   Eigen::RowVector3d position;
@@ -32,8 +32,8 @@ std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints
                                  concat("a position, [x, y, z], of numbers up to ", kFarthest));
 }
 
-/// Reads `{name: [x, y, z]}`. \param names  the expected names in order; if empty, the function
-/// fills it
+/// Reads `{name: [x, y, z]}`.
+/// \param names  the expected names, in order; if empty, receives the names of the mapping
 Positions read_set(const YamlNode& node, std::vector<std::string>& names, Complaints& complaints) {
   if (!complaints.expect_map(node, "a mapping from names to positions, {eye_L: [3.1, 2.5, 7]}")) {
     return {};
@@ -86,8 +86,8 @@ void read_head_points(const YamlNode& node, Inputs& inputs, Complaints& complain
   }
 }
 
-/// The positions of the mesh that the points belong to: the key `template` of the file, or
-/// `neutral`.
+/// The vertex positions of the mesh to which the points belong. The file's key `template` names
+/// the mesh file; without this key, the mesh file is `neutral`.
 Positions template_of(const YamlNode& root, const std::filesystem::path& file,
                       const std::filesystem::path& neutral, const Inputs& inputs,
                       Complaints& complaints) {
@@ -102,8 +102,9 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
   return read_positions(file.parent_path() / entry->value.text, topology, "the heads");
 }
 
-/// Reads the points of one mesh, or of each head, from a parsed file.
-/// \param neutral  file of the shapes' template; empty if there is none
+/// Reads the named points from a parsed file. The file has the points of a single mesh (key
+/// `points`) or of each head (key `heads`).
+/// \param neutral  mesh file of the shapes' template; empty if there is none
 void read_points_file(const std::filesystem::path& file, const YamlNode& root,
                       const std::filesystem::path& neutral, Inputs& inputs,
                       Complaints& complaints) {

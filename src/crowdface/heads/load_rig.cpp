@@ -59,7 +59,7 @@ Positions in_frame(const Frame& frame, const Positions& points) {
 struct Match {
   std::vector<std::uint32_t> points;
   std::size_t missing = 0;
-  double farthest = 0;  ///< largest distance of an unmatched vertex from the rig
+  double farthest = 0;  ///< largest distance between an unmatched vertex and its nearest rig vertex
 };
 
 Match match_by_id(const GltfRig& rig, Index vertices) {
@@ -85,7 +85,7 @@ Match match_by_place(const PointGrid& grid, const Positions& mesh, double reach)
   return match;
 }
 
-/// How the rig fits the heads.
+/// The rig's mesh in the heads' coordinate frame, matched to the heads' vertices.
 struct Fit {
   Frame frame;
   Match match;

@@ -43,9 +43,9 @@ Rim read_rim(const std::filesystem::path& file, const Adjacency& adjacency) {
   return rim;
 }
 
-/// The mesh reduced to some polygons and to the vertices of these polygons.
+/// Removes polygons, and the vertices that no remaining polygon uses. Renumbers the vertices.
 /// \param kept  for each polygon, whether to keep it
-/// \param rim   renumbered with the vertices
+/// \param rim   vertex numbers in `whole`; the function replaces them by the new numbers
 ObjFile restrict_to_polygons(const std::vector<bool>& kept, ObjFile whole, Rim& rim) {
   if (std::ranges::all_of(kept, [](bool keep) { return keep; })) return whole;
   FileMesh mesh;

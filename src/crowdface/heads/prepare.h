@@ -26,12 +26,13 @@ struct PreparedHeads {
   /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
   /// on which the samples' mirror images depend.
   FaceSamples trajectory_samples;
-  std::vector<Trajectory> trajectories;     ///< #heads; at the vertices `trajectory_samples`
-  std::vector<StoredLevels> levels;         ///< #heads; with `levels: exact`, all are empty
-  std::shared_ptr<const LevelNodes> nodes;  ///< nodes of all StoredLevels::function_coefficients
-  CachedPatches patches;                    ///< all heads' fields; empty with `levels: exact`
-  std::optional<ChebyshevFilter> filter;    ///< only with `levels: exact`
-  std::size_t cached_head_count = 0;        ///< number of heads found in the cache
+  std::vector<Trajectory> trajectories;  ///< #heads; at the vertices `trajectory_samples`
+  std::vector<StoredLevels> levels;      ///< #heads; with `levels: exact`, all are empty
+  /// the nodes to which the rows of StoredLevels::function_coefficients belong, for all heads
+  std::shared_ptr<const LevelNodes> nodes;
+  CachedPatches patches;                  ///< all heads' fields; empty with `levels: exact`
+  std::optional<ChebyshevFilter> filter;  ///< only with `levels: exact`
+  std::size_t cached_head_count = 0;      ///< number of heads found in the cache
 };
 
 /// Thrown if a cache entry was truncated while its fields were in use. Results computed from the
@@ -45,8 +46,8 @@ struct TruncatedWhileInUse : IoError {
 /// \throws TruncatedWhileInUse.
 void throw_if_truncated(const PreparedHeads& prepared);
 
-/// Prepares all heads, or takes them from the cache. A damaged cache entry is computed again with a
-/// warning; a cache that cannot be written only causes a warning.
+/// Prepares all heads, or reads prepared heads from the cache. A damaged cache entry is computed
+/// again with a warning; a cache that cannot be written only causes a warning.
 /// \param cache  see cache_directory
 PreparedHeads prepare(const Config& config, const Inputs& inputs,
                       const SmoothingOperator& smoothing, const CacheFolder& cache);

@@ -32,7 +32,7 @@ std::optional<Digest> fill_head_from_cache(const CacheFolder& cache, const Diges
 /// \param mesh_digest  hash of the mesh
 std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_digest);
 
-/// Write the cache entries of a head and of a mesh.
+/// Write cache entries: cache_head for a head, cache_mesh for the mesh that heads share.
 /// \throws CannotCreate, IoError.
 void cache_head(const std::filesystem::path& cache, const Digest& text_digest,
                 const Digest& mesh_digest, const ObjFile& head);

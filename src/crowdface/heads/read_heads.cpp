@@ -37,7 +37,7 @@ bool by_digest(const Digest& a, const Digest& b) {
   return std::pair(a.high, a.low) < std::pair(b.high, b.low);
 }
 
-/// Meshes of the heads read so far; heads with equal meshes share one. Thread-safe.
+/// Meshes of the heads read so far; heads with equal meshes share one object. Thread-safe.
 class SharedMeshes {
  public:
   SharedMeshes(const CacheFolder& cache, Winding winding) : cache_(cache), winding_(winding) {}

@@ -68,7 +68,7 @@ Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_
 }
 
 /// Index of the image, in the layout of blended textures, that the polygons at the ring use;
-/// kNoIndex if they have no image.
+/// kNoIndex if these polygons have no image.
 std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const TextureLayout& layout) {
   for (const std::uint32_t face : around.items_of(rim.front())) {
     if (layout.picture_of_face[face] != kNoIndex) return layout.picture_of_face[face];

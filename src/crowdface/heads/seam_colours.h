@@ -27,10 +27,12 @@ class SeamColours {
   Eigen::Array3d mean_colour(const std::vector<double>& weights) const;
 
  private:
+  /// The weighted mean of the heads' optical densities at the first `rows` of the `vertices_`.
   Positions blend(const std::vector<double>& weights, Index rows) const;
 
-  std::vector<std::uint32_t> vertices_;  ///< the ring, then the other vertices of the band
-  Index ring_size_ = 0;                  ///< number of vertices in the ring
+  /// the neck ring's vertices, then the band's other vertices
+  std::vector<std::uint32_t> vertices_;
+  Index ring_size_ = 0;  ///< number of vertices in the ring
   /// area around each of the `vertices_`, as a fraction of the band's area
   std::vector<double> areas_;
   /// for each head, the optical densities of its colours at the `vertices_`, #vertices_ by 3; no

@@ -20,8 +20,8 @@ void find_neighbours(Inputs& inputs);
 /// \param inputs  `inputs.parts` must be set
 RegionWeights load_regions(const Config& config, const Inputs& inputs);
 
-/// Chooses `count` samples on the mean head before placement on a body (see choose_face_samples),
-/// or reads the samples from the cache.
+/// Chooses `count` samples on `mean_before_placement` (see choose_face_samples), or reads the
+/// samples from the cache.
 FaceSamples choose_samples(const Config& config, const Inputs& inputs, Index count);
 /// Assigns the vertices of the mean head to samples (see find_sample_cells), or reads the
 /// assignment from the cache.

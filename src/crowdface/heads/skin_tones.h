@@ -12,8 +12,8 @@ namespace crowdface {
 /// textures. Reads only one texel of each block of 16 by 16 texels.
 std::vector<double> skin_tones(const Inputs& inputs);
 
-/// Computes the weights of the heads in the colours of a face: the mean over the regions, weighted
-/// by each region's share of the frontal skin area.
+/// Computes the weights of the heads in the colours of a face. A head's weight is the mean of its
+/// weights in all regions; each region counts in proportion to its frontal skin area.
 class HeadColourWeights {
  public:
   HeadColourWeights(const Config& config, const Inputs& inputs);

@@ -103,7 +103,7 @@ std::optional<TextureKind> kind_of_property(std::string_view property) {
 
 /// Adds a texture to a material unless the material already has a texture of this kind. For an
 /// external texture, stores only the file name (in `external_textures`), not the bytes.
-/// \return  whether the material now has this texture.
+/// \return  false if the material already has a different texture of this kind.
 bool add_texture(const aiScene& scene, const std::string& material, TextureKind kind,
                  const aiString& name, FileMesh& mesh,
                  std::vector<std::string>& external_textures) {

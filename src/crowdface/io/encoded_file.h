@@ -19,7 +19,7 @@ namespace crowdface {
 class EncodedFile {
  public:
   EncodedFile() = default;
-  /// A file with this content.
+  /// Creates a file whose content is `text`.
   EncodedFile(std::string text) { add(std::move(text)); }  // NOLINT(*-explicit-*)
   /// Appends bytes without copying them. The bytes must outlive this object.
   void add_without_copy(std::string_view bytes);

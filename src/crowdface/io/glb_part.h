@@ -106,7 +106,7 @@ class GlbPart {
 struct PlacedGlbPart {
   const GlbPart* part;
   const Positions* positions;
-  std::span<const Displacements> moves = {};  ///< for each morph target
+  std::span<const Displacements> moves = {};  ///< one item per morph target
   PartLook look = {};
 };
 

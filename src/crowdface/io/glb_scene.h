@@ -86,7 +86,7 @@ class GlbBuffer {
 /// \param uvs  v upwards as in OBJ.
 std::string encoded_texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
 
-/// The rows of one glTF morph target in files whose vertices are split at seams.
+/// The split vertices that one glTF morph target moves, and the displacement of each.
 struct GlbMorphRows {
   std::vector<std::uint32_t> rows;      ///< indices into the morph target's displacements
   std::vector<std::uint32_t> vertices;  ///< the split vertex of each row, ascending
@@ -94,15 +94,15 @@ struct GlbMorphRows {
   bool moves_all_vertices = false;
 };
 
-/// Finds the split vertices that a target moves.
-/// \param vertices  original vertices that the target moves
+/// Finds the split vertices that a morph target moves.
+/// \param vertices  original vertices that the morph target moves
 /// \param split  for each split vertex, its original vertex
 /// \param count  number of original vertices
 GlbMorphRows morph_target_rows(std::span<const std::uint32_t> vertices,
                                std::span<const std::uint32_t> split, Index count);
 
-/// Minimum and maximum of a target's displacements, for each coordinate. Vertices that the target
-/// does not move count as zero.
+/// Minimum and maximum of a morph target's displacements, for each coordinate. Vertices that the
+/// morph target does not move have displacement zero.
 std::pair<Eigen::RowVector3d, Eigen::RowVector3d> displacement_bounds(const Displacements& moves,
                                                                       bool moves_all_vertices);
 

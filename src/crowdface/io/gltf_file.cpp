@@ -261,8 +261,8 @@ std::vector<double> GltfFile::read_values(std::size_t accessor, std::size_t widt
                         json.value("byteOffset", std::size_t{0}), type, count, width, accessor);
   } else {
     if (json.contains("sparse")) {
-      // Read the view first: each view that is read raises `remaining_numbers_`, which the next
-      // line checks.
+      // Call `view` first, because each call with a new buffer view raises `remaining_numbers_`,
+      // which the code below checks.
       view(json["sparse"].at("indices").at("bufferView").get<std::size_t>());
     }
     if (count > remaining_numbers_ / width) reserve_numbers(remaining_numbers_ + 1);

@@ -36,7 +36,7 @@ class GltfFile {
   std::vector<double> read_values(std::size_t accessor, std::size_t width);
   /// The values of an accessor as unsigned integers.
   std::vector<std::uint32_t> read_unsigned_values(std::size_t accessor, std::size_t width);
-  /// The data of a URI: embedded, or read from a file beside this one.
+  /// The data of a URI: embedded in the URI, or read from a file beside the glTF file.
   /// \param what  name of the data in messages, such as "its buffer 2"
   std::string read_uri(const std::string& uri, const std::string& what) const;
   /// The uncompressed content of the buffer view with the index `number`.
@@ -54,7 +54,7 @@ class GltfFile {
   /// Reads `count` rows of `width` numbers.
   /// \param view_index  the buffer view that contains the rows
   /// \param byte_offset  start of the first row in the view
-  /// \param type  component type of the numbers, as glTF numbers the types
+  /// \param type  component type of the numbers as a glTF code, such as gltf::kFloat
   /// \param accessor  index of the accessor, for messages
   std::vector<double> read_rows(std::size_t view_index, std::size_t byte_offset, int type,
                                 std::size_t count, std::size_t width, std::size_t accessor);

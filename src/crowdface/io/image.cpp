@@ -145,8 +145,8 @@ std::uint64_t pixel_bytes(const ImageHeader& header) {
 std::mutex reservation_mutex;
 std::uint64_t reserved_bytes = 0;  ///< bytes reserved for all images
 
-/// Number of bytes that can still be reserved if the limit is `most`. The caller must hold the
-/// mutex.
+/// Number of bytes that can still be reserved if at most `most` bytes may be reserved. The caller
+/// must hold the mutex.
 std::uint64_t unreserved_bytes(std::uint64_t most) {
   return most - std::min(reserved_bytes, most);
 }

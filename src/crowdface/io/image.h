@@ -33,7 +33,7 @@ struct Image {
   int alpha_channel = -1;  ///< index of the alpha channel; −1: none
   /// The pixels row by row, top row first. The channels of each pixel are next to each other.
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
-  ImageMemory memory = {};  ///< the reservation for `pixels`; null without a reservation
+  ImageMemory memory = {};  ///< memory reserved for `pixels`; null: no memory is reserved
   std::vector<std::string> channel_names = {};  ///< #channels; empty if the format has no names
 
   /// Whether the values are single-precision numbers; otherwise they are integers.
@@ -90,8 +90,9 @@ struct ImageSize {
   int width = 0;
   int height = 0;
   int channels = 0;
-  bool has_8_bit_values = false;  ///< integers of 8 bits
-  bool has_floats = false;        ///< single precision; if neither flag is set, integers of 16 bits
+  // If both members are false, the values are 16-bit integers.
+  bool has_8_bit_values = false;  ///< whether the values are 8-bit integers
+  bool has_floats = false;        ///< whether the values are single-precision numbers
 };
 /// Reads the header of an image file, without decoding pixels.
 /// \throws MissingInput, InvalidInput.

@@ -9,7 +9,7 @@ namespace crowdface {
 
 /// The header of an image file.
 struct ImageHeader {
-  int width = 0, height = 0, depth = 1, channels = 0;
+  int width = 0, height = 0, depth = 1, channels = 0;           ///< depth: number of slices
   int x = 0, y = 0;                                             ///< origin of the data window
   int full_x = 0, full_y = 0, full_width = 0, full_height = 0;  ///< the display window
   int tile_width = 0, tile_height = 0;                          ///< 0: the image is not tiled
@@ -17,7 +17,8 @@ struct ImageHeader {
   std::vector<std::string> channel_names;  ///< #channels for OpenEXR; empty for other formats
   bool is_deep = false;                    ///< several samples per pixel (OpenEXR)
   enum class ValueType { kBytes, kWords, kFloats, kOthers };
-  /// type of the values that `ImageCodec::read` returns: 8 bits, 16 bits or single precision
+  /// Type of the values that `ImageCodec::read` returns: 8-bit integers (kBytes), 16-bit integers
+  /// (kWords) or single precision (kFloats). kOthers: the program does not support the values.
   ValueType value_type = ValueType::kOthers;
   std::string type_name;  ///< value type in the file, for messages
 };

@@ -84,7 +84,7 @@ class ExrHeader {
   std::size_t at_;
 };
 
-/// Size in bytes of each attribute type whose size is fixed.
+/// The types of OpenEXR attributes whose values have a fixed size, and this size in bytes.
 constexpr std::pair<std::string_view, std::size_t> kFixedTypes[] = {
     {"box2f", 16},      {"box2i", 16},    {"chromaticities", 32},
     {"compression", 1}, {"double", 8},    {"envmap", 1},
@@ -106,7 +106,7 @@ bool is_channel_list(std::string_view value) {
   return value.size() == 1;
 }
 
-/// A preview: width, height, and four bytes per pixel.
+/// Whether a value is a preview image: width, height, and four bytes per pixel.
 bool is_preview(std::string_view value) {
   if (value.size() < 8) return false;
   const std::uint64_t width = number_at<std::uint32_t>(value.data());

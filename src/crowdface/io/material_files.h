@@ -15,8 +15,8 @@ namespace crowdface {
 /// A material file or texture to copy beside a mesh, so that the mesh's `mtllib` and its textures
 /// can be found.
 struct MaterialFile {
-  std::filesystem::path source;       ///< source path
-  std::filesystem::path destination;  ///< destination path, relative to the meshes' folder
+  std::filesystem::path source;       ///< path of the file to copy
+  std::filesystem::path destination;  ///< path of the copy, relative to the meshes' folder
   bool is_library = false;            ///< true: a material file; false: a texture
   /// Kind of the texture. Nothing if the file is a material file, if material files use the texture
   /// for several kinds, or if an unknown statement names the texture.

@@ -14,8 +14,8 @@ namespace crowdface {
 /// An output format. Each format has an entry in the table of mesh_format.cpp and an entry in the
 /// table of run/mesh_encoder.cpp. If an entry is missing, compilation fails.
 enum class MeshFormat {
-  kObj,     ///< the text of the target's file with other positions
-  kPly,     ///< binary
+  kObj,     ///< the text of the target head's OBJ file with new positions
+  kPly,     ///< binary PLY
   kGlb,     ///< binary glTF 2.0
   kPoints,  ///< only positions, .npy
   kUsd,     ///< a USD text layer, .usda
@@ -24,7 +24,7 @@ inline constexpr std::size_t kMeshFormatCount = 5;
 
 /// Where a format stores a kind of data: shapes, attachments or textures.
 enum class DataStorage {
-  kNowhere,   ///< not stored
+  kNowhere,   ///< the format does not store this data
   kInside,    ///< stored in the file of the face
   kOneFile,   ///< stored together in one additional file of the same format
   kOwnFiles,  ///< one file for each shape or texture, one OBJ file for each attachment
@@ -33,8 +33,8 @@ enum class DataStorage {
 /// For which meshes an encoder must be given normals.
 enum class FileNormals {
   kNone,        ///< for no mesh
-  kOnLevels,    ///< only for levels of detail; the encoder computes the normals of the full mesh
-  kLikeTarget,  ///< for all meshes if the target's file has normals; otherwise for no mesh
+  kOnLevels,    ///< for levels of detail; the encoder computes the normals of full meshes
+  kLikeTarget,  ///< for all meshes if the file of the target head has normals; else for none
   kAlways,      ///< for all meshes
 };
 
@@ -47,8 +47,8 @@ struct MeshFormatTraits {
   std::string_view report_key;  ///< key of the face's file in report.json
   bool has_polygons;            ///< whether the file stores polygons; levels of detail need them
   bool has_material_file;       ///< whether the file refers to an MTL file
-  FileNormals normals;
-  DataStorage shapes, attachments, textures;
+  FileNormals normals;          ///< for which meshes the encoder must be given normals
+  DataStorage shapes, attachments, textures;  ///< where the format stores these data
   /// Function that reads the positions from the file of one face. Null if the format does not keep
   /// the vertex order.
   /// \throws InvalidInput if another program wrote the file.

@@ -72,8 +72,8 @@ void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
   clear_if_all_none(result.corner_normals);
 }
 
-/// Checks that the loader and the scan agree on the file; a difference means that one of them has a
-/// bug.
+/// Checks that tinyobjloader and `scan_obj` read the same content; a difference means that one of
+/// the two readers has a bug.
 void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const ObjFile& result) {
   const Topology& topology = result.topology;
   const auto loaded = static_cast<Index>(attributes.vertices.size() / 3);
@@ -100,7 +100,8 @@ void take_scanned_values(ObjScan scan, ObjFile& result) {
   result.notes.insert(result.notes.end(), scan.notes.begin(), scan.notes.end());
 }
 
-/// Scans the text. If the scan fails, repairs the text (`mend_obj`) and scans the repaired text.
+/// Checks the text with `scan_obj`. If the text fails the check, repairs the text with `mend_obj`
+/// and checks the repaired text.
 ObjScan scan_or_mend(ObjFile& obj, const ObjSummary& summary) {
   const std::string name = obj.path.string();
   try {

@@ -167,8 +167,8 @@ class Mender {
     out += line;
   }
 
-  /// Appends the statement and at most the first `most` words to `out`. If the line has at most
-  /// `most` words and no comment, appends the line unchanged.
+  /// Appends a statement and its first `most` words to `out`; drops further words and comments. If
+  /// there is nothing to drop, appends the line unchanged.
   static void add_words(std::string_view statement, const std::vector<std::string_view>& words,
                         std::size_t most, std::string_view line, std::string& out) {
     const bool is_sound = words.size() <= most && line.find('#') == line.npos;

@@ -18,8 +18,8 @@ constexpr std::size_t kMaxCorners = 255;  // the loader counts corners in one by
 constexpr std::uint64_t kMaxPerVertex = 8;
 // Maximum length in bytes of a material name, a group name, or a list of material files.
 constexpr std::size_t kLongestObjName = 1000;
-// The scan refuses larger numbers: beyond this size, adjacent single-precision numbers differ by a
-// whole unit or more.
+// `scan_obj` rejects larger coordinates, because adjacent single-precision numbers beyond this size
+// differ by a whole unit or more.
 constexpr double kLargestCoordinate = 1e7;
 
 /// Splits a line into words without copying.

@@ -44,8 +44,8 @@ ObjSummary summarise_obj(std::string_view text);
 /// Which lines `scan_obj` checks.
 enum class ObjLineSelection {
   kAll,
-  /// All lines except `f` and `vt`. Use this value if another text with the same `mesh_digest` has
-  /// been checked completely: its `f` and `vt` lines are the same.
+  /// All lines except `f` and `vt`. Use this value if a text with an equal `mesh_digest` has been
+  /// checked completely, because texts with equal digests have equal `f` and `vt` lines.
   kAllButMesh,
 };
 

@@ -22,8 +22,8 @@ namespace crowdface {
 /// per `v` or `vn` line in addition to the text.
 class ObjTemplate {
  public:
-  /// \param target  the file to copy. Its mapped text must outlive this object and the encoded
-  ///                files; the rest of the target need not.
+  /// \param target  the file to copy. Only its mapped text must outlive this object and the encoded
+  ///                files.
   /// \param topology  the polygons, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
   /// \param fixed  vertices with given normals. A `vn` line gets the given normal of a vertex if no

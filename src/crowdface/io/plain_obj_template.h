@@ -23,7 +23,7 @@ class PlainObjTemplate {
                    const std::vector<MaterialRange>& materials, Normals normals);
 
   /// Encodes the file of one face. The result references memory of this object.
-  /// \param head  whole lines for the start of the file, or empty.
+  /// \param head  the header lines of the file, each with its line end; may be empty.
   /// \param normals  #V by 3, only with Normals::kVertex.
   /// \param what  names the mesh in messages.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.

@@ -28,7 +28,7 @@ double number_in(const std::array<char, 8>& raw) {
 struct Type {
   std::string_view name, other;
   std::size_t bytes;
-  double full;  ///< the value that means full intensity if the number is a colour
+  double full;  ///< value of full intensity if numbers of this type are colours
   double (*read)(const std::array<char, 8>&);
 };
 constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std::int8_t>},
@@ -45,7 +45,7 @@ constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std
 struct Property {
   std::string name;
   Type type;
-  std::optional<Type> count = {};  ///< for a list: type of its count
+  std::optional<Type> count = {};  ///< number type of a list's length; nothing: not a list
 };
 
 struct Element {

@@ -53,7 +53,7 @@ class Directory {
     return {};
   }
 
-  /// The first number of an entry, or `otherwise` if there is no entry.
+  /// The first of `numbers(tag)`; `otherwise` if there are no numbers.
   std::uint64_t first(Tag tag, std::uint64_t otherwise) const {
     const std::vector<std::uint64_t> all = numbers(tag);
     return all.empty() ? otherwise : all.front();

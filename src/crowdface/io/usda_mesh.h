@@ -84,7 +84,8 @@ class UsdaMesh {
   std::vector<std::string> subsets_;  ///< for each material, the text that lists its polygons
   std::vector<std::string> shapes_;   ///< prim names of the blend shapes
   std::vector<std::string> quoted_shape_names_;
-  std::vector<std::string> indices_;  ///< formatted vertex indices of each blend shape, or ""
+  /// for each blend shape, the text of its vertex list; "" if the list differs from face to face
+  std::vector<std::string> indices_;
   /// upper bound of the number of displacements in all blend shapes together
   std::size_t max_displacement_count_ = 0;
 };

@@ -65,7 +65,7 @@ class UsdaPart {
 struct PlacedUsdaPart {
   const UsdaPart* part;
   const Positions* positions;
-  std::span<const Displacements> moves = {};  ///< for each blend shape
+  std::span<const Displacements> moves = {};  ///< one item per blend shape
   PartLook look = {};
 };
 

@@ -18,7 +18,7 @@ struct DetailLevel {
   /// indices of the level's vertices in the whole mesh, ascending
   std::vector<std::uint32_t> vertices;
   Topology topology;  ///< triangles, whose indices are rows of `vertices` and of `uvs`
-  /// #T by 2, a subset of the whole mesh's texture coordinates; may be empty
+  /// a subset of the rows of the whole mesh's texture coordinates; may be empty
   TextureCoordinates uvs;
   /// for each triangle, a polygon of the whole mesh that has the same material
   std::vector<std::uint32_t> source_faces;

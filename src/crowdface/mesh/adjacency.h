@@ -17,9 +17,9 @@ struct Adjacency : CompressedRows<std::uint32_t> {
   Index vertex_count() const { return static_cast<Index>(group_count()); }
 };
 
-/// Finds the edge-neighbours of every vertex. Ends of an edge with three or more polygons are
-/// neighbours, but the edge is not on the boundary. A polygon that names a vertex twice adds no
-/// edge from the vertex to itself.
+/// Finds the edge-neighbours of every vertex. An edge with three or more polygons also
+/// makes its ends neighbours, and is not on the boundary. A polygon that names a vertex twice adds
+/// no edge from the vertex to itself.
 Adjacency build_adjacency(const Topology& topology);
 
 /// The connected components of a mesh. Two vertices with a common edge are in the same component.

@@ -10,8 +10,9 @@ namespace crowdface {
 
 /// The tree of a bounding volume hierarchy, without the boxes. Each inner node splits its points at
 /// the median of the axis along which the points extend farthest. The code that uses the tree
-/// stores the boxes of the nodes. Plans and meshes use this tree and not Embree, because the last
-/// bits of Embree's results depend on the processor. Only rendering uses Embree.
+/// stores the boxes of the nodes. Casting plans and mesh operations use this tree instead of
+/// Embree, because the last bits of Embree's results depend on the processor. Rendering uses
+/// Embree.
 struct MedianSplitTree {
   struct Node {
     std::uint32_t begin, end;  ///< range in `order`; begin is a multiple of the leaf size

@@ -37,9 +37,9 @@ struct MirrorMap {
   bool has_mirror_vertex(std::uint32_t v) const { return barycentric[v][0] == 1; }
 };
 
-/// Returns the mirrored head M(A), #V by 3, for a head A = `positions`. Each vertex moves to the
-/// mirror image of the place that its mirror point has in A. If all mirror points are vertices and
-/// the plane is a coordinate plane, M(M(A)) is bitwise equal to A.
+/// Returns the mirrored head M(A), #V by 3, for a head A = `positions`. In M(A), the position of a
+/// vertex is the mirror image of the position that its mirror point has on A. If all mirror points
+/// are vertices and the plane is a coordinate plane, M(M(A)) is bitwise equal to A.
 Positions mirrored(const MirrorMap& map, const Positions& positions);
 
 /// Returns (1 − w)·A + w·M(A) for given A and M(A). The result is bitwise equal to A for w = 0, to

@@ -9,8 +9,8 @@
 namespace crowdface {
 
 /// For each normal (of a vertex, or of a `vn` line of an OBJ file), the list of the polygons whose
-/// normals are added to get it. The lists are computed once for all meshes of a topology. With
-/// these lists, threads can compute normals independently, and each sum always has the same order.
+/// normals are summed. The lists are computed once for all meshes of a topology. With these lists,
+/// threads can compute normals independently, and each sum always has the same order.
 class NormalFans {
  public:
   /// Makes the lists for one normal per vertex.
@@ -20,19 +20,20 @@ class NormalFans {
   NormalFans(const Topology& topology, std::span<const std::uint32_t> normal_of_corner,
              Index count);
 
-  /// Unit normals, #rows by 3. Each unit normal is the normalised, area-weighted sum of the normals
-  /// of its polygons, added in ascending order of polygon number. Polygons need not be flat
-  /// (Newell's method).
-  /// \param topology  the topology from which the fans were made.
-  /// \param fallback  the normal of a row whose sum vanishes.
+  /// Unit normals, #normals by 3. Each unit normal is the normalised, area-weighted sum of the
+  /// normals of the polygons in its list, added in ascending order of polygon number. Polygons need
+  /// not be flat (Newell's method).
+  /// \param topology  the topology from which this object was made.
+  /// \param fallback  the unit normal if the sum is zero.
   Positions normals(const Topology& topology, const Positions& positions,
                     const Eigen::RowVector3d& fallback) const;
-  /// Computes the same normals from the polygons' area vectors.
+  /// Like the overload above, with given area vectors of the polygons.
   /// \param areas  result of face_area_vectors.
   Positions normals(const Positions& areas, const Eigen::RowVector3d& fallback) const;
 
+  /// Number of normals.
   Index rows() const { return static_cast<Index>(faces_.group_count()); }
-  /// The polygons whose normals are added to get the normal of a row, ascending.
+  /// The polygons whose normals are summed for the normal with index `row`, ascending.
   std::span<const std::uint32_t> polygons_at(Index row) const { return faces_.items_of(row); }
   std::size_t memory_bytes() const {
     return (faces_.offsets.size() + faces_.items.size()) * sizeof(std::uint32_t);

@@ -163,8 +163,8 @@ class Matcher {
   /// with the smallest distances between matched vertices.
   /// \return whether there is a match.
   bool match_from(std::uint32_t seed) {
-    // The match of the seed's vertex in b, if an earlier component contains the same vertex;
-    // otherwise kNoIndex.
+    // The vertex of b that an earlier call matched with the seed's vertex; kNoIndex if the seed's
+    // vertex is unmatched. (Components that share only a vertex are matched one after the other.)
     const std::uint32_t known = to_b_[a_.vertex(seed)];
     double best = std::numeric_limits<double>::infinity();
     std::optional<Pairs> nearest;
@@ -191,8 +191,8 @@ class Matcher {
     return true;
   }
 
-  /// The vertex pairs that follow from one pair of corners; nothing if two of the pairs contradict
-  /// each other.
+  /// Traverses both meshes from the corner `from_a` of a and the corner `from_b` of b.
+  /// \return the pairs of matching vertices; nothing if a and b differ on the way.
   std::optional<Pairs> walk(std::uint32_t from_a, std::uint32_t from_b) {
     Pairs pairs, open = {{from_a, from_b}};
     std::vector<std::uint32_t> faces;
@@ -252,8 +252,10 @@ class Matcher {
     placed_ = fit_similarity(from, to, ScaleFit::kRigid).apply(at_b_);
   }
 
-  /// Matches each unmatched vertex of a with the next unmatched vertex of b, in ascending order.
-  /// \return false if b has too few unmatched vertices, or if one of these belongs to a polygon.
+  /// Matches the vertices that belong to no polygon: the first unmatched vertex of a with the first
+  /// unmatched vertex of b, the second with the second, and so on.
+  /// \return false if b has too few unmatched vertices, or if one of the matched vertices of
+  /// b belongs to a polygon.
   bool match_loose() {
     std::uint32_t w = 0;
     for (std::uint32_t& in_b : to_b_) {

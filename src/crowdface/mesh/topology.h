@@ -31,7 +31,8 @@ inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 struct Topology {
   Index vertex_count = 0;
   std::vector<std::uint32_t> corner_vertices;  ///< #C, each < vertex_count
-  /// #C: the corner's row in the texture coordinates, or kNoIndex; empty if the mesh has none
+  /// #C: row of each corner's texture coordinate, or kNoIndex; empty if the mesh has no texture
+  /// coordinates
   std::vector<std::uint32_t> corner_uvs;
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1: first corner of each polygon
 
@@ -70,7 +71,7 @@ struct Mesh {
 };
 
 struct Head {
-  std::string name;     ///< unique in the set: the file name without its extension
+  std::string name;     ///< file name without extension; unique in the HeadSet
   Positions positions;  ///< #V by 3
 };
 

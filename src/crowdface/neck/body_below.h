@@ -12,7 +12,7 @@ namespace crowdface {
 /// middle of the loop.
 /// \param up  unit vector
 /// \return  for each polygon, whether it is below the loop; all true if the loop is an open rim.
-/// \throws InvalidInput if the loop does not separate the polygons along it.
+/// \throws InvalidInput if the loop does not separate the polygons along the loop.
 std::vector<bool> polygons_below(const Topology& topology, const Positions& positions,
                                  const Rim& rim, const Eigen::Vector3d& up);
 

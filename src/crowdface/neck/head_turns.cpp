@@ -10,7 +10,7 @@
 namespace crowdface {
 namespace {
 
-/// The points after a rotation about their centroid, which moves to the origin.
+/// Moves the centroid of the points to the origin, then rotates the points about the origin.
 Positions turned(const Positions& points, const Eigen::Matrix3d& rotation) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (Index i = 0; i < points.rows(); ++i) middle += row3(points, i);
@@ -22,7 +22,7 @@ Positions turned(const Positions& points, const Eigen::Matrix3d& rotation) {
   return result;
 }
 
-/// The median of each coordinate, on which a few turned heads have little effect.
+/// The median of each coordinate over all heads. A few turned heads have little effect on a median.
 Positions median(const std::vector<Positions>& heads) {
   Positions result(heads.front().rows(), 3);
   std::vector<double> values(heads.size());
@@ -37,7 +37,8 @@ Positions median(const std::vector<Positions>& heads) {
 
 RigidMotion head_motion(const Positions& from, const Positions& to) {
   constexpr int kRounds = 10;
-  // smallest distance that the weights use, as a fraction of the mean distance
+  // Each weight is the inverse of a distance. Distances below this fraction of the mean distance
+  // count as this fraction of the mean distance.
   constexpr double kMinDistance = 0.1;
   std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
   std::iota(all.begin(), all.end(), 0U);

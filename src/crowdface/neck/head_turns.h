@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// The rotation and translation that bring points of a head closest to the same points of another
-/// head. The motion minimises the sum of the distances, not of their squares, so that a long chin
-/// or a large nose hardly rotates a head (iteratively reweighted least squares).
+/// The rotation and translation that bring points of a head closest to the corresponding points of
+/// another head. Minimises the sum of the distances, not the sum of the squared distances, so that
+/// a long chin or a large nose hardly rotates a head (iteratively reweighted least squares).
 /// \param from, to  #points by 3; at least three points that are not collinear
 RigidMotion head_motion(const Positions& from, const Positions& to);
 
@@ -21,14 +21,15 @@ RigidMotion head_motion(const Positions& from, const Positions& to);
 /// \param across  the axis through the ears, a unit vector
 Eigen::Matrix3d pose_difference(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across);
 
-/// For each head, the rotation into the median pose of all heads, see pose_difference. The identity
-/// if there are fewer than three heads.
-/// \param heads  the same points of each head, #points by 3
+/// Returns, for each head, the rotation into the median pose of all heads (see pose_difference).
+/// All rotations are the identity if there are fewer than three heads.
+/// \param heads   corresponding points of each head, #points by 3
+/// \param across  the axis through the ears, a unit vector
 std::vector<Eigen::Matrix3d> rotations_to_median(const std::vector<Positions>& heads,
                                                  const Eigen::Vector3d& across);
 
-/// The vector of a rotation: its axis times twice the tangent of half its angle. A weighted mean of
-/// these vectors is again the vector of a rotation.
+/// Twice the Rodrigues vector of a rotation: axis · 2 tan(angle / 2). A weighted mean of these
+/// vectors is again the vector of a rotation.
 Eigen::Vector3d rotation_vector(const Eigen::Matrix3d& rotation);
 
 }  // namespace crowdface

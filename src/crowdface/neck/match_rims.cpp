@@ -187,9 +187,10 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
 
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
                     double max_distance_mm, RimOrder order) {
-  // An order assigns the vertices of the body's rim to the vertices of the head's rim. If the head
-  // is rotated, the order with the smallest distances may be wrong. After a rotation is fitted for
-  // each order, the true order fits much better than a wrong order.
+  // An order assigns the vertices of the body's rim to the vertices of the heads' rim. If the heads
+  // are rotated relative to the body, the order with the smallest distances may be wrong. The order
+  // with the best rigid fit replaces this order if the fit's RMS distance is less than kMuchBetter
+  // times the RMS distance of the rigid fit of this order.
   constexpr double kMuchBetter = 0.85;
   std::vector<OrderedRim> orders;
   const bool is_free = order == RimOrder::kFree;

@@ -18,8 +18,8 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const E
                double mm);
 
 enum class RimOrder {
-  kFree,   ///< the body's rim may have another start and direction than the heads' rim
-  kGiven,  ///< the rims have the same vertices in the same order
+  kFree,   ///< the body's rim may start at any vertex and run in either direction
+  kGiven,  ///< vertex i of the body's rim belongs to vertex i of the heads' rim
 };
 
 /// The match of a body's rim with the heads' rim.
@@ -32,7 +32,7 @@ struct RimMatch {
 /// Matches the vertices of two rims with the same number of vertices. Tries every start vertex in
 /// both directions. Returns the order with the smallest sum of squared distances, unless another
 /// order is much closer to the heads' rim after a rigid motion.
-/// \param head_rim  the heads' rim, #rim by 3, in mm, in order
+/// \param head_rim  the heads' rim, #rim by 3, in mm, in the order of the rim
 /// \param body_positions  positions of the whole body, in mm
 /// \param max_distance_mm  largest distance between the rims; callers pass the falloff
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,

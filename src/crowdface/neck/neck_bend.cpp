@@ -47,7 +47,8 @@ NeckBend::NeckBend(const Topology& topology, const Adjacency& adjacency, const P
   distances.search(rim, falloff);
   std::vector<std::uint32_t> moved = distances.reached();
   std::vector<Triangle> triangles = triangles_around(topology, adjacency, moved);
-  // Local vertex indices: first the moved vertices in ascending order, then the rim, then the fixed
+  // `number` contains the local index of each vertex of the mesh; kUnnumbered if the vertex has no
+  // local index. The moved vertices come first, in ascending order, then the rim, then the fixed
   // vertices.
   constexpr std::uint32_t kUnnumbered = kNoIndex;
   std::vector<std::uint32_t> number(static_cast<std::size_t>(positions.rows()), kUnnumbered);

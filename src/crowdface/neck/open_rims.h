@@ -14,8 +14,8 @@ namespace crowdface {
 using Rim = std::vector<std::uint32_t>;
 
 /// The open rims of a mesh: closed loops of edges that belong to exactly one polygon. The rims are
-/// ordered by their vertices with the lowest index. Rims that touch another rim at a vertex are
-/// omitted, because they are not simple loops.
+/// sorted by the lowest vertex index of each rim. A rim that touches another rim at a vertex is
+/// omitted, because it is not a simple loop.
 std::vector<Rim> find_open_rims(const Topology& topology, const Adjacency& adjacency);
 
 /// Returns the closed loop of the mesh edges whose ends are both among `vertices`; empty if these

@@ -31,8 +31,8 @@ HttpAnswer error_answer(int status, std::string_view sentence);
 /// An answer with a body of bytes in a binary format. The page decodes this format.
 HttpAnswer binary_answer(std::string bytes);
 
-/// The files of one web page: NAME.html, NAME.js and NAME.css, as scripts/build_gallery.sh writes
-/// them.
+/// The files of one web page: NAME.html, NAME.js and NAME.css, written by
+/// scripts/build_gallery.sh.
 class PageFiles {
  public:
   /// \param folder     folder with the built pages; nothing if the pages were not built

@@ -39,8 +39,9 @@ class BinaryAnswer {
   }
   void add(std::string_view name, std::string_view type, std::size_t count, std::string_view bytes);
 
+  /// value of the JSON key `arrays`
   nlohmann::ordered_json arrays_ = nlohmann::ordered_json::array();
-  std::string data_;
+  std::string data_;  ///< bytes of all arrays, with padding
 };
 
 }  // namespace crowdface

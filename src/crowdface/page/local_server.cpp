@@ -96,7 +96,9 @@ struct Connection {
     kReading,    ///< waits for a request or reads it
     kAnswering,  ///< a thread computes the answer
     kWriting,    ///< sends the answer
-    kLeaving  ///< has closed its sending side, so that the client can read the rest of the answer
+    /// The server has closed its sending side, and waits until the client has read the rest of the
+    /// answer and closes the connection.
+    kLeaving
   };
   explicit Connection(Descriptor accepted) : socket(std::move(accepted)) {}
 

@@ -16,8 +16,8 @@ struct HttpRequest {
 
 struct HttpAnswer {
   int status = 200;
-  std::string type = "application/json";
-  std::string bytes;
+  std::string type = "application/json";  ///< value of the header field Content-Type
+  std::string bytes;                      ///< body of the answer
 };
 
 /// An HTTP/1.1 server for one user on this machine. It does not support ranges, chunked encoding or

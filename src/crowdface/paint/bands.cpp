@@ -14,14 +14,15 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the height of the eyes above the mouth, about 65 mm. The upper border runs under the brows,
-// the lower border between nose and lips. The transition between two regions extends by kHalfTransition to
-// both sides of their border, so that the transition is about four centimetres wide. Adjacent
-// regions come from different people, whose surfaces are often a centimetre apart. A narrower
-// transition would therefore be visible as a ridge.
+// Lengths are fractions of the height of the eyes above the mouth, about 65 mm. The upper border
+// runs under the brows, the lower border between nose and lips. The transition between two regions
+// extends by kHalfTransition to both sides of their border, so that the transition is about four
+// centimetres wide. Adjacent regions come from different people, whose surfaces are often a
+// centimetre apart. A narrower transition would therefore be visible as a ridge.
 constexpr double kUpperBorder = 1.2, kLowerBorder = 0.24, kHalfTransition = 0.3;
-// How far from an ear the transition to the other regions begins, how far below the chin the border
-// of the neck lies, and how long a neck must be. Fractions as above.
+// Fractions of the height of the eyes above the mouth. kAroundEar: distance from an ear at which
+// the transition to the other regions begins. kBelowChin: distance of the neck's border below the
+// chin. kMinNeck: smallest length of a neck.
 constexpr double kAroundEar = 0.1, kBelowChin = 0.3, kMinNeck = 0.24;
 
 // Fractions of the height of the eyes above the mouth. The search range for ears extends from
@@ -104,7 +105,7 @@ std::optional<Ears> find_ears(const Topology& topology, const HeadShape& head,
             std::numeric_limits<double>::infinity(),
             -std::numeric_limits<double>::infinity(),
             {}};
-  // The ears are the protruding vertices at these heights.
+  // The ears consist of the protruding skin vertices between the heights ears.bottom and ears.top.
   for (Index v = 0; v < positions.rows(); ++v) {
     const Eigen::Vector3d p = row3(positions, v);
     const double height = p.dot(axes.up), front = p.dot(axes.front);

@@ -42,7 +42,9 @@ class DepthMap {
     Index containing_cell = -1;  ///< the cell that contains the coordinate; −1: none
     /// largest index of a cell whose centre is below the coordinate; −1: none
     Index cell_centred_below = -1;
-    double next_cell_weight = 0;  ///< interpolation weight of cell `cell_centred_below` + 1
+    /// interpolation weight of the next cell; the cell `cell_centred_below` has the remaining
+    /// weight
+    double next_cell_weight = 0;
   };
   /// \param offset  distance of the coordinate from the start of the axis
   /// \param extent  length of the grid along the axis

@@ -350,8 +350,9 @@ class LandmarkSearch {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);
       return inner && outer ? (*inner - *outer) / (2 * kSpan) : 0;
     };
-    // The wings are at the height of the tip of the nose or a little lower. Lower down, the fold
-    // between cheek and lip is as steep as the wings, and could be mistaken for a wing.
+    // Search from the height that is the fraction kLowest of the way from the base to the tip of
+    // the nose, up to kAboveTip millimetres above the tip. Lower down, the fold between cheek and
+    // lip is as steep as a wing, and could be mistaken for a wing.
     constexpr double kLowest = 0.4, kAboveTip = 4;
     double widest = 0, at_height = 0;
     for (double up = base->up + kLowest * (tip->up - base->up); up <= tip->up + kAboveTip;

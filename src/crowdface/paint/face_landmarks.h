@@ -14,8 +14,10 @@ namespace crowdface {
 
 /// Landmarks of a face by name: points on the skin, and the reasons why landmarks are missing.
 struct FaceLandmarks {
-  std::map<std::string, SurfacePoint> points;          ///< by name of the landmark
-  std::map<std::string, std::string> missing_reasons;  ///< by name of the landmark; phrases
+  std::map<std::string, SurfacePoint> points;  ///< by name of the landmark
+  /// by name of the landmark: a clause such as "the nose has no wings that stand out from the
+  /// cheeks"
+  std::map<std::string, std::string> missing_reasons;
 };
 
 /// Finds the landmarks of Farkas' measurements (docs/traits.md) on a head from these parts of its

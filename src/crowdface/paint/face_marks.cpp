@@ -171,13 +171,13 @@ class Profile {
 };
 
 // The following lengths are millimetres on a face of average size.
-/// `without_slits` fills hollows of the profile that are narrower than this, such as an open mouth.
+/// Hollows of the profile that are narrower than kMaxSlitMm are filled, such as an open mouth.
 constexpr double kMaxSlitMm = 11;
 /// Heights of the bridge and of the tip of the nose above the eyes on the mean face.
 constexpr double kBridgeMm = 5, kTipMm = -34;
 /// kBridgeSearchMm, kTipSearchMm: half heights of the search ranges of the bridge and of the tip of
-/// the nose. kMouthSpreadMm: distance of the mouth from its height on the mean face at which the
-/// penalty is prior / 2.
+/// the nose. kMouthSpreadMm: unit of the distance in the mouth's height penalty, see
+/// mouth_and_chin.
 constexpr double kBridgeSearchMm = 10, kTipSearchMm = 14, kMouthSpreadMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.
@@ -185,9 +185,9 @@ constexpr double kBridgeHalfWidthMm = 15, kLipHalfWidthMm = 5, kChinHalfWidthMm 
 /// Penalty on a fine mesh for a height at the end of the search range. The search subtracts the
 /// penalty from the depth of a hollow of the profile.
 constexpr double kMaxHeightPenaltyMm = 3;
-/// kMaxMiddleOffsetMm: maximum distance of the middle of the skin from the symmetry plane of the
-/// relief; beyond it, the symmetry plane of the relief is used. kMaxEyeOffsetMm: maximum
-/// difference in height of the eyeballs from the eyes of the relief; beyond it, the eyeballs are
+/// kMaxMiddleOffsetMm: if the middle of the skin is farther than this length from the symmetry
+/// plane of the relief, the symmetry plane of the relief is used. kMaxEyeOffsetMm: if the heights
+/// of the eyeballs and of the relief's eyes differ by more than this length, the eyeballs are
 /// ignored.
 constexpr double kMaxMiddleOffsetMm = 4, kMaxEyeOffsetMm = 20;
 constexpr double kFineMm = 5;      ///< edges up to this length resolve the lips
@@ -200,16 +200,16 @@ struct MouthAndChin {
 /// chin is convex. The mouth divides the distance from the tip of the nose to the chin in about the
 /// same ratio in all faces.
 /// \param tip    height of the tip of the nose
-/// \param prior  twice the penalty of a mouth at the distance kMouthSpreadMm from its height on the
-///               mean face
+/// \param prior  weight of the mouth's height penalty, which is prior / 2 · (d / kMouthSpreadMm)².
+///               Here d is the mouth's distance from the mouth's height on the mean face.
 MouthAndChin mouth_and_chin(const Profile& outline, double tip, double mm, double stretch,
                             double prior) {
   constexpr double kChinFromMm = 115, kChinToMm = 50, kMouthFromMm = 65, kMouthToMm = 18;
   constexpr double kStepMm = 0.5;
   constexpr double kRatio = 0.47, kRatioSpread = 0.04;
   constexpr double kMouthBelowTipMm = 38;
-  // Depth beyond kDeepMm counts only by the factor kDeeperShare, because an open mouth may be
-  // arbitrarily deep.
+  // The part of a hollow's depth that exceeds kDeepMm is multiplied by kDeeperShare, because an
+  // open mouth may be arbitrarily deep.
   constexpr double kDeepMm = 4, kDeeperShare = 0.25;
   constexpr double kMaxConvexMm = 4.5;
   // The mouth lies between two convex lips. The hollow above the chin has a lip only on its upper

@@ -440,7 +440,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   constexpr double kTurn = 25;  // angle of the rotated axes, in degrees
   // A face whose axes differ by less than this angle (in degrees) counts as aligned with the axes.
   constexpr double kAlignedDegrees = 5;
-  // A smaller pitch (in degrees) comes from posture or the form of the face.
+  // A pitch below this angle (in degrees) is due to the posture of the head or the form of the
+  // face.
   constexpr double kMinPitch = 10;
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
   const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {
@@ -474,8 +475,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
         all_axes.begin());
     const HeadAxes& asked = all_axes[match.nearest_orientation_index];
     match.rotation_degrees = angle_between(match.axes, asked);
-    // Remove a small pitch from the axes of the match, because it comes from posture or the form of
-    // the face.
+    // Remove a small pitch from the axes of the match: a small pitch is due to the posture of the
+    // head or the form of the face.
     const double pitch =
         std::asin(std::clamp(match.fitted_axes.up.dot(asked.front), -1.0, 1.0)) / kRadians;
     if (std::abs(pitch) < kMinPitch) {
@@ -493,9 +494,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
       }
     }
   }
-  // Most calls request only one pair of axes. This case must be fast, so it uses wider steps, which
-  // almost always find the face. If these steps miss the face, the search along rotated axes
-  // follows.
+  // Most calls request only one pair of axes, and must be fast. The search along a single pair of
+  // axes therefore uses wider steps, which almost always find the face. If the wider steps miss the
+  // face, the search along rotated axes follows.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.score < kMinScore || match.rotation_degrees > kTurn) {

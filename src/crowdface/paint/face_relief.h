@@ -35,8 +35,9 @@ struct ReliefMatch {
   std::size_t nearest_orientation_index = 0;
   /// angle between the nearest requested axes and `fitted_axes`
   double rotation_degrees = 0;
-  /// `fitted_axes`, without a pitch below 10° from the nearest requested axes. Equal to the nearest
-  /// requested axes if the remaining difference is less than 5°.
+  /// `fitted_axes`, corrected towards the nearest requested axes. The correction removes a pitch
+  /// below 10° relative to the nearest requested axes. If the remaining angle between both pairs of
+  /// axes is below 5°, `axes` equals the nearest requested axes.
   HeadAxes axes;
   /// The axes in which the face is symmetric and as upright as the mean face. Small rotations from
   /// the requested axes are due to the posture and shape of the face.

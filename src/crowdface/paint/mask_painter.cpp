@@ -86,7 +86,7 @@ double edge_length(const Positions& positions, const std::vector<BrushedVertex>&
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
 }
 
-/// Rounds a number of smoothing or growing rounds up, and limits it to 1 … kMaxRounds.
+/// Returns how often to smooth or grow: `edges`, rounded up and limited to 1 … kMaxRounds.
 int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }

@@ -28,7 +28,7 @@ struct Brush {
   /// 0: constant strength from the centre to the rim; 1: the strength decreases all the way from
   /// the centre to the rim
   double falloff = 1;
-  /// whether each stroke also paints on the other half of the head
+  /// whether each stroke also paints its mirror image on the other half of the head
   bool paints_mirror_image = false;
 };
 

@@ -63,13 +63,13 @@ const Terms& terms() {
 
 using UsedCells = std::bitset<kReliefCells>;
 
-/// A least-squares fit over the used cells. The mean face is the last term, so the square of the
-/// last entry of `explained` is the part of the depths' sum of squares that only the mean face
-/// explains.
+/// A least-squares fit of the model to the used cells. The mean face is the last term of the model.
+/// The square of the last entry of `explained` is therefore the part of the sum of squared depths
+/// that the mean face explains and the other terms do not explain.
 struct CellFit {
   ReliefFit fit;
   Products factor = Products::Zero();  ///< Cholesky factor of the normal matrix, lower triangle
-  Coefficients explained = Coefficients::Zero();  ///< Cholesky factor⁻¹ · (terms · depths)
+  Coefficients explained = Coefficients::Zero();  ///< L⁻¹ · (terms · depths); L is `factor`
 
   CellFit(const ReliefDepths& depths, const UsedCells& used) {
     constexpr double kMin = 0.72 * kReliefCells, kFlatMm = 0.05;

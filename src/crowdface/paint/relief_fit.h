@@ -42,10 +42,10 @@ using ReliefDepths = std::array<double, kReliefCells>;
 struct ReliefFit {
   double correlation = -1;  ///< see ReliefMatch::correlation
   double amplitude = 0;     ///< coefficient of the mean face in the fitted model
-  /// depth of the fitted model between the eyes, without the term of the mean face
+  /// depth of the fitted model at the point between the eyes; excludes the term of the mean face
   double offset = 0;
-  /// vertical slope (depth per length upwards) of the fitted model at the middle height of the
-  /// grid, without the term of the mean face
+  /// vertical slope (change of depth per length upwards) of the fitted model at the middle height
+  /// of the grid; excludes the term of the mean face
   double slope_up = 0;
 };
 

@@ -26,7 +26,7 @@ double unfolded_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
   const double along_edges = std::min(from_a + (c - a).norm(), from_b + (c - b).norm());
   const double length = (b - a).norm();
   if (!(length > 0)) return along_edges;
-  // Coordinates: a at the origin, b at (length, 0), c above, the source at (x, −y).
+  // Coordinates in the plane: a = (0, 0), b = (length, 0), c = (c_x, c_y), source = (x, −y).
   const double x = (from_a * from_a - from_b * from_b + length * length) / (2 * length);
   const double y = std::sqrt(std::max(0.0, from_a * from_a - x * x));
   const double c_x = (c - a).dot(b - a) / length;

@@ -32,8 +32,8 @@ class Anchors {
   /// Returns the offset of each bound vertex on a head, in the vertex's coordinate frame.
   std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
   /// Places each bound vertex of `result` at the given offset in the vertex's coordinate frame on
-  /// `result`. Where the surrounding skin has not moved, a vertex gets exactly the target's
-  /// position.
+  /// `result`. Where the surrounding skin has not moved, a vertex keeps exactly its position on
+  /// `target`.
   ///
   /// \param offsets  One offset per bound vertex, measured on the target.
   void place_vertices(const Positions& target, std::span<const Eigen::Vector3d> offsets,
@@ -68,9 +68,9 @@ class PartWeights {
   /// \param positions  The head on which distances are measured.
   /// \param rigid      Vertices of each rigid part.
   /// \param bound      Vertices that may follow a part.
-  /// \param reach      Distance from a part beyond which vertices do not follow the part. The
-  ///                   nearer a vertex, the more it follows the part; a vertex at the part follows
-  ///                   it completely.
+  /// \param reach      Vertices farther than this distance from a part do not follow the part.
+  ///                   Nearer vertices follow the part more; a vertex at distance 0 follows the
+  ///                   part completely.
   PartWeights(const Positions& positions, const std::vector<std::span<const std::uint32_t>>& rigid,
               std::span<const std::uint32_t> bound, double reach);
 

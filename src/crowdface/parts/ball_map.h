@@ -47,6 +47,7 @@ class BallRadii {
   float radius_at_node(std::size_t x, std::size_t y) const { return radii_[y * kNodesPerSide + x]; }
 
   HeadAxes axes_;
+  /// `side_`: the head's side axis. `centre_`: the centre of the eyeball.
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
   double radius_ = 0, max_radius_ = 0;
   std::vector<float>

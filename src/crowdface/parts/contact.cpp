@@ -19,20 +19,22 @@ namespace {
 constexpr std::size_t kMaxVertices = 2500;
 /// Largest number of pairs in a cluster.
 constexpr std::size_t kClusterPairs = 16;
-/// Safety factor of Cluster::height_margin: on a new face, the height differences within a cluster may be
-/// larger than on any head.
+/// Safety factor of Cluster::height_margin: on a new face, the height differences within a cluster
+/// may be larger than on any head.
 constexpr double kHeightMarginFactor = 1.5;
-/// Heights (signed distances from the skin), as fractions of the reach (about 4 mm). kMaxNearHeight: the
-/// exact height is measured only for vertices whose approximate height is less than kMaxNearHeight. kMinOutsideHeight:
-/// vertices above this height count as outside the skin.
+/// Heights (signed distances from the skin), as fractions of the reach (about 4 mm).
+/// kMaxNearHeight: the exact height is measured only for vertices whose approximate height is less
+/// than kMaxNearHeight. kMinOutsideHeight: vertices above this height count as outside the skin.
 constexpr double kMaxNearHeight = 0.5, kMinOutsideHeight = -0.005;
-/// Fractions of the reach. kMaxLaterHeight: all later steps ignore vertices above this height. kMaxViolation: the
-/// iteration ends when no height is below its lower bound by more than this.
+/// Fractions of the reach. kMaxLaterHeight: a step ignores vertices above this height, and all
+/// later steps ignore them too. kMaxViolation: the iteration ends when no height is below its lower
+/// bound by more than this.
 constexpr double kMaxLaterHeight = 0.15, kMaxViolation = 0.002;
-/// Costs of a rotation (kRotationCost) and of a change of size (kSizeCost), relative to a translation
-/// that moves the vertices by the same distance.
+/// Costs of a rotation (kRotationCost) and of a change of size (kSizeCost), relative to a
+/// translation that moves the vertices by the same distance.
 constexpr double kRotationCost = 1, kSizeCost = 2;
-/// Largest decrease (kMaxShrink) and increase (kMaxGrowth) of a part's size, as fractions of the size.
+/// Largest decrease (kMaxShrink) and increase (kMaxGrowth) of a part's size, as fractions of the
+/// size.
 constexpr double kMaxShrink = 0.06, kMaxGrowth = 0.01;
 /// Penalties for violated constraints, as multiples of the reach. kOutsidePenalty: for vertices
 /// that are outside the skin in all heads; these vertices have priority. kInsidePenalty: for all
@@ -152,8 +154,7 @@ void PartContact::find_clusters(const Positions& positions, const std::vector<He
     open.emplace_back(middle, end);
     open.emplace_back(begin, middle);
   }
-  // Set an upper bound for the height differences within each cluster, from the largest differences
-  // in the heads.
+  // Set Cluster::height_margin of each cluster from the largest height differences in the heads.
   for (Cluster& cluster : clusters_) {
     for (const Head& head : heads) {
       const auto rough = [&](std::size_t i) {

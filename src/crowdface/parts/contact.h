@@ -37,7 +37,7 @@ class PartContact {
   /// Returns the height of a point of the part above the nearest skin.
   ///
   /// \param pair   Index of the pair whose vertex is at `point`.
-  /// \param skin   Positions of the head with this skin, #V by 3.
+  /// \param skin   Positions of the head or face whose skin is used, #V by 3.
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
   /// Returns the motion that keeps the part out of the skin and is nearest to `motion`. After this
@@ -64,16 +64,17 @@ class PartContact {
     Triangle corners;      ///< triangle of the skin
     /// point of the triangle that is nearest to the vertex on the head where the pair was found
     std::array<double, 3> barycentric;
-    /// Vertices at which the search for the nearest skin starts. If both lips are near, some of
-    /// these vertices lie on each lip.
+    /// Skin vertices at which the search for the nearest skin starts. If both lips are near, the
+    /// list may contain vertices of both lips.
     SearchStarts search_starts;
-    double min_height;  ///< smallest height of the pair in all heads
+    double min_height;  ///< smallest height of the vertex above the skin in all heads
   };
-  /// Pairs that are close together. The height of the middle pair, minus `height_margin`, is a lower bound
-  /// for the heights of all pairs of the cluster.
+  /// Pairs that are close together. The height of the middle pair, minus `height_margin`, is a
+  /// lower bound for the heights of all pairs of the cluster.
   struct Cluster {
     std::size_t begin, end;  ///< range of `pairs_`
-    double height_margin;    ///< estimated limit of the height differences
+    /// estimated upper bound of the height of the middle pair minus the height of any other pair
+    double height_margin;
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
   void find_search_starts(const Positions& positions, std::span<const std::uint32_t> skin,
@@ -93,7 +94,7 @@ class PartContact {
 
   const Topology* topology_ = nullptr;
   const VertexFaces* faces_ = nullptr;
-  double reach_ = 0;        ///< `reach` of the constructor
+  double reach_ = 0;        ///< the constructor's parameter `reach`
   double normal_sign_ = 1;  ///< −1 if the skin's normals point away from the part, else 1
   double radius_ = 0;       ///< root mean square distance of the part's vertices from its middle
   /// middle of the part on the head where the pairs were found

@@ -18,7 +18,7 @@ namespace crowdface {
 /// A point on an edge of a mesh, at the same fraction of the edge in every head.
 struct EdgePoint {
   std::uint32_t a, b;
-  double fraction;  ///< from a (0) to b (1)
+  double fraction;  ///< position on the edge: 0 at vertex a, 1 at vertex b
 };
 
 /// A cutting plane in which the gap between two facing sides of the skin is measured. On the mean
@@ -31,18 +31,18 @@ struct GapSection {
   std::vector<EdgePoint> low_profile, high_profile;
 
   /// Returns the height of the lowest point of the high profile above the highest point of the low
-  /// profile; negative if they overlap.
+  /// profile; negative if the profiles overlap.
   double gap(const Positions& positions) const;
   /// Returns the unit vector that lies in the cutting plane and is perpendicular to `up`. Depths
   /// are measured along this vector.
   Eigen::Vector3d inward() const { return plane_normal.cross(up); }
 };
 
-/// Returns sections that are spread evenly over a group. The profiles of the returned sections are
-/// empty; `cut_profiles` fills the profiles.
+/// Returns sections that are spread evenly over a group of facing pairs. The profiles of the
+/// returned sections are empty; `cut_profiles` fills the profiles.
 ///
-/// \param spacing  Minimum distance between two sections; every pair of the group is within this
-///                 distance of some section.
+/// \param spacing  Minimum distance between two sections. Every facing pair of the group is nearer
+///                 than this distance to at least one section.
 std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double spacing);
 
 /// Cuts the two profiles of a section. One profile or both profiles may stay empty.
@@ -73,8 +73,8 @@ class Clearance {
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
     /// `low_indices`: two neighbouring points of the low profile (see GapSection). `high_indices`:
-    /// two neighbouring points of the high profile. Indices count the points of the low
-    /// profile first.
+    /// two neighbouring points of the high profile. An index is a position in the list of all
+    /// profile points (the low profile, then the high profile).
     std::array<std::uint32_t, 2> low_indices, high_indices;
     std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 

@@ -16,7 +16,8 @@ namespace {
 /// Skin nearer to the eyeball than this distance belongs to the lids. The distance is a fraction of
 /// the eyeball's radius (about 12 mm).
 constexpr double kLidReach = 0.3;
-// smallest cosine between a rim vertex's direction and the front
+/// Smallest cosine of the angle between the front direction of the head and the direction from the
+/// eyeball's centre to a rim vertex.
 constexpr double kMinFront = 0.35;
 /// Number of sectors around the axis of the eye; the rim has at most one vertex in each sector.
 constexpr std::size_t kRimSectors = 60;
@@ -27,11 +28,11 @@ constexpr std::size_t kMaxLids = 2500;
 /// the gaps at the rim. kMeanGapTolerance: tolerance of the mean gap, as a fraction of the radius;
 /// about 0.05 mm.
 constexpr double kMeanGapWeight = 20, kMeanGapTolerance = 0.004;
-/// Costs of translation (kTranslationCost) and of a change of size (kBallSizeCost), relative to the cost of
-/// errors of the gaps.
+/// Costs of translation (kTranslationCost) and of a change of size (kBallSizeCost), relative to the
+/// cost of errors of the gaps.
 constexpr double kTranslationCost = 0.02, kBallSizeCost = 0.2;
-/// Largest decrease (kMaxBallShrink) and increase (kMaxBallGrowth) of an eyeball's size, as fractions of
-/// the size.
+/// Largest decrease (kMaxBallShrink) and increase (kMaxBallGrowth) of an eyeball's size, as
+/// fractions of the size.
 constexpr double kMaxBallShrink = 0.08, kMaxBallGrowth = 0.03;
 /// Gap that is kept at lid vertices that are outside the eyeball in all heads, as a fraction of the
 /// radius; about 0.025 mm.

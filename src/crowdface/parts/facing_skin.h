@@ -14,7 +14,7 @@ namespace crowdface {
 struct FacingPair {
   /// vertex indices: the vertex on the low side and the vertex on the high side of the gap
   std::uint32_t low_vertex = 0, high_vertex = 0;
-  Eigen::Vector3d middle;  ///< midpoint
+  Eigen::Vector3d middle;  ///< midpoint of the two vertices
   Eigen::Vector3d up;      ///< unit vector from the low side to the high side
 };
 

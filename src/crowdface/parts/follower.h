@@ -14,11 +14,12 @@ namespace crowdface {
 /// head how parts are bound to the skin, and measures the positions of the parts on each head.
 ///
 /// - A rigid part moves by the rotation, translation and uniform scale that best fits the motion of
-///   the surrounding skin from the target to the face. Then eyeballs are shifted and rescaled until
-///   the gaps to the lids equal the gaps on the target; other parts move out of lips and cheeks.
+///   the surrounding skin from the target to the face. Then each eyeball is shifted and rescaled,
+///   so that its mean gap to each lid is the same as on the target. Other parts move out of lips
+///   and cheeks.
 /// - A vertex of a bound part keeps its position relative to the nearest skin.
 ///
-/// Where the skin around a part has not moved, the part keeps exactly the positions of the target.
+/// Where the skin around a part has not moved, the part keeps exactly its positions on the target.
 class PartFollower {
  public:
   /// \param heads  Must outlive this object.

@@ -27,9 +27,9 @@ constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from 
 // largest distance of components that nearly touch, such as teeth
 constexpr double kTouchDistance = 0.006;
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
-/// Smallest diagonal (kMinBallDiagonal) and thickness (kMinBallThickness) of an eyeball's bounding box, in radii. The
-/// diagonal is 3.5 radii for a ball and 3 radii for half a ball. Both are at least one radius
-/// thick. A row of teeth also fits a sphere, but is only half as thick.
+/// Smallest diagonal (kMinBallDiagonal) and thickness (kMinBallThickness) of an eyeball's bounding
+/// box, in radii. The diagonal is 3.5 radii for a ball and 3 radii for half a ball. Both are at
+/// least one radius thick. A row of teeth also fits a sphere, but is only half as thick.
 constexpr double kMinBallDiagonal = 2.6, kMinBallThickness = 0.8;
 // largest root mean square distance of an eyeball's surface from the fitted sphere, in radii; not
 // zero, because the cornea bulges out of the sphere
@@ -187,7 +187,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     eyeball[c] = is_eyeball(list.shapes[c], extent);
     if (!is_user_assigned[c]) rigid.push_back(c);
   }
-  // Join the rigid components that the user did not assign, by position.
+  // Join by position those rigid components that the user did not assign.
   join_inside(list, rigid, eyeball, grouping);
   join_touching(positions, components, members, rigid, eyeball, kTouchDistance * extent, grouping);
   split_jaws(positions, members, axes, rigid, eyeball, grouping);

@@ -20,8 +20,9 @@ class ProximityJoiner {
  public:
   /// The points, the components and the groups must outlive this object. Other code may also join
   /// groups while this object exists.
-  /// \param points      the rows listed in `rows` must be finite; other rows are not read.
-  /// \param rows        rows of the points in the tree; may be empty.
+  /// \param points      one point per row. Only the rows listed in `rows` are read; these must be
+  ///                    finite.
+  /// \param rows        row indices of the points in the tree; may be empty.
   /// \param components  the component of each point.
   ProximityJoiner(const Positions& points, std::vector<std::uint32_t> rows,
                   const std::vector<std::uint32_t>& components, DisjointSets& groups);
@@ -31,7 +32,7 @@ class ProximityJoiner {
   void join_near(const Eigen::Vector3d& place, double reach, std::uint32_t component);
 
  private:
-  /// Returns the rows of the points of a node.
+  /// Returns the points in a node of the tree, as row indices of `points_`.
   std::span<const std::uint32_t> rows_of(std::size_t node) const;
   void join_near(std::size_t node, const Eigen::Vector3d& place, double reach,
                  std::uint32_t component);
@@ -41,7 +42,7 @@ class ProximityJoiner {
   const std::vector<std::uint32_t>& components_;
   DisjointSets& groups_;
   MedianSplitTree tree_;
-  std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< bounding box of each node of the tree
   /// for each node: if all points of the node are known to belong to one group, a component of this
   /// group; otherwise kNoIndex
   std::vector<std::uint32_t> groups_of_nodes_;

@@ -10,10 +10,10 @@ namespace crowdface {
 /// A convex quadratic program in a few unknowns with up to thousands of constraints. Finds the pose
 /// of a part that is nearest to a desired pose and violates no constraint.
 ///
-/// minimise Σ w/2 (a·x − target)² + Σ penalty·x_i subject to a·x ≥ lower
+/// minimise Σ w/2 (a·x − target)² + Σ (penalty·x_i + x_i²/2) subject to a·x ≥ lower
 ///
-/// Here, x is the vector of unknowns. Each target and each constraint has its own coefficients a,
-/// and each target its own weight w.
+/// Here, x is the vector of unknowns, and the second sum is over the slack variables x_i. Each
+/// target and each constraint has its own coefficients a, and each target its own weight w.
 ///
 /// The class uses plain arithmetic in a fixed order, so that the result has the same bits on every
 /// machine.

@@ -54,7 +54,8 @@ RigidMotion nudged(const RigidMotion& motion, const Eigen::Vector3d& pivot,
 /// Returns the motion that best maps rows of `source` to the same rows of `target`, by weighted
 /// least squares (Umeyama 1991), with the rotation as quaternion (Horn 1987).
 ///
-/// \param vertices  Rows; at least three that are not collinear.
+/// \param vertices  Row indices of `source` and `target`; at least three rows that are not
+///                  collinear.
 /// \param weights   #vertices; not negative, with a positive sum.
 RigidMotion fit_rigid_motion(const Positions& source, const Positions& target,
                              std::span<const std::uint32_t> vertices,

@@ -235,8 +235,8 @@ std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
 /// a positive amplitude only if its gap would otherwise be too narrow, and a negative amplitude
 /// only if its gap would otherwise be too wide. So neighbours rarely counteract each other. This is
 /// a linear complementarity problem, solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992,
-/// chapter 5). The points at which two profiles are nearest change during the iteration, so each
-/// step computes the gap again.
+/// chapter 5). The smallest gap of a section may move to another pair of opposite points during the
+/// iteration, so each step computes the gap again.
 std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_kernel_amplitudes(
     const SectionGroup& section_group, std::span<const Range> ranges, double max_amplitude,
     Profiles& profiles, std::vector<double>& amplitudes) const {
@@ -324,7 +324,7 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
             std::max(largest_deviation, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (largest_deviation <= tolerance_) break;
-      // The first round sets the limit for all rounds.
+      // The first round sets the largest allowed amplitude for all rounds.
       if (round == 0) max_amplitude = kMaxAmplitudeFactor * largest_deviation;
       // Solve for the amplitudes with these opposite points.
       changes = find_kernel_amplitudes(section_group, ranges, max_amplitude, profiles, amplitudes);

@@ -80,7 +80,8 @@ class SkinContacts {
     /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposite_pairs;
 
-    /// Returns the smallest gap of a section; `section` counts within the group.
+    /// Returns the smallest gap of a section.
+    /// \param section  Index of the section within the group.
     double gap(std::size_t section) const;
   };
 

@@ -19,7 +19,7 @@ namespace crowdface {
 /// The content of a landmark file: for each landmark name, a vertex number (from 0) or a point.
 struct LandmarkFile {
   using Place = LandmarkPlace;
-  std::map<std::string, Place> template_places, scan_places;  ///< by name of the landmark
+  std::map<std::string, Place> template_places, scan_places;  ///< keyed by landmark name
 };
 
 /// The mesh whose landmarks a file contains if the file has no keys `template` and `scan`.
@@ -28,7 +28,7 @@ enum class LandmarkMesh { kTemplate, kScan };
 /// Reads a landmark file. The file is YAML with the optional keys `template: {chin: 966}` and
 /// `scan: {chin: [x, y, z]}`, with at most 100 names each, or a list from another program (see
 /// parse_landmark_list).
-/// \throws UsageError, MissingInput with a message that names every wrong place.
+/// \throws UsageError, MissingInput with a message that names every invalid landmark position.
 LandmarkFile read_landmarks(const std::filesystem::path& path,
                             LandmarkMesh mesh = LandmarkMesh::kScan);
 

@@ -17,7 +17,7 @@ namespace crowdface {
 /// position in the list, from 1.
 /// \return nothing if the file has the form that read_landmarks reads (keys `template` and `scan`)
 ///         or if its format is unknown.
-/// \throws UsageError that names the faulty place.
+/// \throws UsageError that names the location of the error in the file.
 std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     std::string_view bytes, const std::filesystem::path& path);
 

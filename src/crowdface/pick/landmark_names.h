@@ -11,14 +11,14 @@ namespace crowdface {
 /// A point that can be located on every face. Left and right are the head's own left and right.
 struct LandmarkDefinition {
   std::string_view name;
-  std::string_view location;  ///< description for the user
+  std::string_view location;  ///< where the landmark lies; a text for the user
   /// Whether find_landmarks searches for the landmark on scans. Only edges or grooves of the skin
   /// mark a landmark precisely enough; a widest or highest point does not.
   bool is_found_on_scans = false;
 };
 
-/// Standard landmarks, in the order in which to pick them, then the other landmarks of the
-/// measurements (trait_landmarks). The first four determine the pose of a head.
+/// Standard landmarks, in the order in which users should pick them; then the remaining landmarks
+/// that measurements need (trait_landmarks). The first four landmarks determine the pose of a head.
 const std::vector<LandmarkDefinition>& suggested_landmarks();
 
 /// The name of the landmark on the other side: "eye_outer_left" for "eye_outer_right", "brow_l" for

@@ -13,10 +13,10 @@ inline constexpr double kMaxCoordinate = 1e9;
 
 /// A landmark in a file: the number of a vertex, from 0, or a point.
 struct LandmarkPlace {
-  bool is_vertex = false;
-  std::uint64_t vertex = 0;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  std::string file_location;  ///< "file:line:column", for messages
+  bool is_vertex = false;    ///< whether the file has a vertex number and not a point
+  std::uint64_t vertex = 0;  ///< only if `is_vertex`
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< only if not `is_vertex`
+  std::string file_location;                        ///< "file:line:column", for messages
 };
 
 }  // namespace crowdface

@@ -33,6 +33,7 @@ class PickApi {
   /// All data of the page except meshes: the list of scans, the orientations of the template and
   /// the open scan, and the landmarks.
   HttpAnswer page_data_answer(const PickSession& session) const;
+  /// Opens the scan whose index is in the request's key `scan`.
   HttpAnswer open_scan(const Json& body);
   /// \param shown  keeps the reduced mesh for further requests
   HttpAnswer mesh_answer(const PickableMesh& whole, const ColourRows& colours,

@@ -15,8 +15,8 @@ namespace crowdface {
 
 /// A reduced mesh, encoded for the page on first request.
 struct ShownMesh {
-  std::once_flag once;
-  std::string bytes;
+  std::once_flag once;  ///< set by the first request, which computes `bytes`
+  std::string bytes;    ///< result of PickableMesh::encode_reduced
 };
 
 /// The scan that is open on the page, its session, and the meshes that the page shows.

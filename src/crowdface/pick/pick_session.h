@@ -43,9 +43,9 @@ class PickSession {
   const PickInputs& inputs() const { return inputs_; }
   const PickableMesh& template_mesh() const { return template_; }
   const PickableMesh& scan_mesh() const { return scan_; }
-  /// Up and front direction of the head on the scan, given or estimated.
+  /// Up and front direction of the scanned head: from `PickInputs::hint`, or estimated.
   const PoseHint& scan_orientation() const { return scan_orientation_; }
-  /// The landmarks read from the file or saved last.
+  /// The landmarks as last read from the landmark file or last saved to it.
   std::vector<PickedLandmark> landmarks() const;
   /// Whether saving the landmark file would delete some of its comments. Saving keeps only comments
   /// at the start of the file.
@@ -66,7 +66,7 @@ class PickSession {
   void save(const std::vector<PickedLandmark>& landmarks);
 
  private:
-  /// The content of the landmark file now; empty if there is no file.
+  /// Reads the landmark file; returns an empty text if there is no file.
   std::string landmark_file_text() const;
 
   PickInputs inputs_;

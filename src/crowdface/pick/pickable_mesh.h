@@ -17,7 +17,8 @@ namespace crowdface {
 
 /// A point on a mesh that the user picked, or that is suggested to the user.
 struct PickedPlace {
-  std::uint32_t vertex = kNoIndex;  ///< nearest corner of the triangle hit
+  /// nearest corner of the triangle that contains `point` or is nearest to `point`
+  std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< interpolated vertex normal, unit length
 };
@@ -76,6 +77,7 @@ class PickableMesh {
   std::string encode_reduced(std::size_t max_triangles, const ColourRows& colours = {}) const;
 
  private:
+  /// Returns the point with these barycentric coordinates in a triangle of the mesh.
   PickedPlace place_in_triangle(const Triangle& corners,
                                 const std::array<double, 3>& barycentric) const;
 
@@ -86,7 +88,7 @@ class PickableMesh {
   std::vector<Quad> quads_;
   Positions normals_;
   Eigen::AlignedBox3d box_;  ///< bounding box of the skin
-  Eigen::Vector3d middle_;   ///< centre of `box_`, the origin of coordinates in single precision
+  Eigen::Vector3d middle_;   ///< centre of `box_`; origin of all coordinates in single precision
   RayDevice device_;
   RayScene scene_;
   SurfaceTree tree_;

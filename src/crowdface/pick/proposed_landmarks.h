@@ -20,8 +20,8 @@ std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_
 /// \param positions  #V by 3
 PickableMesh make_pickable(const WrapTemplate& wrap_template, const Positions& positions);
 
-/// Regions of the skin: brow, nose and mouth, and ears and neck if they are found. Empty if no face
-/// is found.
+/// Regions of the skin: brow, nose and mouth; also ears and neck, if these are found. Empty if no
+/// face is found.
 SkinRegions face_regions(const WrapTemplate& wrap_template);
 
 /// The symmetry plane between the left and right half of a template.

@@ -107,8 +107,7 @@ Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& p
   return sum / weights;
 }
 
-/// Moves a place inside a nostril to the skin outside, if this skin lies within the distance
-/// `depth`.
+/// Moves a point inside a nostril to the outer skin, if the outer skin is at most `depth` away.
 std::optional<PickedPlace> outermost(const PickableMesh& mesh,
                                      const std::optional<PickedPlace>& place, double depth) {
   if (!place) return place;

@@ -25,7 +25,7 @@ struct LandmarkPose {
     /// landmark was misplaced. The fit of `pose` ignores outliers.
     bool is_outlier = false;
   };
-  std::map<std::string, Residual> residuals;  ///< one for each pair
+  std::map<std::string, Residual> residuals;  ///< one per pair, keyed by landmark name
 };
 
 /// Fits the similarity (Umeyama 1991) to landmark pairs. Removes outlier pairs one by one, and
@@ -34,8 +34,10 @@ struct LandmarkPose {
 std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>& landmarks,
                                                const Positions& template_positions);
 
-/// Likely positions of landmarks that are not picked yet, estimated from their mirror image or from
-/// the other mesh.
+/// Likely positions of landmarks that are not picked yet, keyed by landmark name. A position on the
+/// template is the mirror image of a picked landmark, or a proposal from the template's shape. A
+/// position on the scan is the picked or suggested position on the template, mapped by `pose`,
+/// corrected by the residuals of nearby pairs, and projected to the scan's skin.
 struct SuggestedPlaces {
   std::map<std::string, PickedPlace> template_places;
   std::map<std::string, PickedPlace> scan_places;

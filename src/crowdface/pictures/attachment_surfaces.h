@@ -23,13 +23,14 @@ class AttachmentSurfaces {
   AttachmentSurfaces(int max_px, bool shows_textures)
       : max_px_(max_px), shows_textures_(shows_textures) {}
 
-  /// \param item  one of the attachments in the crowd's inputs.
+  /// The surface of an attachment. \param item  one of the attachments in the crowd's inputs
   const AttachmentSurface& at(const Attachment& item) const;
   /// The attachments of a face, for rendering. The result holds references to `placed` and to this
   /// object.
   std::vector<AttachmentMesh> meshes(const std::vector<PlacedAttachment>& placed) const;
 
  private:
+  /// A colour texture file: its colours and its alpha channel.
   struct Picture {
     std::shared_ptr<const Texture> colours;
     std::shared_ptr<const MipMap> opacity;  ///< null: no alpha channel

@@ -35,9 +35,9 @@ struct PicturedCrowd {
   const Likeness& likeness;
 };
 
-/// Rendered images of one face, as the bytes of files.
+/// The files made for the pictures of one face, as bytes.
 struct FacePictures {
-  std::string png;
+  std::string png;                            ///< all views, side by side
   std::optional<std::string> gallery_script;  ///< see GalleryMeshes; empty without a gallery
 };
 

@@ -38,7 +38,8 @@ MeshFormat format_of_face(const CrowdDirectory& directory, const std::string& id
       concat(directory.root.string(), ": holds no mesh of ", quoted(id), " to compare with"));
 }
 
-/// The folder of another crowd, with the folder layout that the config file in this folder states.
+/// The folder of another crowd. Reads `faces_per_folder` from the other crowd's config file.
+/// \param folder  the other crowd's folder
 CrowdDirectory crowd_at(const std::filesystem::path& folder) {
   CrowdDirectory directory{folder};
   if (!exists_or_throw(directory.config())) return directory;
@@ -50,7 +51,7 @@ CrowdDirectory crowd_at(const std::filesystem::path& folder) {
   return directory;
 }
 
-/// The mesh with which all faces are compared.
+/// Reads the mesh with which all faces are compared.
 Positions read_reference(const std::filesystem::path& file, Index vertices) {
   Positions positions = read_obj(file).positions;
   if (positions.rows() == vertices) return positions;

@@ -12,10 +12,10 @@
 namespace crowdface {
 
 /// A face of the crowd, compared with a second mesh that is first fitted rigidly to the face. The
-/// distance at a vertex is the distance between both meshes' positions of the vertex. All distances
-/// are 0 if there is no second mesh.
+/// distance at a vertex is the distance between the vertex's positions in both meshes. If there is
+/// no second mesh, all distances are 0.
 struct ComparedFace {
-  Positions mesh;
+  Positions mesh;      ///< the face
   Eigen::VectorXd mm;  ///< #V: distance at each vertex, in millimetres
 };
 
@@ -25,6 +25,7 @@ class FaceComparison {
   /// \throws Error if a file with a mesh for comparison cannot be read.
   explicit FaceComparison(const PicturedCrowd& crowd);
 
+  /// Compares a face with its second mesh. \param face  index of the face in the crowd
   ComparedFace compare(std::size_t face) const;
   /// Summary of the distances: "rms 0.12 mm, largest 3.40 mm".
   std::string label(const ComparedFace& compared) const;
@@ -32,6 +33,7 @@ class FaceComparison {
   std::optional<HeatLegend> legend() const;
 
  private:
+  /// Reads the vertex positions of a face from the crowd's folder.
   Positions mesh_of(std::size_t face) const;
   std::optional<Positions> compared_mesh(std::size_t face) const;
 

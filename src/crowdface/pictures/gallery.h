@@ -28,7 +28,7 @@ class GalleryMeshes {
   GalleryMeshes(const Config& config, const Inputs& inputs, const PicturedMesh& pictured_mesh);
 
   /// Returns the content of data/mesh.js: triangles, colours, texture coordinates, and the
-  /// coordinate frame of packed positions.
+  /// quantization grid of packed positions.
   std::string shared_script() const;
   /// Returns the content of data/faces/NAME.js or data/heads/NAME.js: the data of one face or head.
   /// \param moves    displacements of each shape of the face.
@@ -58,16 +58,19 @@ class GalleryMeshes {
   std::string pack_roughness(const TextureSet& texture_set) const;
   /// Returns the length below which displacements of shapes are omitted, in the unit of the mesh.
   double min_displacement() const;
+  /// Computes `shown_shapes_`, and the visible fractions of the sky in the shape that moves most.
+  /// \param mean  positions of the mean face (and of the body), before reduction
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
+  /// Packs the displacements of the vertices in `shown_shapes_` (see pack_displacement).
   std::string pack_shapes(std::span<const Displacements> shape_moves) const;
 
   const Config& config_;
   const Inputs& inputs_;
   const PicturedMesh& pictured_mesh_;  ///< the mesh before reduction
-  PreviewMesh mesh_;
+  PreviewMesh mesh_;                   ///< the reduced mesh
   /// triangles of a coarser mesh, which uses the vertices of `mesh_`; see draft_triangles
   std::vector<std::uint32_t> draft_triangles_;
-  VertexFaces vertex_faces_;
+  VertexFaces vertex_faces_;  ///< the polygons around each vertex of the mesh before reduction
   PackingGrid packing_frame_;
   ShownAttachments attachments_;
   /// colours of surfaces without textures, per vertex of the reduced mesh
@@ -87,7 +90,8 @@ class GalleryMeshes {
   std::vector<ShownShape> shown_shapes_;  ///< one entry per blend shape
   /// index of the shape that moves most, such as an open jaw
   std::size_t shape_with_largest_motion_ = 0;
-  /// visible fraction of the sky at the same vertices, in the shape `shape_with_largest_motion_`
+  /// visible fraction of the sky at the vertices of the reduced mesh, on the mean head in the shape
+  /// `shape_with_largest_motion_`
   std::vector<float> sky_visibility_in_shape_with_largest_motion_;
 };
 

@@ -18,7 +18,8 @@ std::optional<std::filesystem::path> gallery_page_folder();
 /// contain the gallery's page.
 std::optional<std::filesystem::path> find_gallery_page();
 
-/// Whether a crowd with this config gets a gallery with this installation.
+/// Whether a crowd with this config gets a gallery: the config has contact sheets and does not turn
+/// the gallery off, and `find_gallery_page` finds the page.
 bool has_gallery(const Config& config);
 
 /// The hash of the gallery page that a crowd with this config gets; the hash of no data if the

@@ -36,20 +36,22 @@ class PicturedMesh {
   /// The vertex positions of the body; no rows if the body is not shown.
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }
 
-  /// Returns the lowest point of the body that must lie inside every image of a face.
+  /// Returns the lowest body point that images of faces must show.
   /// \pre has_body()
   Eigen::Vector3d lowest_shown_point() const;
 
-  // The following functions require has_body().
-  /// Returns the vertices of the face, then those of the body.
+  /// Appends the body's vertex positions to the face's vertex positions.
+  /// \pre has_body()
   Positions add_body(const Positions& face) const;
   /// Adds the body's texture to the face's textures. The body gets the mean roughness of the face
   /// at the neck ring.
   /// \param body    texture of the body, or null
   /// \param max_px  maximum side length of the body's texture, in texels
+  /// \pre has_body()
   TextureSet add_body(TextureSet textures, const BlendedPicture* body, int max_px) const;
   /// Adds the colours of the body's vertices, taken from the body's texture `body`, to the colours
   /// of the face's vertices. If `body` is null, the body is grey.
+  /// \pre has_body()
   VertexColours add_body(const VertexColours& face, const BlendedPicture* body) const;
 
  private:

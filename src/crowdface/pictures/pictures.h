@@ -66,8 +66,8 @@ class CrowdPictures {
   std::vector<std::vector<double>> head_traits_;
 };
 
-/// The paths of the files of contact sheets, gallery and likeness in the crowd's folder, sorted.
-/// Omits the renders and meshes of the faces. \throws IoError if a folder cannot be read.
+/// Lists the files of contact sheets, gallery and likeness in the crowd's folder, sorted by path.
+/// Does not list the renders and meshes of the faces. \throws IoError if a folder cannot be read.
 std::vector<std::filesystem::path> picture_files(const CrowdDirectory& directory,
                                                  const WrittenSheets& sheets);
 

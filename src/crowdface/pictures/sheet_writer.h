@@ -31,8 +31,11 @@ class SheetWriter {
  private:
   /// Encodes and writes a page in the background.
   void write_in_background(const std::string& stem, Rgb8Image page);
+  /// Waits until all pages added so far are written.
   void wait();
+  /// Returns the path of a file in the folder, and adds the path to `written_files_`.
   std::filesystem::path add_file(const std::string& name);
+  /// Writes the index of the current batch. \param number  suffix of the file name: "_001" or empty
   void write_index(const std::string& number);
   /// Writes the index and, if requested, the PDF file of the current batch of pages, and begins
   /// the next batch.

@@ -16,7 +16,7 @@ namespace crowdface {
 /// once; each face only adds positions. Thread-safe.
 class ShownAttachments {
  public:
-  /// Returns the triangles and materials of an attachment as JSON. These are the same for all
+  /// Returns the triangles and materials of an attachment as JSON. This JSON is the same for all
   /// faces.
   std::string appearance_as_json(const ColouredAttachment& look,
                                  const AttachmentSurface& surface) const;
@@ -30,8 +30,9 @@ class ShownAttachments {
   std::vector<float> vertex_positions(const PlacedAttachment& placed) const;
 
  private:
-  /// One mesh per material. A mesh has no triangles if no face has its material.
+  /// One mesh per material. A mesh has no triangles if no polygon has its material.
   using MaterialMeshes = std::vector<PreviewMesh>;
+  /// Returns the reduced meshes of an attachment; makes them on the first call.
   const MaterialMeshes& material_meshes(const Attachment& item) const;
 
   mutable LazyMap<const Attachment*, MaterialMeshes> meshes_;

@@ -6,7 +6,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns the texture of `layer` that covers `place`; null if no texture covers `place`.
+/// Returns the texture of the polygon `place.face`; null if this polygon has no texture in `layer`.
 const Texture* picture_at(const TextureLayer& layer, const TexturePoint& place) {
   if (place.face < 0 || layer.texture_of_face.empty()) return nullptr;
   const std::uint32_t picture = layer.texture_of_face[static_cast<std::size_t>(place.face)];

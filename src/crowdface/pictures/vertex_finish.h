@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// A position in the textures of the full mesh, such as the position of a reduced mesh's vertex.
 struct TexturePoint {
-  Index face = -1;  ///< polygon of the full mesh, which selects the texture; −1: no texture
+  Index face = -1;  ///< polygon of the full mesh; its texture is used; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 

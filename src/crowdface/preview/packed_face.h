@@ -14,8 +14,9 @@ namespace crowdface {
 
 /// The quantization grid of packed positions: a cube with 65,535 grid steps along each side.
 struct PackingGrid {
-  Eigen::Vector3d low_corner = Eigen::Vector3d::Zero();  ///< corner with the smallest coordinates
-  double step = 1;
+  /// the cube's corner with the smallest coordinates
+  Eigen::Vector3d low_corner = Eigen::Vector3d::Zero();
+  double step = 1;  ///< length of a grid step
 
   /// Returns a cube around all heads. On each side, the cube has a margin of a quarter of the
   /// heads' largest extent, because faces may extend beyond the heads.

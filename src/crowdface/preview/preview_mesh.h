@@ -22,7 +22,7 @@ struct PreviewMesh {
   std::vector<float> uvs;  ///< two per vertex; empty if there are no texture coordinates
   /// for each preview vertex: a polygon of the whole mesh that uses this vertex
   std::vector<std::uint32_t> face_of_vertex;
-  /// for each material that has triangles: the first triangle
+  /// for each material that has triangles: the index of its first triangle
   std::vector<std::uint32_t> material_starts;
 };
 

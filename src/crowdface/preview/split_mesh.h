@@ -21,7 +21,7 @@ struct SplitMesh {
     std::uint32_t vertex, uv, material;
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
-  std::vector<Corner> corners;  ///< distinct corners, ascending
+  std::vector<Corner> corners;  ///< distinct corners, sorted by (vertex, uv, material)
   /// for each corner, the first polygon with this corner (several polygons may share a corner)
   std::vector<std::uint32_t> face_of_corner;
   std::vector<Triangle> triangles;  ///< indices into `corners`

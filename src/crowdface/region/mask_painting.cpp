@@ -223,7 +223,8 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;
-    // First paint the polygons whose first corner has priority, then the other polygons.
+    // First paint the polygons whose first corner has priority (`has_priority`), then the other
+    // polygons. A later polygon does not paint over an earlier one.
     for (const bool is_first_pass : {true, false}) {
       for (const Index f : faces) {
         const auto corners = topology.face(f), face_uvs = topology.face_uvs(f);

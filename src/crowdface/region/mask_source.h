@@ -32,7 +32,7 @@ class MaskSource {
 
  private:
   std::string path_;
-  std::optional<Image> image_;
+  std::optional<Image> image_;  ///< only for an image that was in memory from the start
 };
 
 /// The indices of the channels of an image that hold masks: all channels except alpha, in order.

@@ -219,7 +219,7 @@ void check_channels(const std::vector<MaskSource>& sources, const std::vector<Lo
   }
 }
 
-/// Indices of the mask and of the channel in it that hold a region's weights.
+/// The index of the mask that holds a region's weights, and the index of the channel in this mask.
 struct RegionChannel {
   std::size_t mask = 0, channel = 0;
 };

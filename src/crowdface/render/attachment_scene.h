@@ -32,11 +32,13 @@ class AttachmentScene {
   HitSurface surface_at(const RayHit& hit) const;
 
  private:
+  /// One attachment in the scene.
   struct Part {
     const AttachmentSurface* surface;
-    std::uint32_t first_quad;
+    std::uint32_t first_quad;  ///< index of the attachment's first quad in `quads_`
     LinearRgb tint;
   };
+  /// Returns the attachment to which a quad of the scene belongs.
   const Part& part_of(std::uint32_t quad) const;
 
   std::vector<Part> parts_;

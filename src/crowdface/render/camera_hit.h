@@ -9,10 +9,11 @@
 
 namespace crowdface {
 
-/// Weighted numbers of the shadow rays that were traced from a surface point towards one light.
+/// Results of the shadow rays from a surface point towards one light. The numbers of rays are
+/// weighted sums if the results of several points are added.
 struct Visibility {
   float unblocked_rays = 0;  ///< number of rays that reached the light
-  float traced_rays = 0;     ///< number of all rays
+  float traced_rays = 0;     ///< number of rays traced
 
   void add(const Visibility& other, float weight) {
     unblocked_rays += weight * other.unblocked_rays;

@@ -66,10 +66,11 @@ class WorkspacePool {
 
 /// The geometry that occludes light.
 struct Occluders {
-  std::vector<std::uint32_t> vertices;  ///< vertices of the mesh; empty: all
-  std::vector<Quad> quads;              ///< indices into `vertices`; empty: all quads of the mesh
-  /// x, y, z of each occluding vertex in the average face. Empty without an average face; then the
-  /// renderer builds a new scene for each face.
+  std::vector<std::uint32_t> vertices;  ///< occluding vertices of the mesh; empty: all vertices
+  /// occluding quads, as indices into `vertices`; empty: all quads of the mesh
+  std::vector<Quad> quads;
+  /// x, y, z of each occluding vertex in the average face. If empty, there is no average face, and
+  /// the renderer builds a new scene for each face.
   std::vector<float> typical;
 };
 

@@ -25,7 +25,7 @@ struct RenderOptions {
   int key_light_rays = 3;
   /// Rays per pixel towards the sky. Fewer rays suffice, because the sky casts no sharp shadows.
   int sky_rays = 2;
-  bool ambient_occlusion = true;  ///< whether the sky's light is occluded (ambient occlusion)
+  bool ambient_occlusion = true;  ///< whether surfaces block light from the sky
   Axis front = {2, 1};            ///< viewing direction of the eyes, for painted irises
 };
 

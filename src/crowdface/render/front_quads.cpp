@@ -160,8 +160,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     hn::VFromD<decltype(lanes)> left, top, right, bottom;
     hn::LoadInterleaved4(lanes, ends + 4 * i, left, top, right, bottom);
     // Move the origin of the boxes from the upper left corner of the image to the upper left corner
-    // of the rim around the image. Enlarge the boxes by kBoxMargin, and clip them to the outer edge of
-    // the rim.
+    // of the rim around the image. Enlarge the boxes by kBoxMargin, and clip the boxes to the outer
+    // edge of the rim.
     left = hn::Add(left, hn::Set(lanes, kRimWidth - kBoxMargin));
     top = hn::Add(top, hn::Set(lanes, kRimWidth - kBoxMargin));
     right = hn::Add(right, hn::Set(lanes, kRimWidth + kBoxMargin));
@@ -173,8 +173,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     top = hn::Max(top, zero);
     right = hn::Min(right, most);
     bottom = hn::Min(bottom, most);
-    // Round the box to pixels. Find the last square whose area with rim overlaps the box, and
-    // compute the box relative to the corner of this area.
+    // Round the box to pixels. Find the last square that, with its rim, overlaps the box. Compute
+    // the box relative to the upper left corner of this square's rim.
     const auto l = pixel(left), t = pixel(top), r = pixel(right), b = pixel(bottom);
     const auto column = last_square(r), row = last_square(b);
     const auto x = hn::ShiftLeft<kLog2SquareSide>(column), y = hn::ShiftLeft<kLog2SquareSide>(row);

@@ -58,7 +58,7 @@ class PixelSamples {
 
   const std::vector<Eigen::Vector2f>& positions() const { return positions_; }
   std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
-  /// All x coordinates, followed by kMaxLanes NaNs as padding. y() is like x().
+  // The x (or y) coordinates of all samples, followed by kMaxLanes NaNs as padding.
   const float* x() const { return x_.data(); }
   const float* y() const { return y_.data(); }
 

@@ -47,7 +47,7 @@ struct HeadScene {
   std::vector<EyeballSphere> eyes;
   Eigen::Vector3f gaze;
   const AttachmentScene* attachments;  ///< attachments, or nullptr
-  bool ambient_occlusion;              ///< whether the sky's light is occluded
+  bool ambient_occlusion;              ///< whether surfaces block light from the sky
   Eigen::Vector3f viewer_position;     ///< position of the camera
 
   Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {

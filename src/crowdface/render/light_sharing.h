@@ -42,6 +42,7 @@ class PixelVisibility {
   static std::size_t index(int x, int y) {
     return static_cast<std::size_t>(y + 1) * kStride + static_cast<std::size_t>(x + 1);
   }
+  /// Returns the values of a PointVisibility field; index() gives the position of a pixel's value.
   float* list(int field) { return field_values_.data() + static_cast<std::size_t>(field) * kSize; }
   const float* list(int field) const {
     return field_values_.data() + static_cast<std::size_t>(field) * kSize;

@@ -187,8 +187,8 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kMovable;
-  // Robust mode avoids gaps along edges. Scenes with kMovable do not use robust mode, because they
-  // only cast shadows, where gaps are not visible.
+  // Robust mode avoids gaps along edges. Scenes with kMovable do not use robust mode: these scenes
+  // are used only for shadows, and gaps are not visible in shadows.
   rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
   // Embree refits trees only in scenes of low build quality. The scene's quality affects only how
   // the trees of several geometries are joined, and this scene has one geometry.
@@ -197,8 +197,8 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
     state.geometry =
         rtcNewGeometry(state.device, moves ? RTC_GEOMETRY_TYPE_TRIANGLE : RTC_GEOMETRY_TYPE_QUAD);
     if (moves) {
-      // Embree 4.3 has a bug: rays pass through a refitted tree over quads. A tree over triangles
-      // works.
+      // Work around a bug of Embree 4.3: after refitting a tree of quads, rays miss the quads.
+      // Trees of triangles are not affected.
       state.triangles = split(quads);
       rtcSetGeometryBuildQuality(state.geometry, RTC_BUILD_QUALITY_REFIT);
       rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,

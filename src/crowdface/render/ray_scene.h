@@ -54,8 +54,8 @@ using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;
 /// Quads for ray queries. Queries are thread-safe; set_points is not.
 class RayScene {
  public:
-  /// kStatic: a tree of high quality. kMovable: a tree that set_points can refit quickly; rays may
-  /// slip through between quads, and only `occluded` is available.
+  /// kStatic: a tree of high quality. kMovable: a tree that set_points can refit quickly; a ray may
+  /// pass between two adjacent quads, and `nearest_hits` is not available.
   enum class Tree { kStatic, kMovable };
 
   /// \param points  x, y, z of each vertex; the scene keeps them.
@@ -70,10 +70,10 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  /// Sets new positions of all vertices and refits the tree. At 1.2 million vertices this takes a
-  /// fifteenth of the time of building the tree. Tracing stays as fast as with the first points if
-  /// the new points resemble them. The structure of the tree depends only on the first points, not
-  /// on earlier calls.
+  /// Sets new positions of all vertices and refits the tree. At 1.2 million vertices, refitting
+  /// takes a fifteenth of the time of building the tree. Tracing stays as fast as with the first
+  /// points if the new points resemble the first points. The structure of the tree depends only on
+  /// the first points, not on earlier calls.
   /// \param points  as many points as before. On return, holds the buffer of the previous points,
   ///   for reuse.
   void set_points(std::vector<float>& points);

@@ -33,7 +33,7 @@ struct PixelRectangle {
 class ScreenQuads {
  public:
   /// Replaces and projects the quads. Quads that extend behind the camera are skipped.
-  /// \param points  x, y, z of each vertex. Like `quads`, they must outlive the queries.
+  /// \param points  x, y, z of each vertex. `points` and `quads` must outlive the queries.
   /// \param size    side of the image, in pixels
   void project(const std::vector<float>& points, const std::vector<Quad>& quads, float distance,
                int size);
@@ -42,7 +42,7 @@ class ScreenQuads {
   /// RayHit::distance is the length of the ray from the camera to the plane z = 0.
   /// \param square  column and row of the square
   /// \param pixels  rectangle of pixels inside the square and its rim
-  /// \param samples  sample positions of each of these pixels, or null for no samples
+  /// \param samples  for each pixel of the rectangle: the sample positions, or null for no samples
   /// \param hits    result, one for each sample, pixel by pixel
   void nearest_hits(std::array<int, 2> square, const PixelRectangle& pixels,
                     std::span<const PixelSamples* const> samples,

@@ -62,8 +62,8 @@ class ShadeBatch {
 
  private:
   std::size_t count_ = 0;
-  std::vector<float> points_;  ///< [block][field][point]
-  std::vector<float> lights_;  ///< [block][channel][point]
+  std::vector<float> points_;  ///< all fields of all points, indexed as [block][field][point]
+  std::vector<float> lights_;  ///< radiance of all points, indexed as [block][channel][point]
 };
 
 }  // namespace crowdface

@@ -20,7 +20,8 @@ enum class SurfaceKind : std::uint8_t {
   kTeeth,
   kGums,        ///< gums and tongue
   kAttachment,  ///< attachment with colours of its own: hair, glasses
-  /// Not rendered: lashes, tear fluid, and shells that only a texture would make transparent.
+  /// Not rendered: lashes, tear fluid, and transparent shells such as the cornea, which would look
+  /// opaque without a texture.
   kHidden,
 };
 

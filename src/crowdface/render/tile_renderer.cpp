@@ -116,9 +116,9 @@ TileMemory& tile_memory() {
   return memory;
 }
 
-/// One square of the image with a rim of two pixels. The shadow rays of the rim's inner ring also
-/// count for the pixels of the square. The outer ring is used only to detect edges in the inner
-/// ring.
+/// One square of the image with a rim of two pixels. The pixels of the square also use the results
+/// of the shadow rays from the inner ring of the rim. The outer ring of the rim is used only to
+/// detect edges in the inner ring.
 class Tile {
  public:
   Tile(const HeadScene& scene, const Sampling& sampling, int left, int top, int size)
@@ -280,8 +280,8 @@ class Tile {
 
   /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, where `disc` is a point of
   /// the unit disc. Consecutive rays have the same `disc`, so that their directions are similar.
-  /// A pixel without variation traces `directions.rays_per_pixel()` rays, spread over the pixel's
-  /// hits. A pixel with variation traces at least one ray per hit.
+  /// A pixel with PixelVariation::kNone gets `directions.rays_per_pixel()` rays, spread over the
+  /// hits of the pixel. Any other pixel gets at least one ray per hit.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
@@ -416,7 +416,9 @@ class Tile {
   }
 
   /// Computes the visible fractions of the key light and of the sky at `count` points with
-  /// filter_visibility. \param x, y, consecutive  pixel of the points, see filter_visibility
+  /// filter_visibility.
+  /// \param x, y         pixel that all points share; with `consecutive`, pixel of the first point
+  /// \param consecutive  whether the points lie in consecutive pixels of a row
   void share(const PointLists& points, std::size_t count, int x, int y, bool consecutive,
              VisibleFractions& shares) {
     shares.key.resize(count + kMaxLanes);

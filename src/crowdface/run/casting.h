@@ -57,7 +57,8 @@ struct FamilyReport {
   std::optional<double> fraction_of_strangers_nearer_than_parent;
 };
 
-/// The result of casting: the faces of a crowd, and the heads' positions on the weight plane.
+/// The result of casting: the faces of a crowd, and the heads' positions on the weight plane. The
+/// position of a face's region on this plane determines the weights of the heads in the region.
 struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads: position of each head on the weight plane
   std::vector<FacePlan> crowd;      ///< the faces, with their nearest neighbours

@@ -72,7 +72,7 @@ Json groups_to_json(const std::vector<Group>& groups, const CrowdPlan& crowd_pla
   return json;
 }
 
-/// The number of faces per tag. A face counts with the tags of its typical head (see typical_head).
+/// The number of faces per tag. A face counts for each tag of its typical head (see typical_head).
 Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   Json json = Json::object();
   for (const FacePlan& face : crowd_plan.crowd) {

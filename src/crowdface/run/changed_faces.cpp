@@ -128,7 +128,7 @@ class ChangedLooks {
 
   /// Returns the changed face with its colours and attachments. If a later review made casting
   /// sample this face again, the crowd has no colours and attachments for the earlier version of
-  /// the face. In this case, this function chooses both anew.
+  /// the face. In this case, this function chooses new colours and attachments.
   FacePlan look_of(const ChangedFace& changed) const {
     const FacePlan& face = changed.face;
     const auto now = std::ranges::find(crowd_, face.id, &FacePlan::id);

@@ -92,8 +92,8 @@ class MaterialCopies {
   }
 
   /// Returns one warning per problem; each warning names the heads that have the problem.
-  /// \param earlier_warnings  earlier warnings. The result omits a problem that is in `earlier_warnings`, even if this
-  ///              object has found it in additional heads.
+  /// \param earlier_warnings  the result omits each problem that one of these warnings mentions,
+  ///              even if this object has found the problem in additional heads.
   std::vector<std::string> warnings(const std::vector<std::string>& earlier_warnings) const {
     std::vector<std::string> warnings;
     for (const auto& [warning, heads] : heads_of_warning_) {

@@ -14,8 +14,8 @@ namespace crowdface {
 /// Copies material files and textures into the folder of meshes. Copies the files of all target
 /// heads if OBJ files refer to these files. Copies the files of attachments if separate attachment
 /// files or USD layers refer to these files.
-/// \return the warnings that are not yet in the inputs' list, without duplicates. Each warning
-///         names the heads that it is about. Warnings are also logged.
+/// \return warnings about problems that `inputs.warnings` does not mention, one warning per
+///         problem. Each warning names the affected heads. Warnings are also logged.
 std::vector<std::string> copy_materials(const Config& config, const Inputs& inputs,
                                         const CrowdDirectory& directory,
                                         const std::vector<FacePlan>& crowd, Ledger& ledger);

@@ -62,8 +62,8 @@ class FaceBuilder {
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
-  /// How far the gap between the lips (or between other skin surfaces that almost touch) exceeds
-  /// the widest gap of any head, in mm; the maximum over all places.
+  /// A contact is a pair of skin surfaces that almost touch, such as the lips. Returns the largest
+  /// excess, over all contacts, of the face's gap over the widest gap of any head, in mm.
   double gap_excess_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory in bytes for building the given number of faces at once, including the memory for the
@@ -78,7 +78,7 @@ class FaceBuilder {
   const MirrorMap& mirror() const;
   /// Returns, for each contact, the allowed range of the gap: the smallest range that contains the
   /// gap of the target head and, for each band, the weighted mean of the gaps of the source heads.
-  /// If the recipe changes the asymmetry, see also include_mirrored_gap_ranges.
+  /// If the recipe changes the asymmetry, include_mirrored_gap_ranges extends the ranges.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   /// Extends the gap range of each contact to include the gap range of the mirrored contact.
   void include_mirrored_gap_ranges(std::vector<SkinContacts::Range>& ranges) const;

@@ -23,6 +23,7 @@ struct FaceFinisher {
   /// Completes a blended face: adds shapes, attachments, textures and renders. The renders are the
   /// same whether the positions come from blending or from the face's mesh file. Thread-safe.
   /// \param face  must not move in memory afterwards
+  /// \param busy  time of each stage, to which this function adds the time that the stage takes
   void finish(FinishedFace& face, StageTimes& busy) const;
 
  private:

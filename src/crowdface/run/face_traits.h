@@ -31,8 +31,8 @@ class FaceTraits {
 
  private:
   /// The mesh to measure. kBent: the face as written, moved onto the body and bent at the neck to
-  /// fit it. kAsBlended: the face before these steps. Casting uses kAsBlended, so that a body does
-  /// not change the recipes.
+  /// fit the body. kAsBlended: the face before these steps. Casting uses kAsBlended, so that a body
+  /// does not change the recipes.
   enum class NeckState { kBent, kAsBlended };
   /// Computes the positions that the landmarks have on the selected mesh of the face.
   Positions exact_landmarks(const Recipe& recipe, NeckState neck) const;

@@ -68,8 +68,8 @@ class FaceWriter {
   std::uint64_t max_waiting_bytes_;
   std::function<void()> on_recorded_;
   std::mutex mutex_;
-  std::condition_variable changed_;
-  Batch waiting_;
+  std::condition_variable changed_;  ///< notified when a member below changes
+  Batch waiting_;                    ///< faces and files that wait to be written
   bool is_writing_ = false, is_closing_ = false;
   std::exception_ptr error_;
   double busy_seconds_ = 0;

@@ -31,7 +31,7 @@ inline const ColourRows kNoColours;
 struct FaceMesh {
   std::string id;            ///< "market_0001", at a level of detail "market_0001_LOD1"
   std::string display_name;  ///< the name of the mesh in messages
-  Index target = 0;
+  Index target = 0;          ///< index of the head that the face is built on
   const Positions* positions = &kNoPositions;  ///< #V by 3
   const Positions* normals = &kNoPositions;    ///< #V by 3; no rows if no encoder needs them
   std::span<const Displacements> moves = {};   ///< one per shape, or none
@@ -124,7 +124,8 @@ struct MeshSize {
 /// Approximate total size, in bytes, of a face's files in these formats.
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshFormat> formats);
 
-// One function per format, called by make_mesh_encoders. Each makes the encoders of its format.
+// One function per format, called by make_mesh_encoders. Each function makes the encoders of its
+// format.
 MeshEncoders obj_encoders(const MeshSource& source);
 MeshEncoders ply_encoders(const MeshSource& source);
 MeshEncoders glb_encoders(const MeshSource& source);

@@ -49,7 +49,7 @@ std::string library_line(const std::vector<MaterialFile>& files,
 }
 
 /// Returns two sizes in bytes: the memory of all converted meshes together, and the maximum memory
-/// for encoding one of them.
+/// for encoding one mesh.
 template <class Templates, class TemplateOf>
 std::pair<std::size_t, std::size_t> sizes_of(const Templates& templates,
                                              const TemplateOf& template_of) {

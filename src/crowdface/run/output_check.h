@@ -16,15 +16,16 @@ void check_output(const Job& job, Replace replace);
 /// \throws UsageError, CannotCreate, IoError.
 void prepare_output_folder(const Job& job, Replace replace);
 
-/// Refuses to replace a crowd that was cast from other heads or masks than this job's, because the
-/// run could not make that crowd again.
-/// \throws UsageError if the folder holds such a crowd and `replace` is not kForce.
+/// Refuses to replace a crowd that was cast from heads or masks other than this job's heads and
+/// masks, because the run could not make the old crowd again.
+/// \throws UsageError if the folder holds a crowd with other heads or masks, and `replace` is not
+///         kForce.
 /// \param settings  this job's settings_digest
 void refuse_other_heads(const Digest& settings, const CrowdDirectory& directory, Replace replace);
 
 /// Compares the inputs with the report in the folder.
-/// \throws UsageError if the faces in the folder have other textures, attachments, shapes, points
-/// or another rig than these inputs.
+/// \throws UsageError if the textures, attachments, shapes, points or rig of the faces in the
+///         folder differ from the inputs.
 void refuse_other_inputs(const Inputs& inputs, const CrowdDirectory& directory);
 
 }  // namespace crowdface

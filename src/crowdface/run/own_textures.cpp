@@ -94,8 +94,8 @@ std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
 }
 
 /// The file formats in which a face's image is written. Colour images use the config's formats.
-/// Other kinds of images use PNG instead of JPEG, because JPEG would blur the values. Height maps
-/// that some head stores as floats use only EXR.
+/// Other kinds of images use PNG instead of JPEG, because JPEG would blur the values. A height
+/// map that at least one head stores as floats uses only EXR.
 std::vector<TextureFormat> formats_of(const Config& config, const PictureName& picture) {
   if (picture.kind == TextureKind::kColour) return config.textures.formats;
   const bool is_height =

@@ -82,8 +82,8 @@ void check_sampling(const SamplingOptions& sampling, const std::string& where, c
   }
 }
 
-/// Warns about bands that begin at 0 smoothing iterations in every region; such a band contains no
-/// detail.
+/// Warns about each band that begins at 0 smoothing iterations in every region, and therefore
+/// contains no detail.
 std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Config& config,
                                      const Inputs& inputs) {
   std::vector<std::string> warnings;

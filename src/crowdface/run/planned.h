@@ -24,8 +24,9 @@ using WriteFile = std::function<FileDigest(const std::filesystem::path& path, co
 HeadTagsAndAttachmentKinds head_tags_and_attachment_kinds(const Config& config);
 
 /// Writes the plan of a cast crowd, the table crowd.csv, the founders, the rejected faces and
-/// casting.json. Then writes a marker file, which shows that the plan is complete, and to which job
-/// the plan belongs. The marker file lists the other files (except crowd.csv) and their hashes.
+/// casting.json. Then writes a marker file, which shows that the plan is complete. The marker file
+/// contains a hash that identifies the job, and the names and hashes of the other files (except
+/// crowd.csv).
 /// \param casting  content of casting.json
 /// \param neck_colours  see table_text
 void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan& crowd_plan,

@@ -17,9 +17,9 @@
 
 namespace crowdface {
 
-/// report.json: constraints and results, versions, and hashes of all inputs. The file contains no
-/// times and no machine names, so that the same inputs give the same bytes. The arguments must
-/// outlive the text.
+/// Returns the text of report.json: constraints and results, versions, and hashes of all inputs.
+/// The file contains no times and no machine names, so that the same inputs give the same bytes.
+/// The arguments must outlive the text.
 /// \param casting  content of casting.json
 /// \param faces    results, one per face of the crowd
 /// \param lists    lists the files of each face

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Warns during casting that a crowd may not reach the requested number of faces. Warns as early as
-/// possible and only once.
+/// During casting by first-fit sampling, warns that a crowd may not reach the requested number of
+/// faces. Logs two messages, each at most once: that candidates are scarce, and the warning.
 class ScarcityWarning {
  public:
   /// \param casting  must outlive this object.

@@ -222,7 +222,7 @@ std::string parallel_script(const TaskJob& job, const JobEngineOptions& options)
   std::string script(kHead);
   script += "set -euo pipefail\n";
   script += assign("folder", job.directory.cluster_task_folder().string());
-  // The command that runs a task in a shell on any machine.
+  // Assign the shell command that runs a task. The command is the same on every machine.
   script += assign("task", "bash " + shell_word(script_of(job).string()));
   script += concat("prepares=", job.prepare_task_count, " shards=", job.shard_count, "\n");
   script += concat(

@@ -22,8 +22,8 @@ namespace crowdface {
 /// An empty value means that the option was not given.
 struct WrapOptions {
   std::string template_file;  ///< the template
-  std::string scan;           ///< a scan; `out` is then the head to write
-  std::string batch;          ///< a folder of scans; `out` is then a folder
+  std::string scan;   ///< file of one scan; if given, `out` is the file of the head to write
+  std::string batch;  ///< folder of scans; if given, `out` is the folder of the heads to write
   std::string out, landmarks, template_landmarks, model;
   std::string ignored_area_mask;  ///< mask of the template's areas that the fit ignores
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
@@ -39,10 +39,10 @@ inline constexpr const char* kNoLandmarks = "none";
 
 /// The inputs of a run that are equal for all scans.
 struct WrapInputs {
-  ObjFile file;             ///< the template
-  double mm_per_unit = 10;  ///< millimetres per unit of the template
-  HeadFrame frame;
-  std::optional<PoseHint> hint;
+  ObjFile file;                  ///< the template
+  double mm_per_unit = 10;       ///< millimetres per unit of the template
+  HeadFrame frame;               ///< up and front axes of the template
+  std::optional<PoseHint> hint;  ///< up and front directions of the scans; empty if unknown
   WrapTemplate wrap_template;
   SkinRegions regions;               ///< regions of the template's skin
   std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology

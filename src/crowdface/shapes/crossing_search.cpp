@@ -17,7 +17,8 @@ namespace crowdface {
 namespace {
 
 /// Two triangles that are at most kSheetRings edges apart are tested for intersection only if the
-/// cosine between their normals is at most kSimilarNormalCosine, because only folded surface intersects itself.
+/// cosine between their normals is at most kSimilarNormalCosine, because a surface that is not
+/// folded does not intersect itself.
 constexpr int kSheetRings = 3;
 constexpr float kSimilarNormalCosine = 0.998F;
 

@@ -26,7 +26,7 @@ class CrossingSearch {
   ///                   least `max_distance`.
   ///
   /// Two triangles that are connected by a few edges are tested only if their normals differ,
-  /// because only folded surface intersects itself there.
+  /// because a surface that is not folded does not intersect itself.
   CrossingSearch(std::vector<Triangle> triangles, const Positions& mesh, double max_distance,
                  double max_facing_distance);
 
@@ -37,8 +37,8 @@ class CrossingSearch {
     FloatPositions points;                  ///< #vertices of the triangles by 3
     std::vector<LeafBoxes> triangle_boxes;  ///< #leaves
     std::vector<LeafNormals> leaf_normals;  ///< #leaves
-    std::vector<Box> leaf_boxes;
-    std::vector<std::uint8_t> is_changed;  ///< whether each leaf changed since the last search
+    std::vector<Box> leaf_boxes;            ///< #leaves
+    std::vector<std::uint8_t> is_changed;   ///< whether each leaf changed since the last search
   };
   Boxes make_boxes(const Positions& mesh) const;
   /// Updates the boxes after vertices moved.
@@ -57,8 +57,8 @@ class CrossingSearch {
   /// Bit masks of the candidates in a pair of leaves, or in one leaf that is paired with itself.
   /// Bit 8·i + j stands for triangle i of the first leaf and triangle j of the second leaf.
   struct LeafPair {
-    std::uint32_t first, second;
-    std::uint64_t always_tested_mask;
+    std::uint32_t first, second;       ///< indices of the two leaves
+    std::uint64_t always_tested_mask;  ///< pairs of triangles that every search tests
     /// pairs of triangles that are a few edges apart, tested only if their normals differ
     std::uint64_t tested_if_normals_differ_mask;
   };
@@ -68,7 +68,7 @@ class CrossingSearch {
 
   std::vector<Triangle> triangles_;
   std::vector<std::uint32_t> vertices_;  ///< vertices of the triangles, ascending
-  TriangleTree tree_;                    ///< indexes vertices by their position in `vertices_`
+  TriangleTree tree_;                    ///< its vertex indices refer to `vertices_`
   std::vector<LeafPair> leaf_pairs_;     ///< pairs of leaves with candidates, ascending
 };
 

@@ -22,8 +22,8 @@ constexpr double kPatch = 0.1;      // radius of the patch that determines a nod
 /// similarity transform of the whole skin, with a small weight. The weight is this fraction of the
 /// patch's scatter (sum of squared distances from the patch's mean).
 constexpr double kRegularisation = 0.02;
-/// Largest numbers of vertices in use: kMaxSkin in the fit of the whole skin, kMaxCandidates as
-/// possible nodes, kMaxPatch in the patch around a node.
+/// Maximum numbers of vertices: kMaxSkin in the fit of the whole skin, kMaxCandidates among which
+/// nodes are chosen, kMaxPatch in the patch around a node.
 constexpr std::size_t kMaxSkin = 4000, kMaxCandidates = 20000, kMaxPatch = 400;
 
 /// Farthest-point sampling. Repeatedly adds the vertex that is farthest from the chosen vertices,

@@ -27,6 +27,7 @@ class FrameField {
   FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
              std::span<const std::uint32_t> vertices);
 
+  /// The data of one face from which `map_at` interpolates the linear maps.
   struct Frames {
     RigidMotion face_motion;                 ///< motion from the template to the face
     std::vector<Eigen::Matrix3d> node_maps;  ///< linear map at each node
@@ -40,7 +41,7 @@ class FrameField {
   /// A vertex of the skin around a node.
   struct Sample {
     std::uint32_t vertex;
-    Eigen::Vector3d weight_vector;  ///< w in the formula of Node
+    Eigen::Vector3d weight_vector;  ///< w of the sum Σ d·wᵀ, see Node
   };
   /// The map of a node is the matrix Σ d·wᵀ + R·W:
   ///
@@ -52,7 +53,7 @@ class FrameField {
     Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// W, the weight of R in the formula above
+    /// W of the term R·W
     Eigen::Matrix3d similarity_weight_matrix;
   };
   struct NodeWeight {

@@ -16,21 +16,22 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the eyeball's radius, about 12 mm. Distances from the eyeball's centre:
-// skin closer than kFullMotionRadius moves fully with the lid; skin farther than kNoMotionRadius does not move.
+// skin closer than kFullMotionRadius moves fully with the lid; skin farther than kNoMotionRadius
+// does not move.
 constexpr double kFullMotionRadius = 1.8, kNoMotionRadius = 3;
-// Distances from the eyeball's surface: skin closer than kFullCorrectionGap is kept outside the eyeball;
-// this correction fades out until kNoCorrectionGap.
+// Distances from the eyeball's surface. Skin closer than kFullCorrectionGap is kept outside the
+// eyeball. Farther away, this correction fades, and ends at kNoCorrectionGap.
 constexpr double kFullCorrectionGap = 0.27, kNoCorrectionGap = 0.6;
 constexpr std::size_t kSections = 52;  // number of sections along the opening
 constexpr double kProfile = 0.35;      // radius of the profile around each section
 constexpr double kBlur = .12;          // width of the kernel that blends sections
-// A blend shape closes the lids at a section of the eye's opening if it narrows the gap between the
-// lids there by at least this length.
+// A blend shape closes the lids at a section of the eye's opening if the shape narrows the gap
+// between the lids there by at least this length.
 constexpr double kMinClosed = 0.05;
 /// A shape closes the lids only if at most this fraction of the template's gap at rest remains.
 constexpr double kMaxRemaining = 0.4;
-// Smallest allowed distance between a lid and the eyeball. A lid may be nearer to the eyeball if it
-// is nearer on the template with the blend shape applied, or on the face at rest.
+// Smallest allowed distance between a lid and the eyeball. A lid may be nearer to the eyeball if
+// the lid is nearer on the template with the blend shape applied, or on the face at rest.
 constexpr double kMargin = 0.004;
 /// Largest allowed depth of skin in the eyeball, as a fraction of the eyeball's radius. Skin that
 /// is deeper at rest may stay that deep.
@@ -124,8 +125,8 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   }
 }
 
-/// Moves the lid vertices that belong to profiles to the front of the list. While `fit_lids`
-/// searches for the gains, it moves only these vertices.
+/// Moves the lid vertices that belong to profiles to the front of lid_vertices_. The search
+/// for the gains in `fit_lids` moves only these vertices.
 void LidClosure::move_profile_vertices_to_front() {
   std::set<std::uint32_t> rows;
   for (const LidSection& section : sections_) {

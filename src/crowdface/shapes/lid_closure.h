@@ -58,8 +58,8 @@ class LidClosure {
   /// Returns whether the shape leaves this eye's lids unmoved.
   bool empty() const { return lid_vertices_.empty(); }
 
-  /// Gap between the rims of both lids at one section across the opening; negative if the upper lid
-  /// is below the lower lid.
+  /// Two measures of the gap between the rims of both lids, at one section across the eye's
+  /// opening. Both are negative if the upper lid is below the lower lid.
   struct Gap {
     /// gap between the two rim points of the section, which lie above each other on the template
     double section_gap;
@@ -113,11 +113,13 @@ class LidClosure {
 
  private:
   /// A point of a lid's profile, on an edge of the mesh. `row_a` and `row_b` are the rows of the
-  /// edge's ends in the shape; kNoIndex for an end that the shape does not move.
+  /// edge's two ends in the shape's displacements; kNoIndex for an end that the shape does not
+  /// move.
   struct ProfilePoint {
     EdgePoint edge;
     std::uint32_t row_a, row_b;
   };
+  /// A section across the eye's opening, where both lids are cut by a plane.
   struct LidSection {
     std::vector<ProfilePoint> lower_profile, upper_profile;
     double along_opening;  ///< position along the lid opening
@@ -133,8 +135,8 @@ class LidClosure {
     double along_opening, height;
   };
   struct LidVertex {
-    std::uint32_t row, vertex;
-    std::uint32_t skin_index;  ///< index in the list of skin vertices around the eye
+    std::uint32_t row, vertex;  ///< row in the shape's displacements, and the vertex of this row
+    std::uint32_t skin_index;   ///< index into TemplateEye::skin_vertices
     /// how strongly closing moves this vertex: 1 near the eye, less farther away
     double closing_weight;
     /// how strongly the vertex is kept outside the eyeball: 1 near the eyeball's surface, 0 far
@@ -162,9 +164,10 @@ class LidClosure {
   /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
                            const LidTargets& targets) const;
-  /// Moves each of the first `count` lid vertices along the eyeball's normal, to the larger of two
-  /// distances: the distance at rest plus the target change, and min_ball_distance. Multiplies the
-  /// movement by `eyeball_weight`.
+  /// Moves each of the first `count` lid vertices along the eyeball's normal towards a wanted
+  /// distance from the eyeball. The wanted distance is the larger of two distances: the distance at
+  /// rest plus the target of the distance's change, and min_ball_distance. The movement is
+  /// multiplied by `eyeball_weight`.
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
@@ -172,15 +175,15 @@ class LidClosure {
   /// upper lid's profile (`sign` = −1), after the displacements `moves`.
   static RimPoint rim_point(const std::vector<ProfilePoint>& points, double sign,
                             const EyeAxes& axes, const Positions& face, const Positions& moves);
-  /// Returns one value for each section: the larger excess of the section's two gaps over their
-  /// targets. A negative target of Gap::vertical_gap counts as 0.
+  /// Each section has two gaps, section_gap and vertical_gap. Returns, for each section, the larger
+  /// of the two differences between gap and target. A negative target of vertical_gap counts as 0.
   static std::vector<double> gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
                                           double scale);
   std::vector<Gap> measure_gaps(const EyeAxes& axes, const Positions& face,
                                 const Positions& moves) const;
 
   HeadAxes axes_;
-  double radius_ = 0;
+  double radius_ = 0;  ///< radius of the template's eyeball
   std::vector<LidSection> sections_;
   std::vector<LidVertex> lid_vertices_;
   /// number of lid vertices that belong to profiles; these come first in lid_vertices_

@@ -78,9 +78,9 @@ Socket PointCarrier::find_carrying_vertices(const Eigen::Vector3d& point, const 
       return whole(part.vertices);
     }
   }
-  // A point follows the skin vertices that are at most 1.5 times as far away as the nearest skin
-  // vertex, but at least 60 vertices. So a point deep inside the head follows the skin on all
-  // sides.
+  // A point follows the skin vertices that are at most kMaxDistanceRatio times as far away as the
+  // nearest skin vertex. If there are fewer than kMin of these vertices, the point follows the kMin
+  // nearest skin vertices. So a point deep inside the head follows the skin on all sides.
   constexpr double kMaxDistanceRatio = 1.5;
   constexpr std::size_t kMin = 60;
   std::vector<std::pair<double, std::uint32_t>> by_distance;

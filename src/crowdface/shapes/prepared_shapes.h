@@ -72,8 +72,8 @@ struct PreparedShape {
   /// only for a corrective shape: index of its prerequisite, see find_prerequisites. Lips and
   /// intersections are repaired after both shapes have been added.
   std::optional<std::size_t> prerequisite;
-  std::vector<std::uint32_t>
-      vertex_indices;  ///< for each row: index into PreparedShapes::moved_vertices
+  /// for each row: index into PreparedShapes::moved_vertices
+  std::vector<std::uint32_t> vertex_indices;
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
   std::vector<FloatPositions> head_moves;
@@ -82,7 +82,7 @@ struct PreparedShape {
   std::vector<LidFollower> lid_followers;
   SkinOverParts skin_over_parts;
   SkinCrossings::SearchedSkin searched_skin;
-  bool moves_contacts = false;
+  bool moves_contacts = false;  ///< whether the shape moves skin at a gap, see GapPreserver
   /// #sets by #gaps: how much the shape widens each gap between lips, divided by the scale of the
   /// mesh relative to the template; empty unless `moves_contacts`
   std::vector<std::vector<double>> gap_changes;
@@ -108,8 +108,8 @@ struct PreparedShapes {
   std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
   /// #moved_vertices by #regions: region weights of the skin nearest to each vertex
   RegionWeights::Alpha vertex_region_weights;
-  GapPreserver
-      gap_preserver;  ///< preserves gaps between skin surfaces that touch, such as the lips
+  /// preserves gaps between skin surfaces that almost touch, such as the lips
+  GapPreserver gap_preserver;
   RegionWeights::Alpha contact_region_weights;  ///< #gaps by #regions
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the bounding box of the template's skin
@@ -152,9 +152,10 @@ struct PreparedShapes {
   void add_shape_sets();
   /// Returns the displacements of one shape in one set of shapes.
   Displacements shape_of_set(std::size_t set, std::size_t shape) const;
-  /// Adds to `prepared` the data of one set's shape: motions of parts, lids and lips, and
-  /// intersections to ignore.
-  /// \param rest  The mesh to which the shape is added.
+  /// Adds to `prepared` the data of this shape in one set of shapes: how the shape moves parts,
+  /// lids and lips, and which intersections to ignore.
+  /// \param rest   The mesh to which the shape is added.
+  /// \param shape  Displacements of the shape in this set.
   void add_data_of_set(const FaceFrames& face_frames, const Positions& rest,
                        const Displacements& shape, std::span<const FaceEye> face_eyes,
                        PreparedShape& prepared) const;

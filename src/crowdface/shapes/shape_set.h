@@ -55,7 +55,7 @@ Displacements mean_displacements(const std::vector<std::vector<OwnShape>>& head_
 
 /// The weight of one set of shapes in a blend of several sets.
 struct ShapeSetShare {
-  std::uint32_t set;    ///< index of the set
+  std::uint32_t set;    ///< index of the set of shapes
   double blend_weight;  ///< 0 to 1
 };
 using ShapeSetShares = std::vector<ShapeSetShare>;
@@ -64,7 +64,7 @@ using ShapeSetShares = std::vector<ShapeSetShare>;
 /// region sum to one.
 using RegionShares = std::vector<ShapeSetShares>;
 
-/// Returns the weights of the sets at a position that belongs to several regions.
+/// Returns the weights of the sets of shapes at a position that belongs to several regions.
 ///
 /// \param alpha  Weight of each region at the position; the weights sum to one.
 inline ShapeSetShares shape_set_weights_at(std::span<const double> alpha,

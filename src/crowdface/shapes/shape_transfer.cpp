@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of repair rounds. Another round follows only if a round moved lids into an
-/// eyeball or opened lids.
+/// Largest number of repair rounds. Another round follows only if the previous round moved
+/// lids into an eyeball or opened lids.
 constexpr int kMaxRepairs = 3;
 /// Cost of a gap of one eyeball radius between lids that should be closed. The unit is the cost of
 /// one intersecting triangle. The cost is high because a gap is visible, but an intersection of
@@ -273,7 +273,8 @@ bool FaceShape::keep_lids_out() {
 }
 
 /// Moves each lash by the correction of the lid skin to which the lash is bound.
-/// \param uncorrected_skin  displacements of the lid skin before the correction, from skin_of_followers.
+/// \param uncorrected_skin  displacements of the lid skin before the correction, from
+///   skin_of_followers.
 void FaceShape::move_lid_followers(const Positions& uncorrected_skin) {
   Index next = 0;
   for (const LidFollower& follower : shape_.lid_followers) {

@@ -21,15 +21,15 @@ struct PreparedShapes;
 /// normalised to the mean head.
 ///
 /// - Skin, and everything bound to the skin: displacements are multiplied by the local rotation and
-/// stretch from the template's skin to the face's skin (FrameField).
+///   stretch from the template's skin to the face's skin (FrameField).
 /// - Lids close as on the template and stay outside the eyeballs (LidClosure). Lashes follow the
-/// lids.
+///   lids.
 /// - Each rigid part (teeth or eyeball) rotates as in the shape, about the part's own centre. The
-/// part's translation is transferred like a displacement of the skin.
+///   part's translation is transferred like a displacement of the skin.
 ///
 /// The constructor computes everything that depends on the shapes only. If the face is the
-/// template, or a head with its own shapes, the results equal these shapes up to rounding. A result
-/// contains only vertices that the shape moves.
+/// template, or a head with its own shapes, the results equal the shapes of the template or of this
+/// head, up to rounding. A result contains only vertices that the shape moves.
 class ShapeTransfer {
  public:
   /// \param head_set    At least one head; must outlive this object.

@@ -15,25 +15,27 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. Two triangles may intersect on a face
-// if their distance in the template's shape is at most kMaxTemplateGap, or kMaxFacingTemplateGap if
-// they face each other.
+// if their distance on the template with the shape applied is at most kMaxTemplateGap, or
+// kMaxFacingTemplateGap if the triangles face each other.
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
-// Distances from intersections, measured at rest. Skin closer than kAveragedRadius gets the average of the
-// neighbouring displacements; skin farther than kUnchangedRadius keeps its displacements.
+// Distances from intersections, measured at rest. Skin closer than kAveragedRadius gets the average
+// of the neighbouring displacements; skin farther than kUnchangedRadius keeps its displacements.
 constexpr double kAveragedRadius = 0.002, kUnchangedRadius = 0.005;
 // size of the cells over which displacements are averaged
 constexpr double kCell = 0.003;
-constexpr double kGrowth = 0.08;  // growth of these lengths per round
-// arrange_as_template, which gives skin the template's front-to-back order, multiplies kAveragedRadius,
-// kUnchangedRadius and kCell by this factor.
+// growth of kAveragedRadius, kUnchangedRadius, kCell and kPushLength in each round, as a fraction
+// of their values in the first round
+constexpr double kGrowth = 0.08;
+// arrange_as_template, which gives skin the template's front-to-back order, multiplies
+// kAveragedRadius, kUnchangedRadius and kCell by this factor.
 constexpr double kArrangeFactor = 0.7;
 /// Averaging the displacements also changes the displacements of the lids. The vertical component
 /// of this change is multiplied by kLidHeightFactor, so that the eye stays closed.
 constexpr double kLidHeightFactor = 0.3;
-// kPushLength: length of the push in each round. kPushRadius: skin is pushed up to this distance from
-// intersections, measured at rest.
+// kPushLength: length of the push in each round. kPushRadius: skin is pushed up to this distance
+// from intersections, measured at rest.
 constexpr double kPushLength = 0.00015, kPushRadius = 0.004;
 constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds without improvement after which the repair of lids ends
@@ -127,8 +129,8 @@ class SkinCrossings::Repair {
     }
   }
 
-  /// Returns whether the current displacements cost less than in all earlier rounds. If so, stores
-  /// the displacements as the best.
+  /// Returns whether the current displacements cost less than the displacements of every earlier
+  /// round. If so, stores the current displacements as the best.
   bool is_best(const ExtraCost& extra_cost) {
     const double bad =
         static_cast<double>(crossing()) + (extra_cost ? extra_cost(shape_.moves) : 0);
@@ -240,7 +242,7 @@ class SkinCrossings::Repair {
   }
 
   /// Pushes the upper lid forward over the lower lid. Pushing the upper lid up would open the eye,
-  /// and pushing the lower lid back would move it into the eyeball.
+  /// and pushing the lower lid back would move the lower lid into the eyeball.
   void push_lids(const std::vector<Pair>& lids, double grown) {
     const Eigen::Vector3d &up = axes_.up, &front = axes_.front;
     std::map<std::uint32_t, Eigen::Vector3d> wanted;

@@ -38,8 +38,9 @@ class SkinCrossings {
     /// For each vertex: 1 for the upper lid and −1 for the lower lid if the shape closes this eye,
     /// 0 for other skin. Empty if the shape closes no eye.
     std::vector<signed char> lid_sides;
-    std::vector<DisplacementRow> skin_displacements;  ///< rows of the shape that are skin
-    /// #rows by 3: positions of the vertices of `rows` on the template with the shape applied
+    /// the rows of the shape's displacements whose vertices are skin
+    std::vector<DisplacementRow> skin_displacements;
+    /// #skin_displacements by 3: positions of these vertices on the template with the shape applied
     Positions shaped_positions;
     /// Whether the shape brings together skin that is far apart at rest. If so, intersecting skin
     /// gets the same front-to-back order as on the template.

@@ -20,7 +20,8 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 430 mm. kDepth: target depth of a covered
-// vertex below the skin. If the vertex is less deep on the template, that depth is the target.
+// vertex below the skin. If the vertex is less deep on the template, the depth on the template is
+// the target.
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
 // largest distance of a vertex behind the skin; vertices farther behind need no check
@@ -220,7 +221,8 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
     const Eigen::Vector3d point = row3(mesh, covered.vertex);
     const Corners over = corners_of(mesh, covered.covering_triangle);
     if ((over[0] - point).dot(normal_of(over)) > kNear * scale * extent_) continue;
-    // Find the skin that lies in front of this vertex in the new face.
+    // Find the foremost of the candidate triangles that overlap this vertex, seen from the front.
+    // `foremost`: distance of this triangle in front of the vertex; negative if behind.
     std::optional<double> foremost;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     for (const Triangle& triangle : covered.candidates) {
@@ -232,7 +234,8 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
     }
     const double facing = axes.front.dot(normal);
     if (!foremost || facing < kMinFrontCosine) continue;
-    // Push this skin forward if it is behind the covered vertex, or too close in front of it.
+    // Push the foremost triangle forward if this triangle is behind the covered vertex, or too
+    // close in front of the vertex.
     const double missing = scale * covered.depth - *foremost * facing;
     if (missing <= (1 - kTooNear) * scale * covered.depth) continue;
     const double by = std::min(missing, max_push[i]);

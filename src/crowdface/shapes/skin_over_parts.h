@@ -35,7 +35,7 @@ class SkinOverParts {
   ///
   /// \param rest   The mesh to which the shape is added, #V by 3.
   /// \param face_motion  Motion from the template to the face.
-  /// \param rows   Rows of the shape that are skin.
+  /// \param rows   Rows of `shape` whose vertices are skin.
   /// \param mesh   Equal to `rest`; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
   void keep_in_front(const Positions& rest, const RigidMotion& face_motion,
@@ -53,6 +53,7 @@ class SkinOverParts {
     double depth;  ///< wanted depth of the vertex below the skin
   };
 
+  /// A displacement of the skin at a position.
   struct Push {
     Eigen::Vector3d position, displacement;
   };

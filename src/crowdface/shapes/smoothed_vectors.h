@@ -32,7 +32,7 @@ class SmoothedVectors {
   };
   /// The vector to add to a sample's value.
   struct Change {
-    std::uint32_t index;
+    std::uint32_t index;  ///< Sample::index of the sample
     Eigen::Vector3d displacement;
   };
   /// Returns the changes for all samples whose distance to a centre is less than `outer_radius`.

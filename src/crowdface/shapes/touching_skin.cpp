@@ -17,8 +17,9 @@ namespace {
 // limits: kMaxContactGap, and kMaxContactGapEdges times the longest edge at the vertex.
 constexpr double kMaxContactGap = 0.02;
 constexpr double kMaxContactGapEdges = 1.6;
-/// The distance must also be at most kMoveFactor · a + kDifferenceFactor · b. Here a is the length of the
-/// larger displacement, and b is the length of the difference between both displacements.
+/// The distance between the two vertices must also be at most
+/// kMoveFactor · a + kDifferenceFactor · b. Here a is the length of the larger of the two vertices'
+/// displacements, and b is the length of the difference between the two displacements.
 constexpr double kMoveFactor = 4, kDifferenceFactor = 10;
 // the skin folds at an edge if the displacements of the edge's ends differ by more than this
 // fraction of the edge's length

@@ -17,13 +17,13 @@ namespace crowdface {
 /// evaluate on it. Rows are in the filter's row order (`ChebyshevFilter::vertex_of_row`).
 template <class T>
 struct FilterInput {
-  std::vector<Row<T>> values;  ///< x, #V rows
+  std::vector<Row<T>> values;  ///< the vector field x, #V rows
   /// coefficients a_k of each polynomial Σ_k a_k T_k(W) x to evaluate
   std::vector<ChebyshevSeries> series;
 };
 
-/// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. Any level at these
-/// vertices is a linear combination of the terms and needs no further filter pass.
+/// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. The positions of the
+/// probes at any level are linear combinations of the terms, so they need no further filter pass.
 struct RecordedTerms {
   std::vector<std::uint32_t> vertices;
   Columns terms;  ///< #terms by 3·#vertices: T_k(W) x at the vertices; the filter writes them

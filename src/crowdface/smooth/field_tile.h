@@ -8,7 +8,8 @@ namespace crowdface {
 /// Vertices per tile. A tile stores all its fields contiguously, so that blending reads one block
 /// of memory per head.
 inline constexpr std::size_t kTileVertices = 64;
-inline constexpr std::size_t kTileValues = 3 * kTileVertices;  ///< values of one field in a tile
+/// Number of values of one field in a tile.
+inline constexpr std::size_t kTileValues = 3 * kTileVertices;
 
 /// Vertices per patch (FieldPatches); the last patch may have fewer.
 inline constexpr std::size_t kPatchVertices = 128;

@@ -34,8 +34,9 @@ std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
 }
 
 /// Chooses the rows (vertices) from which the principal directions are computed. Half of the chosen
-/// rows are evenly spaced. The other half consists of the row of each block that moves most at the
-/// first node (level 1), because a small number of fields fits such rows worst.
+/// rows are evenly spaced. For the other half, the function divides all rows into blocks of
+/// consecutive rows, and chooses in each block the row that moves most at the first node (level 1),
+/// because a small number of fields fits such rows worst.
 NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacements) {
   const FieldRows& first = displacements.front();
   const auto moved = [&](std::size_t r) {
@@ -194,9 +195,9 @@ class TileFitter {
   const PrincipalDirections& directions_;
   std::size_t count_;  ///< number of directions, equal to the number of nodes
   double tolerance_;
-  std::vector<float> functions_;           ///< #levels by #directions
+  std::vector<float> functions_;           ///< #levels by #directions: φ_p at the tested levels
   std::vector<double> max_magnitudes_;     ///< largest |φ_p| over the tested levels
-  std::vector<float> field_coefficients_;  ///< #nodes by #directions: field_coefficients
+  std::vector<float> field_coefficients_;  ///< #nodes by #directions, see PrincipalDirections
 };
 
 /// The exact displacements at the probes, #levels by 3·#probes.

@@ -38,11 +38,12 @@ std::vector<double> level_function_values(const LevelNodes& nodes,
 
 /// The result of one filter pass over a head.
 struct NodeFields {
-  /// For each node n, which is the level N_n: the displacements S_{N_n} x − x that N_n smoothing
-  /// iterations cause, in the filter's row order.
+  /// For each node n with its level N_n: the displacements S_{N_n} x − x of all vertices by N_n
+  /// smoothing iterations, in the filter's row order.
   std::vector<RowArray<float>> displacements;
-  /// Chebyshev terms at a few vertices (the probes). They give the exact levels at the probes, with
-  /// which the error of a LevelBasis is measured.
+  /// Chebyshev terms at a few vertices (the probes). The terms give the exact displacements of the
+  /// probes at every level. fit_level_basis measures the error of a basis against these
+  /// displacements.
   RecordedTerms probe_terms;
 };
 

@@ -15,7 +15,7 @@ namespace crowdface {
 /// The fields of one head at one tile of vertices.
 struct TileFields {
   std::size_t count = 0;                           ///< number of fields
-  const float* quantization_steps = nullptr;       ///< one per field
+  const float* quantization_steps = nullptr;       ///< step of each field
   const std::int16_t* quantized_values = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
@@ -60,7 +60,8 @@ struct QuantizedTiles {
   void add(std::span<const float> values, std::size_t count);
 };
 
-/// The smallest power of two for which all values, divided by it and rounded, fit into 16 bits.
+/// Returns the smallest power of two such that all values, divided by this power and rounded, fit
+/// into 16 bits.
 /// Zero if all values are below 10⁻³⁰ in magnitude.
 float quantization_step(std::span<const float> values);
 
@@ -73,7 +74,7 @@ float quantize(std::span<const float> values, std::int16_t* quantized);
 /// \param tiles  all tiles, in order.
 LevelFields concatenate(Index vertex_count, Index rank, std::vector<QuantizedTiles> tiles);
 
-/// Quantizes complete fields: unlike QuantizedTiles, every tile stores all R fields.
+/// Quantizes R fields of a whole mesh. Each tile stores all R fields, unlike in QuantizedTiles.
 /// \param fields  #R by #V by 3, finite.
 LevelFields quantize(std::span<const float> fields, Index vertex_count);
 

@@ -25,7 +25,7 @@ Eigen::MatrixXd product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return result;
 }
 
-/// The upper triangular T of the QR factorization functions = Q·T.
+/// Returns the upper triangular factor T of the QR factorization F = Q·T, where F is `functions`.
 Eigen::MatrixXd triangular_factor(Eigen::MatrixXd functions) {
   const Index count = functions.cols();
   const auto column = [&](Index n) {
@@ -208,9 +208,9 @@ PrincipalDirections principal_directions(const TestedLevels& tested,
     const Eigen::MatrixXd distances = directions.max_errors;
     if (round == 0 || directions.rank < best.rank) best = std::move(directions);
     if (best.rank <= 1) break;
-    // Raise the importance of the levels at which the errors are largest, relative to the other
-    // levels.
-    const auto errors = distances.col(best.rank - 1);  // errors with one direction fewer
+    // Reweight the levels: the larger the error at a level, the more its importance grows relative
+    // to the importance of the other levels.
+    const auto errors = distances.col(best.rank - 1);  // errors with best.rank − 1 directions
     for (Index l = 0; l < importance.size(); ++l) {
       importance(l) *= std::sqrt(errors(l) / errors.maxCoeff() + kFloor);
     }

@@ -34,7 +34,7 @@ class SmoothingOperator {
 
  private:
   OperatorKind kind_;
-  CompressedRows<std::uint32_t> neighbours_;  ///< one group per vertex
+  CompressedRows<std::uint32_t> neighbours_;  ///< of each vertex; none for fixed vertices
 };
 
 }  // namespace crowdface

@@ -85,8 +85,8 @@ inline float* values_of(Row<float>* rows) {
   return reinterpret_cast<float*>(rows);
 }
 
-/// Computes #lanes numbers, from the index `begin`, of each of the outputs `first` to `first` +
-/// kOutputs − 1. Computing several outputs at a time hides the latency of additions.
+/// Computes #lanes consecutive numbers, from index `begin` on, of each output from `first` to
+/// `first` + kOutputs − 1. Computing several outputs at a time hides the latency of additions.
 template <std::size_t kOutputs, class Lanes>
 void combine_some(Lanes lanes, const Row<float>* const* inputs, std::size_t input_count,
                   const float* factors, std::size_t output_count, std::size_t first,

@@ -42,8 +42,8 @@ struct Tile {
 /// A mesh cut into tiles. Rows are ordered tile by tile. The division into tiles affects the speed
 /// of computations, not the results.
 struct Tiling {
-  std::vector<std::uint32_t> vertex_of_row;  ///< #V
-  std::vector<std::uint32_t> row_of_vertex;  ///< #V
+  std::vector<std::uint32_t> vertex_of_row;  ///< #V: the vertex of each row
+  std::vector<std::uint32_t> row_of_vertex;  ///< #V: the row of each vertex
   std::vector<Tile> tiles;
   int ring_count = 0;  ///< number of neighbour rings in each tile's halo
 };

@@ -34,8 +34,9 @@ class RowBuffer {
   std::vector<float*> rows_;
 };
 
-/// Interpolates the fields at a row's covered texels. Writing a span may also change texels beyond
-/// the end of the span; the next span then overwrites these texels.
+/// Interpolates the fields at a row's covered texels, span by span from left to right. Writing a
+/// span may also change up to kRowSlack values beyond the end of the span. The next span is written
+/// later, so its values are correct.
 void interpolate(const SurfaceTexels& texels, int y, const VertexFactorsOfImage& fields,
                  const RowBuffer& buffer) {
   const auto row = static_cast<float>(y);
@@ -133,7 +134,7 @@ void fill_rest(const SurfaceTexels& texels, const std::vector<RowSums>& sums, st
   fill_uncovered(texels, std::span<const Value>(fill).first(channels), values.data());
 }
 
-/// Returns a texture image with the right size and encoding whose texels are not yet set.
+/// Returns a texture image of the right size and encoding, without values for the texels.
 BlendedPicture blank_picture(const SurfaceTexels& texels, const MapCoding& coding) {
   BlendedPicture picture{texels.width(), texels.height(), {}};
   const std::size_t count =

@@ -21,8 +21,8 @@ constexpr Index kBlock = 1024;
 
 /// A sampled texel and its position on the surface.
 struct Sample {
-  std::uint32_t picture = 0;
-  std::uint32_t texel = 0;  ///< row · width + column
+  std::uint32_t picture = 0;  ///< index of the texture image
+  std::uint32_t texel = 0;    ///< index in the image: row · width + column
   /// The covering triangle's vertices, and the barycentric coordinates of the texel's centre.
   std::array<std::uint32_t, 3> vertices = {};
   std::array<float, 3> barycentric = {};
@@ -41,8 +41,9 @@ Eigen::Array3f numbers_at(const TextureMap& map, std::uint32_t texel) {
 
 /// Samples every covered texel whose row and column are multiples of `step`. Then, for each vertex
 /// without a sample, samples one texel of an adjacent triangle, if such a texel is covered.
-/// \param put  put(vertex, sample): receives each sample, with the nearest vertex of the covering
-///             triangle or with the vertex that had no sample.
+/// \param put  put(vertex, sample): receives each sample and the vertex that the sample belongs to.
+///             This vertex is the corner of the covering triangle with the largest barycentric
+///             coordinate or, for an additional sample, the vertex that had no sample.
 template <class Put>
 void for_each_sample(const std::vector<SurfaceTexels>& all, int step, std::size_t vertex_count,
                      const Put& put) {
@@ -105,8 +106,9 @@ CompressedRows<Sample> sample_surface(const std::vector<SurfaceTexels>& texels,
 }
 
 /// Smooths vertex data with missing values by normalized convolution. An input row holds three
-/// values and 1, or zeros if the vertex has no values. Each smoothed value is divided by the
-/// smoothed fourth number; vertices without data nearby get zeros.
+/// values and the number 1. If the vertex has no values, the input row holds four zeros. Each
+/// smoothed value is divided by the fourth number of the smoothed row. Vertices without data nearby
+/// get zeros.
 /// \param count   number of rows per vertex.
 /// \param row_of  row_of(i, vertex): input row i. Called by any thread.
 /// \param take    take(i, vertex, row): receives the smoothed row i. Called by any thread.

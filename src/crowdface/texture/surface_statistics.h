@@ -15,7 +15,7 @@ struct SurfaceStatistics {
   using Colours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   std::vector<Colours>
-      coarse_values;  ///< for each head, #V by 3: values of its maps, smoothed over the mesh
+      coarse_values;  ///< for each head, #V by 3: values of the head's maps, smoothed over the mesh
   /// The covariance of the details of heads a and b around a vertex, summed over the channels: the
   /// mean product of both heads' differences between map and `coarse_values`.
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {
@@ -33,9 +33,9 @@ struct SurfaceStatistics {
 /// Smoothing scales of the statistics, as numbers of iterations with the operator
 /// OperatorKind::kLazy.
 struct StatisticsScale {
-  /// Iterations that remove detail from `coarse_values`.
+  /// Number of iterations that remove the detail from the maps; the results are `coarse_values`.
   std::uint64_t detail_iterations = 4;
-  /// Iterations that smooth the covariances.
+  /// Number of iterations that smooth the covariances.
   std::uint64_t covariance_iterations = 16;
 };
 

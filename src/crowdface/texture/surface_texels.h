@@ -27,9 +27,9 @@ struct TextureLayout {
 /// centre. If several triangles overlap, the first triangle covers the texel.
 class SurfaceTexels {
  public:
-  /// A triangle of a polygon's fan. At the centre of texel (x, y), the barycentric coordinate of
-  /// the triangle's second corner is s[0] + x · s[1] + y · s[2] with s = second_barycentric, and
-  /// the barycentric coordinate of the third corner is the same expression of third_barycentric.
+  /// A triangle of a polygon's fan. At the centre of texel (x, y), the triangle's second corner has
+  /// the barycentric coordinate s[0] + x · s[1] + y · s[2] with s = second_barycentric. The third
+  /// corner has the barycentric coordinate t[0] + x · t[1] + y · t[2] with t = third_barycentric.
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  ///< indices into `vertices()`
     std::array<float, 3> second_barycentric, third_barycentric;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr Index kVerticesPerBlock = 1024;
 
-using HeadWeights = std::vector<double>;  ///< #heads; the sum is one, or all are zero
+using HeadWeights = std::vector<double>;  ///< #heads; the weights sum to one, or all are zero
 
 /// Each head's weight in the target colours: the recipe's colour weights if given, otherwise the
 /// head's share of the target shape.
@@ -49,8 +49,8 @@ HeadWeights weights_of_whole(const HeadWeights& target, const std::vector<HeadWe
   return mean_of(target, mean);
 }
 
-/// Normalizes weights over the heads that have a map. Uses the first of `choices` that gives weight
-/// to such a head; if no choice does, gives equal weights to all heads with a map.
+/// Normalizes weights over the heads that have a map. Uses the first weights in `choices` that are
+/// positive for any head with a map. If there are none, all heads with a map get equal weights.
 HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> choices,
                                     const std::vector<std::shared_ptr<const TextureMap>>& maps) {
   HeadWeights weights(maps.size());
@@ -69,9 +69,10 @@ HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> ch
 
 /// The heads' weights in one texture image of one face.
 struct FaceWeights {
-  HeadWeights of_target;               ///< for vertices that get only the target's colour
-  HeadWeights of_face;                 ///< the weights W_h of TextureBlender
-  std::vector<HeadWeights> of_region;  ///< for each region: v_h at vertices of this region alone
+  HeadWeights of_target;  ///< for vertices that get only the target's colour
+  HeadWeights of_face;    ///< the weights W_h of TextureBlender
+  /// for each region: the weights v_h of TextureBlender at vertices that lie only in this region
+  std::vector<HeadWeights> of_region;
 };
 
 FaceWeights face_weights(const Recipe& recipe,

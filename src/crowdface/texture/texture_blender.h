@@ -72,8 +72,8 @@ class TextureBlender {
   const RegionWeights& regions_;
   const CrowdTextures& textures_;
   TextureBlendOptions options_;
-  std::vector<SurfaceTexels> texels_;  ///< #pictures
-  std::vector<MapCoding> codings_;     ///< #pictures, of the blended pictures
+  std::vector<SurfaceTexels> texels_;  ///< for each picture: the rasterized surface
+  std::vector<MapCoding> codings_;     ///< for each picture: the coding of the blended picture
   SurfaceStatistics statistics_;
   std::vector<double>
       region_area_fractions_;  ///< #regions: fraction of the face that each region covers

@@ -15,8 +15,8 @@ constexpr int kRowsPerBlock = 16;
 /// Filter of one resampled texel: the source texels of a row or column that contribute to it, and
 /// their weights.
 struct Taps {
-  int first = 0;
-  std::vector<float> weights;  ///< summing to one
+  int first = 0;               ///< index of the first source texel
+  std::vector<float> weights;  ///< of consecutive source texels; the weights sum to one
 };
 
 std::vector<Taps> taps_of(int from, int to) {

@@ -14,7 +14,7 @@ inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 /// Calls `body(x, y)` for each texel whose centre lies in the triangle or on its edge.
 /// \param corners  in texels; y points downwards.
-/// \param width, height  of the picture.
+/// \param width, height  size of the texture image, in texels.
 template <class Body>
 void for_each_texel(const std::array<Eigen::Vector2d, 3>& corners, int width, int height,
                     const Body& body) {

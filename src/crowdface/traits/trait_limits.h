@@ -54,7 +54,7 @@ class TraitDistributions {
   bool is_available(std::size_t trait) const { return !sorted_values_[trait].empty(); }
   /// Returns the values of the heads, ascending.
   ///
-  /// \pre the trait is available, as for all functions below.
+  /// \pre `is_available(trait)`. All functions below have the same precondition.
   const std::vector<double>& sorted_values(std::size_t trait) const {
     return sorted_values_[trait];
   }
@@ -73,7 +73,7 @@ class TraitDistributions {
  private:
   /// #measurements: for each measurement, the values of the heads, ascending
   std::vector<std::vector<double>> sorted_values_;
-  std::vector<TraitTarget> table_;
+  std::vector<TraitTarget> table_;  ///< normal distributions that replace those of the heads
 };
 
 /// Returns a value with its unit, such as "38.2 mm", "104.1 degrees" or "0.672".

@@ -62,8 +62,10 @@ TriangleScene::TriangleScene(const std::vector<Triangle>& triangles, const Trian
   }
 }
 
-/// Replaces the larger node of a pair by both children of this node or, if the pair consists of one
-/// node twice, both nodes by the children. Adds to `into` the resulting pairs whose boxes overlap.
+/// Divides a pair of nodes into smaller pairs, and adds to `into` the smaller pairs whose boxes
+/// overlap. If the nodes differ, pairs each child of the larger node with the smaller node. If the
+/// pair consists of one node twice, pairs the children of this node with themselves and with each
+/// other.
 ///
 /// \pre At least one node of the pair is not a leaf.
 void TriangleScene::split(const NodePair& pair, std::vector<NodePair>& into) const {

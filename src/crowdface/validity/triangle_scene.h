@@ -58,17 +58,17 @@ class TriangleScene {
   }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
   /// Returns pairs of nodes, each of which is one parallel task. For any two leaves that overlap,
-  /// one of these pairs consists of an ancestor of the first leaf and an ancestor of the second
-  /// leaf.
+  /// one of the pairs consists of an ancestor of the first leaf and an ancestor of the second leaf.
   std::vector<NodePair> initial_node_pairs() const;
+  /// Calls use(one, other) for each pair of leaves below the nodes `from` whose boxes overlap.
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
   template <class Keep>
   std::vector<TrianglePair> filtered_pairs(const Keep& keep) const;
-  /// Appends to `found` the pairs of triangles from two leaves whose boxes overlap, except pairs
-  /// that share a vertex.
+  /// Compares the triangles of one leaf with the triangles of another leaf. Appends to `found` the
+  /// pairs of triangles whose boxes overlap and which share no vertex.
   ///
-  /// \param one, other  leaf numbers, equal or in ascending order
+  /// \param one, other  numbers of the two leaves, equal or in ascending order
   /// \param keep        keep(pair): whether to append the pair
   template <class Keep>
   void compare_leaves(std::uint32_t one, std::uint32_t other, const Keep& keep,

@@ -229,8 +229,9 @@ class Bending {
   /// and is 0 inside mouth, nose and eye sockets.
   std::vector<double> visibility_weights_;
   std::vector<std::uint32_t> scan_points_;
-  std::vector<std::uint32_t> found_on_scan_;  ///< per skin vertex: triangle found last
-  std::vector<SurfaceHit> found_on_skin_;     ///< per scan point: point found last
+  // Results of the previous search for closest points; the next search uses them as guesses.
+  std::vector<std::uint32_t> found_on_scan_;  ///< for each skin vertex: a triangle of the scan
+  std::vector<SurfaceHit> found_on_skin_;     ///< for each sampled scan point: a point of the skin
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;
   /// Only some scan vertices are sampled; each sampled point stands for this many scan vertices.

@@ -26,10 +26,10 @@ constexpr double kMinNormalCosine = 0.7;  // least cosine between the normals of
 constexpr double kMinDetailVisibility = 0.15;
 constexpr double kNoDataWeight = 1e-4;  ///< weight of a zero offset at vertices without scan data
 constexpr int kSteps = 30;
-/// Limits of even_out_folds: number of rounds, number of first rounds that do not shrink the
-/// offsets, and number of averaging sweeps in each round.
+/// Limits of even_out_folds: largest number of rounds, number of initial rounds (which do not
+/// shrink the offsets), and number of averaging sweeps in each round.
 constexpr int kMaxAveragingRounds = 10, kPureAveragingRounds = 3, kSweeps = 8;
-constexpr double kSweepFactor = 0.98;  ///< factor by which a later round shrinks offsets in a sweep
+constexpr double kSweepFactor = 0.98;  ///< factor for the offsets in each sweep of a later round
 /// Smallest allowed ratio of two areas of a triangle: the area after the move, projected onto the
 /// triangle's plane before the move, divided by the area before the move.
 constexpr double kMinAreaRatio = 0.05;
@@ -244,8 +244,8 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest_positions,
     even_out_folds(skin, rest_positions, result, normals, mender, along);
     move_along(normals, along, result);
   }
-  // On a regular mesh with edge length h, the mean of the neighbours differs from the value by h²/4
-  // times the Laplacian.
+  // On a regular mesh with edge length h, the value at a vertex differs from the mean of the
+  // neighbours' values by h²/4 times the Laplacian.
   const SmoothFit fit(skin.adjacency, 16 * std::pow(kSmoothingScaleEdges, 4));
   for (int round = 0; round < kDetailRounds; ++round) {
     if (smoothing_steps == 0) normals = vertex_normals_or_zero(skin.triangles, result);

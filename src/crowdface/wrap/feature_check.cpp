@@ -129,7 +129,7 @@ double height_at(const Positions& vertices, double a, double b) {
   return (weights * vertices.col(2).array()).sum() / weights.sum();
 }
 
-/// The relief of the template's and of the wrapped skin, prepared once for all features.
+/// The template's skin before and after the wrap, prepared once for all features.
 struct SkinPair {
   SkinPair(const WrapTemplate& wrap_template, const Positions& wrapped)
       : skin(wrap_template.skin),
@@ -154,7 +154,7 @@ std::vector<std::uint32_t> thinned(const std::vector<std::uint32_t>& all, std::s
   return kept;
 }
 
-/// Relief of some vertices of a skin; see the other overload.
+/// The relief of some vertices of a skin: their heights above a fitted quadratic surface.
 /// \param up  the head's direction up
 Eigen::VectorXd relief(const Positions& positions, const Positions& normals,
                        const std::vector<std::uint32_t>& vertices, const Eigen::VectorXd& weights,

@@ -23,8 +23,8 @@ struct FaceFeature {
 std::vector<FaceFeature> face_features(const WrapTemplate& wrap_template,
                                        const std::map<std::string, std::uint32_t>& landmarks);
 
-/// How well a feature's relief before and after a wrap agree. The relief is the height of the skin
-/// above a quadratic surface that is fitted to the feature.
+/// How well the reliefs of a feature before and after a wrap agree. The relief is the height of the
+/// skin above a quadratic surface that is fitted to the feature.
 struct ReliefCorrelation {
   /// correlation between the template's and the wrapped head's relief
   double correlation_at_feature = 1;

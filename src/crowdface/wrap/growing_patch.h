@@ -32,7 +32,7 @@ class GrowingPatch {
   std::vector<std::uint32_t> vertices_;
   std::vector<int> rings_;  ///< ring number of each vertex in `vertices_`
   std::vector<bool> is_member_;
-  int ring_ = 0;
+  int ring_ = 0;  ///< number of rings added so far
   double weight_steepness_ = 1;
 };
 

@@ -40,7 +40,8 @@ bool seen(const WrapTemplate& wrap_template, Index v) {
 }
 
 /// Distances to the scan, for all visible skin vertices that have scan data.
-/// \param regions, region  the region of the vertices; if `regions` is null, the whole skin
+/// \param regions  if null, the function uses the vertices of the whole skin
+/// \param region   index into `regions->names`: the function uses the vertices of this region
 std::vector<double> visible_distances(const WrapTemplate& wrap_template, const WrapResult& result,
                                       const SkinRegions* regions = nullptr,
                                       std::size_t region = 0) {

@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-inline constexpr double kFarFromScanMm =
-    3;  ///< skin farther than this from the scan does not fit the scan
+/// A skin vertex counts as far from the scan if its distance from the scan is larger.
+inline constexpr double kFarFromScanMm = 3;
 
 /// Regions of the skin for which a report lists distances to the scan separately.
 struct SkinRegions {

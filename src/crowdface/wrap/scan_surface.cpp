@@ -9,11 +9,11 @@
 namespace crowdface {
 namespace {
 
-/// Components with less than this fraction of the largest component's area are ignored as dust or
-/// hair clips. An eyeball has about a hundredth of a head's area.
+/// The surface ignores components, such as dust and hair clips, with less than this fraction of the
+/// largest component's area. Eyeballs are kept: an eyeball has about 0.01 of a head's area.
 constexpr double kMinShare = 0.001;
 
-constexpr double kRounded = 1e-9;  ///< barycentric coordinate that counts as zero
+constexpr double kRounded = 1e-9;  ///< smaller barycentric coordinates count as zero
 
 }  // namespace
 

@@ -59,9 +59,9 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   return result;
 }
 
-/// Adds the final distances and marks outliers. The surface and the other landmarks hold a
-/// landmark's vertex near its true position. So a large final distance means that the landmark is
-/// misplaced on the scan.
+/// Sets the final distances and marks outliers. The scan surface and the other landmarks keep
+/// a landmark's vertex near the correct point of the scan. A large final distance therefore means
+/// that the user or the program placed the landmark wrongly on the scan.
 void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landmarks,
                std::vector<LandmarkResidual>& residuals) {
   std::vector<double> all;

@@ -32,7 +32,7 @@ struct TemplateOptions {
   std::size_t max_vertices = 20000, reduced_vertices = 12000;
 };
 
-/// Finds skin and parts.
+/// Separates a template into skin and parts.
 /// \param positions  #V by 3, in millimetres.
 /// \param face  the face, if known; otherwise the function searches for it.
 /// \throws InvalidInput if the template has hardly any skin.

@@ -30,7 +30,7 @@ class HeadModel {
   /// machine.
   virtual Positions positions(std::uint64_t seed, std::uint64_t index) const = 0;
   /// Returns sex and age of head number `index` of a seed; nothing if the model does not define
-  /// them.
+  /// sex and age.
   virtual std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const = 0;
 };
 

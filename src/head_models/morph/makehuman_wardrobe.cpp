@@ -45,7 +45,7 @@ fs::path skin_picture(const fs::path& file) {
 
 struct EyeColour {
   std::string_view name;
-  std::array<double, 3> share;  ///< probability for African, Asian, Caucasian ancestry
+  std::array<double, 3> share;  ///< probabilities for African, Asian and Caucasian ancestry
 };
 constexpr auto kEyeColours = std::to_array<EyeColour>({{"brown", {0.9, 0.85, 0.25}},
                                                        {"brownlight", {0.1, 0.15, 0.25}},
@@ -141,7 +141,7 @@ constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "mal
 
 struct HairShare {
   std::string_view name;
-  std::array<double, 3> share;  ///< probability for African, Asian, Caucasian ancestry
+  std::array<double, 3> share;  ///< probabilities for African, Asian and Caucasian ancestry
 };
 constexpr auto kHairShares = std::to_array<HairShare>({{"black", {0.9, 0.8, 0.06}},
                                                        {"dark_brown", {0.1, 0.2, 0.3}},

@@ -47,7 +47,8 @@ struct MakeHumanParts {
 /// Reads eyes, lashes, teeth and tongue. Leaves out the corneas, which are transparent in the
 /// texture. Anchors the lashes to the skin, because some targets move the base mesh's helpers for
 /// lashes by metres.
-/// \param base  vertices of the base mesh. \param skin  rows of the head's skin in `base`.
+/// \param base  vertices of the base mesh.
+/// \param skin  vertices of the head's skin, as row indices of `base`.
 /// \throws MissingInput; InvalidInput, also if an asset's licence is not free.
 MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const Positions& base,
                                     const std::vector<std::uint32_t>& skin);

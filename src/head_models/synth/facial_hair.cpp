@@ -162,8 +162,8 @@ FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   topology.vertex_count = static_cast<Index>(rows.size());
   const Positions on_skin = skin.positions(rows, kAllColumns);
   layer.mesh.positions = on_skin + kAboveSkin * normals(rows, kAllColumns);
-  // The layer gets its own texture, which covers the rectangle of the head's texture that the
-  // layer's polygons use.
+  // The texture of the layer covers only a part of the head's texture: the bounding rectangle of
+  // the layer's polygons.
   TextureCoordinates uvs = skin.uvs(uv_rows, kAllColumns);
   const Eigen::RowVector2d low = uvs.colwise().minCoeff(), high = uvs.colwise().maxCoeff();
   uvs = (uvs.rowwise() - low).array().rowwise() / (high - low).array();

@@ -24,7 +24,7 @@ struct HairCut {
   double side_length = 5;       ///< length above and behind the ears; 0: no hair there
   double hem_y = -30;           ///< height y at which hair is cut
   double fringe_y = kNoFringe;  ///< height y of the fringe over the forehead, or kNoFringe
-  double volume_factor = 1;     ///< factor of the distance from the scalp
+  double volume_factor = 1;     ///< factor on the distance of the hair from the scalp
   double wave_amplitude = 0;    ///< amplitude of waves in the locks
   /// 1: combed locks. Larger numbers: the number of layers of curls, which have random directions
   int layers = 1;

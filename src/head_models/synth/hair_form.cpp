@@ -31,7 +31,8 @@ double triangle_wave(double x) {
   return std::fmod(std::abs(whole), 2.0) < 0.5 ? part : 1 - part;
 }
 
-/// Returns the coordinate of a point at right angles to the main combing direction, cm.
+/// Returns the coordinate of a point along an axis at right angles to the main combing direction,
+/// cm.
 double across_hair(const HairCut& cut, const Vector3d& p) {
   if (cut.backward_combing >= 0.8)
     return p.x() + (p.x() > 0 ? -p.y() : p.y()) * smooth_step(3, 6, std::abs(p.x()));

@@ -16,13 +16,16 @@ double head_distance(const Eigen::Vector3d& p);
 /// Returns the unit gradient of head_distance.
 Eigen::Vector3d head_distance_gradient(const Eigen::Vector3d& p);
 
-// The next three functions describe the form of a haircut on the average head. The points passed to
-// the functions are on or near the scalp, in cm.
-/// Returns the signed distance from the edge of the hair-covered area, cm; positive inside.
+/// Returns the signed distance of a point from the edge of the hair-covered area, cm; positive
+/// inside the area.
+/// \param p  point on or near the scalp of the average head, cm.
 double distance_inside_hair(const HairCut& cut, const Eigen::Vector3d& p);
-/// Returns the distance of the hair from the scalp, cm; small at the edges and at the parting.
+/// Returns the distance of the hair from the scalp, cm; small at the edge of the hair-covered area
+/// and at the parting.
+/// \param p  point on or near the scalp of the average head, cm.
 double hair_stand_off(const HairCut& cut, const Eigen::Vector3d& p);
-/// Returns the combing direction, a unit vector tangent to the scalp.
+/// Returns the combing direction of the hair, a unit vector tangent to the scalp.
+/// \param p  point on or near the scalp of the average head, cm.
 Eigen::Vector3d combing_direction(const HairCut& cut, const Eigen::Vector3d& p);
 
 /// A hair mesh of quads under construction. Vertex i has texture coordinate i.

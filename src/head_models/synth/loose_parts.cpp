@@ -102,8 +102,8 @@ LooseParts::LooseParts(double edge_cm) {
 void LooseParts::add_eyeball(double side, int n) {
   first_vertices_.push_back(vertex_count());
   first_faces_.push_back(face_count());
-  // Index the vertices by integer coordinates on the cube, so that its sides share vertices on
-  // edges.
+  // Look up vertices by integer coordinates on the cube, so that adjacent sides of the cube share
+  // the vertices on their common edge.
   std::vector<std::uint32_t> known(static_cast<std::size_t>((n + 1) * (n + 1) * (n + 1)), kNoIndex);
   const auto vertex = [&](int face, int i, int j) {
     const double a = 2.0 * i / n - 1, b = 2.0 * j / n - 1;

@@ -39,13 +39,17 @@ class LooseParts {
     return points_[static_cast<std::size_t>(vertex)];
   }
 
-  /// Returns the vertices in a head: vertex_count() by 3, cm. The surfaces do not depend on the
-  /// edge length.
+  /// Returns the vertex positions of the parts in a head: vertex_count() by 3, cm. Parts with
+  /// different edge lengths have the same shape.
   Positions positions(const Identity& identity) const;
 
  private:
   void add_eyeball(double side, int rings);
+  /// Adds a row of teeth, a closed band.
+  /// \param up             1: upper row, −1: lower row.
+  /// \param along, around  quads along the row and around its cross-section.
   void add_teeth(double up, int along, int around);
+  /// \param first  index of the band's first vertex.
   void close_band(Index first, int along, int around);
 
   std::vector<Eigen::Vector3d>

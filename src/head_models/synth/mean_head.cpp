@@ -73,8 +73,9 @@ Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
   if (b <= 1.2) return eye_centre() + foot;
   const double t = (b - 1.2) / 0.8, radius = foot.norm();
-  // Go along the eyeball, away from the viewing direction. The skin stays on the eyeball, so that
-  // the pocket does not protrude from blended lids, which may be thinner than the heads' lids.
+  // Go backwards along the surface of the eyeball. The lids of a blended face may be thinner than
+  // the lids of the heads. Because the pocket stays on the eyeball, the pocket does not protrude
+  // through thin lids.
   const Vector3d spoke = foot / radius, gaze(0, 0, 1);
   const Vector3d back = (spoke * spoke.z() - gaze).normalized();
   return eye_centre() + radius * (spoke + 0.14 * t * back).normalized();

@@ -15,12 +15,13 @@ struct LocalDisplacement {
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 
-/// A property of a head, such as the length of the nose. Its value is maleness_effect ·
-/// Person::maleness + age_effect · Person::scaled_age() + build_effect · Person::build + spread ·
-/// N(0, 1).
+/// A property of a head, such as the length of the nose. The value of a measure is
+///
+///     maleness_effect · Person::maleness + age_effect · Person::scaled_age()
+///     + build_effect · Person::build + spread · N(0, 1)
 struct Measure {
   std::string_view name;
-  double maleness_effect, age_effect, build_effect;  ///< coefficients of the mean, see above
+  double maleness_effect, age_effect, build_effect;  ///< coefficients of the mean of the value
   double spread;                                     ///< standard deviation of the random part
   LocalDisplacement displacement;                    ///< displacement for a value of 1
 };

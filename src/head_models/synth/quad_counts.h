@@ -26,6 +26,7 @@ struct QuadCounts {
   Index vertex_count() const;
 
   double quads_per_unit;
+  // Number of quads in each interval between two lattice columns (or rows).
   std::array<int, kColumns - 1> columns{};
   std::array<int, kRows - 1> rows{};
 };

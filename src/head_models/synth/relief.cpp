@@ -24,7 +24,8 @@ struct Fold {
   std::string_view name;
   Vector2d start, control, end;
   double width, depth;  ///< cm
-  /// factor on the depth: mean at age 40, change of the mean per 20 years, standard deviation
+  /// The factor on the depth has the mean base + 1.25 · aged · Person::scaled_age() and the
+  /// standard deviation `spread`.
   double base, aged, spread;
   double bulge;        ///< height of a ridge left of the curve, relative to the depth
   bool paired = true;  ///< whether the fold is mirrored to x < 0
@@ -138,7 +139,7 @@ void Relief::add_stroke(std::size_t fold_index, double side, double depth) {
 double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const {
   if (!stroke.affected_box.contains(place)) return 0;
   // Find the nearest point of the polyline, the parameter of this point, and the side of the curve
-  // on which `p` lies.
+  // on which `place` lies.
   double nearest = 1e30, along = 0, side = 1;
   for (std::size_t i = 0; i < Stroke::kPieces; ++i) {
     const Vector2d a = stroke.points[i], ab = stroke.points[i + 1] - a, ap = place - a;

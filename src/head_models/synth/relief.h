@@ -43,12 +43,15 @@ class Relief {
   };
   /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
   double grain(const Eigen::Vector3d& position) const;
+  /// Returns the contribution of one curve to fold_height at a point of the front view, cm.
   double stroke_height(const Stroke& stroke, const Eigen::Vector2d& place) const;
+  /// Adds the curve of a fold.
+  /// \param side  1, or −1 to add the mirror image of the curve at x = 0.
   void add_stroke(std::size_t fold_index, double side, double depth);
 
   std::vector<Stroke> strokes_;
-  SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< shift the places of all folds
-  SmoothNoise curve_noise_;                                ///< shifts the curves of single folds
+  SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< displace all folds together
+  SmoothNoise curve_noise_;                                ///< displaces each fold independently
   SmoothNoise fold_gap_noise_;  ///< folds have gaps where this noise is low
   struct Octave {
     SmoothNoise noise;

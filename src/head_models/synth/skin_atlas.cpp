@@ -107,7 +107,7 @@ std::vector<AtlasTexel> skin_atlas(int size) {
   std::vector<AtlasTexel> places(layout.addresses.size());
   parallel_for_each(places.size(), 1024,
                     [&](std::size_t i) { places[i] = place_at(layout.addresses[i]); });
-  // Append the eyeballs; only their fronts are shown.
+  // Append eyeballs and teeth. The texture shows only the fronts of the eyeballs.
   loose.append_to(layout.topology, layout.uvs);
   for (Index v = 0; v < loose.vertex_count(); ++v) {
     AtlasTexel place;

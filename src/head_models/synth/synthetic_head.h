@@ -31,7 +31,7 @@ class SyntheticHeads {
   /// \throws BrokenPrecondition if `vertices` is outside this range.
   explicit SyntheticHeads(Index vertices, Parts parts = Parts::kSkin, Scalp scalp = Scalp::kBare);
 
-  /// The name of a component and the index of its first polygon.
+  /// A connected component of the mesh: its name and the index of its first polygon.
   struct Piece {
     std::string name;
     Index first_face = 0;

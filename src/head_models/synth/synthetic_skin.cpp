@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// Opacity of painted hair roots below hair cards. If a face has a bald crown, but its texture is
-/// blended from heads with hair, more opaque roots would be visible on the crown.
+/// Opacity of painted hair roots below hair cards. A face with a bald crown may have a texture that
+/// is blended from heads with hair; more opaque roots would be visible on this crown.
 constexpr double kRootOpacity = 0.3;
 
 /// Writes a colour as three bytes.

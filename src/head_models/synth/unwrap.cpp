@@ -57,9 +57,9 @@ Eigen::Vector2d disc_centre() {
   return {(across(column_distance(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
 }
 
-/// Half-axes of two curves in the area that an opening (eye, nostril, mouth) has in the texture, in
-/// units of half the area's size. `edge` is the rim of the opening. The skin that continues from
-/// the rim into the head lies between `edge` and `hole`.
+/// Half-axes of two ellipses in the texture area of an eye, a nostril or the mouth. The area is the
+/// square [−1, 1]². `edge` is the edge of the opening. The skin that continues from the edge into
+/// the head lies between `edge` and `hole`.
 struct HalfAxes {
   Eigen::Vector2d edge, hole;
 };

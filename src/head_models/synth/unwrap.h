@@ -7,24 +7,25 @@
 
 namespace crowdface::synth {
 
-/// Returns the texture coordinates of an address in the tile [0, 1]². The layout has no overlaps;
-/// its seam is at the back of the head, and the cap is attached to the forehead.
+/// Returns the texture coordinates of an address in the tile [0, 1]². The texture layout has no
+/// overlaps. The texture seam is at the back of the head, and the cap is attached to the forehead.
 Eigen::RowVector2d unwrap(const Address& address);
 
 /// Returns the texture coordinates (u, v) of a point in the hole that an opening leaves in the
 /// texture.
 /// \param side   1, or −1 for the opening at x < 0.
-/// \param place  point in the unit disc, which maps to the hole.
+/// \param place  point in the unit disc; the disc maps to the hole.
 Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector2d& place);
 
 /// Returns texture coordinates in the texture area of an eyeball. This area is a disc, large enough
 /// that the pupil is round in a texture of 1,024 texels.
-/// \param place  point in the unit disc.
+/// \param side   1, or −1 for the eyeball at x < 0.
+/// \param place  point in the unit disc; the disc maps to the texture area.
 Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place);
 
-/// Inverse of unwrap_eyeball for both eyeballs: returns the point of the unit disc at texture
-/// coordinates, or a point outside the unit disc if the coordinates are not in the texture area of
-/// an eyeball.
+/// Returns the point of the unit disc that unwrap_eyeball maps to the given texture coordinates.
+/// For the eyeball at x < 0, the returned point is mirrored (x negated). Coordinates outside the
+/// texture areas of the eyeballs give a point outside the unit disc.
 Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 
 /// Returns the texture coordinate v of the strip (SkinPatch) at a distance below the cap; v
