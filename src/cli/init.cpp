@@ -110,8 +110,9 @@ struct ShapeAnalysis {
   std::optional<Orientation> orientation;  ///< up and front axes
   std::optional<PaintedMasks> masks;
   bool has_uvs = true;
-  bool stands_apart = false;  ///< some head is rotated or shifted relative to the other heads
-  double face = 0;            ///< distance from eyes to mouth, in mesh units; 0: not found
+  bool has_misaligned_head =
+      false;        ///< some head is rotated or shifted relative to the other heads
+  double face = 0;  ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 
 /// Removes heads that the command `check` would refuse because of their pose, and logs warnings. A
@@ -149,8 +150,8 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
   // looks like a human face.
   const Components components = find_components(build_adjacency(set->topology));
   remove_odd_heads(*set, components);
-  const bool stands_apart = needs_rigid_alignment(*set, components);
-  if (stands_apart) align_heads(*set, components, Align::kRigid);
+  const bool has_misaligned_head = needs_rigid_alignment(*set, components);
+  if (has_misaligned_head) align_heads(*set, components, Align::kRigid);
   const HeadShape mean = mean_head_shape(*set);
   ShapeAnalysis analysis{set->heads[0].positions, find_orientation(set->topology, mean), {}};
   if (const auto marks =
@@ -159,7 +160,7 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
     analysis.face = marks->eye_to_mouth();
   }
   analysis.has_uvs = set->uvs.rows() > 0;
-  analysis.stands_apart = stands_apart;
+  analysis.has_misaligned_head = has_misaligned_head;
   if (!with_masks) return analysis;
   try {
     const Orientation orientation = analysis.orientation.value_or(Orientation{{1, 1}, {2, 1}});
@@ -243,7 +244,7 @@ void init(const InitOptions& options) {
     facts.up = analysis.orientation->up;
     facts.front = analysis.orientation->front;
   }
-  facts.uses_rigid_alignment = analysis.stands_apart;
+  facts.uses_rigid_alignment = analysis.has_misaligned_head;
   for (const fs::path& head : files) {
     facts.head_names.push_back(head.stem().string());
     if (!is_valid_name(facts.head_names.back())) {

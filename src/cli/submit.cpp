@@ -78,8 +78,8 @@ std::vector<std::string> config_arguments(const ConfigOptions& options, const fs
   return arguments;
 }
 
-Engine engine_from(const std::string& name) {
-  for (const Engine engine : {Engine::kSlurm, Engine::kParallel}) {
+JobEngine engine_from(const std::string& name) {
+  for (const JobEngine engine : {JobEngine::kSlurm, JobEngine::kParallel}) {
     if (name == name_of(engine)) return engine;
   }
   throw UsageError(concat("--engine: expected slurm or parallel, found ", quoted(name)));
@@ -87,15 +87,15 @@ Engine engine_from(const std::string& name) {
 
 /// Checks the options.
 /// \throws UsageError if a given option does not apply to the chosen job engine.
-void refuse_inapplicable_options(const SubmitOptions& options, Engine engine) {
+void refuse_inapplicable_options(const SubmitOptions& options, JobEngine engine) {
   const JobEngineOptions& of_engine = options.of_engine;
-  const auto only_for = [&](const char* name, bool given, Engine wanted) {
+  const auto only_for = [&](const char* name, bool given, JobEngine wanted) {
     if (!given || engine == wanted) return;
     throw UsageError(concat(name, ": only --engine ", name_of(wanted), " supports this option"));
   };
-  only_for("--partition", !of_engine.partition.empty(), Engine::kSlurm);
-  only_for("--time", !of_engine.time_limit.empty(), Engine::kSlurm);
-  only_for("--host", !of_engine.hosts.empty(), Engine::kParallel);
+  only_for("--partition", !of_engine.partition.empty(), JobEngine::kSlurm);
+  only_for("--time", !of_engine.time_limit.empty(), JobEngine::kSlurm);
+  only_for("--host", !of_engine.hosts.empty(), JobEngine::kParallel);
   if (of_engine.time_limit.find_first_not_of("0123456789:-") != std::string::npos) {
     throw UsageError(
         concat("--time: expected minutes, hours:minutes:seconds or another Slurm "
@@ -156,7 +156,7 @@ void run_script(const fs::path& script) {
 }
 
 void submit(const SubmitOptions& options) {
-  const Engine engine = engine_from(options.engine);
+  const JobEngine engine = engine_from(options.engine);
   refuse_inapplicable_options(options, engine);
   JobEngineOptions of_engine = options.of_engine;
   of_engine.grace_seconds = parse_whole_number("--grace", options.grace, 1, 65535);

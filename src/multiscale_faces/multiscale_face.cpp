@@ -69,9 +69,10 @@ struct SurfacePoint {
   Eigen::Vector3d point, normal;
 };
 SurfacePoint surface_point(const SplineLattice& surface, const Eigen::RowVector2d& uv) {
-  const Eigen::Matrix3d jet = surface.jet(uv);
-  const Eigen::Vector3d normal = jet.row(1).cross(jet.row(2)).transpose();
-  return {jet.row(0).transpose(), normal.normalized()};
+  const Eigen::Matrix3d value_and_derivatives = surface.value_and_derivatives(uv);
+  const Eigen::Vector3d normal =
+      value_and_derivatives.row(1).cross(value_and_derivatives.row(2)).transpose();
+  return {value_and_derivatives.row(0).transpose(), normal.normalized()};
 }
 
 /// Moves (u, v) by Newton's method to the point where a normal meets a surface. \return the
@@ -86,11 +87,11 @@ std::optional<double> distance_along(const SurfacePoint& from, const SplineLatti
   across.row(0) = from.normal.unitOrthogonal().transpose();
   across.row(1) = from.normal.cross(from.normal.unitOrthogonal()).transpose();
   for (int i = 0; i < kMaxSteps; ++i) {
-    const Eigen::Matrix3d jet = surface.jet(uv);
-    const Eigen::Vector3d offset = jet.row(0).transpose() - from.point;
+    const Eigen::Matrix3d value_and_derivatives = surface.value_and_derivatives(uv);
+    const Eigen::Vector3d offset = value_and_derivatives.row(0).transpose() - from.point;
     const Eigen::Vector2d residual = across * offset;
-    const Eigen::Matrix2d slope = across * jet.bottomRows<2>().transpose();
-    if (residual.norm() < 1e-6 * jet.row(1).norm()) {
+    const Eigen::Matrix2d slope = across * value_and_derivatives.bottomRows<2>().transpose();
+    if (residual.norm() < 1e-6 * value_and_derivatives.row(1).norm()) {
       start = uv;
       return from.normal.dot(offset);
     }
@@ -117,7 +118,7 @@ void add_displacements(MultiscaleFace& face) {
   Columns before = Columns::Zero(grid.rows(), 1);
   // For each sample: the (u, v) at which the sample's normal meets the surface of the previous
   // level. The search on the surface of the current level starts at this (u, v).
-  TextureCoordinates met = grid;
+  TextureCoordinates hit_uvs = grid;
   std::vector<char> missed(static_cast<std::size_t>(grid.rows()));
   for (std::size_t level = static_cast<std::size_t>(face.base_level) + 1;
        level < face.surfaces.size(); ++level) {
@@ -125,7 +126,7 @@ void add_displacements(MultiscaleFace& face) {
     Columns distances(grid.rows(), 1);
     parallel_for_each(grid.rows(), kRowsPerTask, [&](Index s) {
       const SurfacePoint from = surface_point(base, grid.row(s));
-      const std::optional<double> distance = distance_along(from, surface, met.row(s));
+      const std::optional<double> distance = distance_along(from, surface, hit_uvs.row(s));
       missed[static_cast<std::size_t>(s)] = distance ? 0 : 1;
       distances(s, 0) = distance
                             ? *distance

@@ -65,21 +65,22 @@ Eigen::RowVectorXd SplineLattice::value(const Eigen::RowVector2d& uv) const {
   return sum;
 }
 
-Eigen::Matrix<double, 3, Eigen::Dynamic> SplineLattice::jet(const Eigen::RowVector2d& uv) const {
+Eigen::Matrix<double, 3, Eigen::Dynamic> SplineLattice::value_and_derivatives(
+    const Eigen::RowVector2d& uv) const {
   const SplineSupport place = place_of(spans_, uv);
   const auto scale = static_cast<double>(spans_);
-  Eigen::Matrix<double, 3, Eigen::Dynamic> jet(3, components());
-  jet.setZero();
+  Eigen::Matrix<double, 3, Eigen::Dynamic> value_and_derivatives(3, components());
+  value_and_derivatives.setZero();
   for (std::size_t l = 0; l < 4; ++l) {
     for (std::size_t k = 0; k < 4; ++k) {
       const auto point = control_points_.row(place.first_row + static_cast<Index>(k) +
                                              static_cast<Index>(l) * (spans_ + 3));
-      jet.row(0) += place.u.value[k] * place.v.value[l] * point;
-      jet.row(1) += scale * place.u.slope[k] * place.v.value[l] * point;
-      jet.row(2) += scale * place.u.value[k] * place.v.slope[l] * point;
+      value_and_derivatives.row(0) += place.u.value[k] * place.v.value[l] * point;
+      value_and_derivatives.row(1) += scale * place.u.slope[k] * place.v.value[l] * point;
+      value_and_derivatives.row(2) += scale * place.u.value[k] * place.v.slope[l] * point;
     }
   }
-  return jet;
+  return value_and_derivatives;
 }
 
 SplineLattice SplineLattice::refined() const {

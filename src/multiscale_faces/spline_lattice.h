@@ -29,7 +29,8 @@ class SplineLattice {
   /// The value of the function at a point of the unit square.
   Eigen::RowVectorXd value(const Eigen::RowVector2d& uv) const;
   /// The value, and its derivatives along u and v, as rows.
-  Eigen::Matrix<double, 3, Eigen::Dynamic> jet(const Eigen::RowVector2d& uv) const;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> value_and_derivatives(
+      const Eigen::RowVector2d& uv) const;
 
   /// The same function with twice as many spans (the paper's Section 4.2).
   SplineLattice refined() const;

@@ -35,7 +35,7 @@ TEST(SplineLattice, IsAPartitionOfUnity) {
     const SplineLattice ones(spans, Columns::Ones((spans + 3) * (spans + 3), 1));
     for (const Eigen::RowVector2d& uv : {Eigen::RowVector2d(0, 0), {1, 1}, {0.3, 0.7}, {1, 0}}) {
       EXPECT_NEAR(ones.value(uv)[0], 1, 1e-14);
-      EXPECT_NEAR(ones.jet(uv).bottomRows(2).norm(), 0, 1e-12);
+      EXPECT_NEAR(ones.value_and_derivatives(uv).bottomRows(2).norm(), 0, 1e-12);
     }
   }
 }
@@ -56,10 +56,10 @@ TEST(SplineLattice, ReproducesCubicPolynomials) {
   const TextureCoordinates uvs = random_places(200);
   for (Index s = 0; s < uvs.rows(); ++s) {
     const double u = uvs(s, 0), v = uvs(s, 1);
-    const auto jet = lattice.jet(uvs.row(s));
-    EXPECT_NEAR(jet(0, 0), u * u * u * v * v * v, 1e-13);
-    EXPECT_NEAR(jet(1, 0), 3 * u * u * v * v * v, 1e-12);
-    EXPECT_NEAR(jet(2, 0), 3 * u * u * u * v * v, 1e-12);
+    const auto value_and_derivatives = lattice.value_and_derivatives(uvs.row(s));
+    EXPECT_NEAR(value_and_derivatives(0, 0), u * u * u * v * v * v, 1e-13);
+    EXPECT_NEAR(value_and_derivatives(1, 0), 3 * u * u * v * v * v, 1e-12);
+    EXPECT_NEAR(value_and_derivatives(2, 0), 3 * u * u * u * v * v, 1e-12);
   }
 }
 

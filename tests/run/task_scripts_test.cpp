@@ -51,7 +51,7 @@ class Tasks : public ::testing::Test {
 
 TEST_F(Tasks, EachStageIsACommandWithItsPart) {
   job_.memory_bytes = std::uint64_t{8} << 30U;
-  write_task_scripts(job_, Engine::kSlurm, {});
+  write_task_scripts(job_, JobEngine::kSlurm, {});
   const std::string end = concat("--cache|", job_.cache.string(), "|--threads|3|");
   const std::string memory = "--memory|7340032 KiB|";
   EXPECT_EQ(run("", "prepare 2"), 0);
@@ -66,7 +66,7 @@ TEST_F(Tasks, EachStageIsACommandWithItsPart) {
 }
 
 TEST_F(Tasks, EndWithTheProgramsCodeAndSaySo) {
-  write_task_scripts(job_, Engine::kParallel, {});
+  write_task_scripts(job_, JobEngine::kParallel, {});
   EXPECT_EQ(run("CODE=74", "blend 3"), 74);
   EXPECT_THAT(read_text(job_.directory.cluster_task_folder() / "log/blend-3.log"),
               ::testing::AllOf(::testing::HasSubstr("=== blend 3, attempt 1"),
@@ -76,7 +76,7 @@ TEST_F(Tasks, EndWithTheProgramsCodeAndSaySo) {
 TEST_F(Tasks, UseTheMachinesOwnCopyOfTheCacheIfItCanBeMade) {
   job_.scratch_folder = "$OWN";
   folder_.write("cache/a.cfcache", "head");
-  write_task_scripts(job_, Engine::kSlurm, {});
+  write_task_scripts(job_, JobEngine::kSlurm, {});
   EXPECT_EQ(run(concat("OWN=", (folder_ / "own").string()), "blend 1"), 0);
   const std::string own = concat((folder_ / "own/crowdface-cache-").string(), ::getuid());
   EXPECT_THAT(said(), ::testing::HasSubstr(concat("--cache|", own, "|")));
@@ -88,8 +88,8 @@ TEST_F(Tasks, UseTheMachinesOwnCopyOfTheCacheIfItCanBeMade) {
 
 TEST_F(Tasks, SlurmGetsTheSitesOptionsAndChainsTheStages) {
   job_.memory_bytes = 1'000'000'000;
-  const auto script =
-      write_task_scripts(job_, Engine::kSlurm, {"long", "2:00", 90, {}, {"--account=it's ours"}});
+  const auto script = write_task_scripts(job_, JobEngine::kSlurm,
+                                         {"long", "2:00", 90, {}, {"--account=it's ours"}});
   const std::string text = read_text(script);
   for (const char* part :
        {"'--partition=long'", "'--time=2:00'", "'--mem=954M'", "'--signal=B:TERM@90'",

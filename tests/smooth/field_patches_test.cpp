@@ -43,7 +43,7 @@ double interpolated(const FieldPatch& patch, std::size_t row, std::size_t vertex
   const auto at = [&](std::size_t j) {
     return static_cast<double>(patch.quantization_steps[row]) * static_cast<double>(numbers[j]);
   };
-  if (patch.is_whole()) return at(vertex);
+  if (patch.stores_all_vertices()) return at(vertex);
   double sum = 0;
   for (std::size_t j = 0; j < patch.stored_vertex_count; ++j) {
     sum += static_cast<double>(patch.weights[j * kPatchVertices + vertex]) * at(j);
@@ -162,7 +162,7 @@ TEST(FieldPatches, AVertexThatNothingMovesIsMovedByNothing) {
   std::size_t still = 0;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const FieldPatch patch = patches[i];
-    if (patch.is_whole()) continue;  // the last, of two vertices
+    if (patch.stores_all_vertices()) continue;  // the last, of two vertices
     for (std::size_t v = 0; v < patch.vertices.size(); ++v) {
       if (patch.vertices[v] % kColumns != 0) continue;
       ++still;

@@ -56,8 +56,8 @@ std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, 
 
 /// Returns the lower left corner (u, v) of the unit square of texture space that contains the
 /// centre of a polygon. Textures repeat in each unit square.
-std::array<std::int32_t, 2> square_of(std::span<const std::uint32_t> corners,
-                                      const TextureCoordinates& uvs) {
+std::array<std::int32_t, 2> unit_square_of(std::span<const std::uint32_t> corners,
+                                           const TextureCoordinates& uvs) {
   constexpr double kFarthest = 1e6;
   Eigen::RowVector2d sum(0, 0);
   for (const std::uint32_t uv : corners) {
@@ -80,7 +80,7 @@ MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
   maps.tile_of_face.resize(static_cast<std::size_t>(topology.face_count()));
   constexpr Index kBlock = 16384;
   parallel_for_each(topology.face_count(), kBlock, [&](Index f) {
-    maps.tile_of_face[static_cast<std::size_t>(f)] = square_of(topology.face_uvs(f), uvs);
+    maps.tile_of_face[static_cast<std::size_t>(f)] = unit_square_of(topology.face_uvs(f), uvs);
   });
   maps.textures.resize(textures.files.size());
   parallel_for_each(textures.files.size(), [&](std::size_t i) {

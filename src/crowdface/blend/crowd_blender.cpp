@@ -108,10 +108,10 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
 
 /// A batch of faces that are computed in one pass, with the coefficients of each face for the
 /// fields of all heads.
-class CrowdBlender::Crowd {
+class CrowdBlender::FaceBatch {
  public:
-  Crowd(const CrowdBlender& blender, std::span<const Recipe* const> recipes,
-        std::span<Positions> results)
+  FaceBatch(const CrowdBlender& blender, std::span<const Recipe* const> recipes,
+            std::span<Positions> results)
       : recipes_(recipes), results_(results) {
     const auto regions = static_cast<std::size_t>(blender.regions_.alpha.cols());
     coefficients_.resize(regions * recipes.size());
@@ -168,7 +168,8 @@ class CrowdBlender::Crowd {
 class CrowdBlender::PatchBlender {
  public:
   /// \param blender, crowd  must outlive this object.
-  PatchBlender(const CrowdBlender& blender, const Crowd& crowd) : blender_(blender), crowd_(crowd) {
+  PatchBlender(const CrowdBlender& blender, const FaceBatch& crowd)
+      : blender_(blender), crowd_(crowd) {
     std::iota(all_of_skeleton_.begin(), all_of_skeleton_.end(), 0U);
   }
 
@@ -292,7 +293,7 @@ class CrowdBlender::PatchBlender {
         columns_[i] = coordinate(first + i);
         products_[i] = added + (first + i) * kPatchVertices;
       }
-      if (patch_.is_whole()) {
+      if (patch_.stores_all_vertices()) {
         for (std::size_t i = 0; i < here; ++i) {
           for (std::size_t v = 0; v < patch_.stored_vertex_count; ++v) {
             products_[i][v] += alpha_[v] * columns_[i][v];
@@ -354,7 +355,7 @@ class CrowdBlender::PatchBlender {
   }
 
   const CrowdBlender& blender_;
-  const Crowd& crowd_;
+  const FaceBatch& crowd_;
   FieldPatch patch_;
   std::span<const std::uint32_t> regions_;
   std::vector<std::uint32_t> fields_, used_;
@@ -379,7 +380,7 @@ void CrowdBlender::blend_patches(const Wanted& wanted, std::span<const Recipe* c
     Positions& result = results[f];
     result.resize(heads_.topology.vertex_count, 3);
   });
-  const Crowd crowd(*this, recipes, results);
+  const FaceBatch crowd(*this, recipes, results);
   parallel_blocks(patches_.size(), kPatchesPerTask, [&](std::size_t begin, std::size_t end) {
     PatchBlender blender(*this, crowd);
     for (std::size_t patch = begin; patch < end; ++patch) {

@@ -56,7 +56,7 @@ class CrowdBlender {
   void update(const Recipe& before, const Recipe& after, Positions& face) const;
 
  private:
-  class Crowd;
+  class FaceBatch;
   class PatchBlender;
 
   void find_regions();

@@ -164,7 +164,7 @@ class AttachmentChooser {
   ///
   /// \param colour  A colour that the face inherits. An item of this colour is allowed even if the
   ///                head lacks the tag that names this colour.
-  Items wearable(const std::string& kind, Index head, const std::string& colour = {}) const {
+  Items wearable_items(const std::string& kind, Index head, const std::string& colour = {}) const {
     const std::vector<std::string>& tags = tags_of(head);
     Items items;
     for (const AttachmentItem& item : options_.items) {
@@ -181,7 +181,7 @@ class AttachmentChooser {
 
   const AttachmentItem* draw_one(const std::string& kind, const FacePlan& face,
                                  const Items& placed) const {
-    Items items = wearable(kind, heads_.at(face.id));
+    Items items = wearable_items(kind, heads_.at(face.id));
     if (items.empty()) return nullptr;
     const std::string purpose =
         face.index ? concat("attachment/", kind) : concat("attachment/", kind, '/', face.id);
@@ -303,7 +303,7 @@ class AttachmentChooser {
       const std::string colour = colour_of(kind, parent);
       if (!contains(tags_of(head), "old") && is_only_for_old_faces(kind, colour)) continue;
       if (take(colour)) return;
-      Items others = matching_items(wearable(kind, head, colour),
+      Items others = matching_items(wearable_items(kind, head, colour),
                                     [&](const auto& item) { return item.colour == colour; });
       if (colour.empty() || others.empty()) continue;
       items = std::move(others);
@@ -323,7 +323,7 @@ class AttachmentChooser {
   bool is_only_for_old_faces(const std::string& kind, const std::string& colour) const {
     for (std::size_t head = 0; head < options_.tags.size(); ++head) {
       if (contains(options_.tags[head], "old")) continue;
-      const Items items = wearable(kind, static_cast<Index>(head));
+      const Items items = wearable_items(kind, static_cast<Index>(head));
       if (std::any_of(items.begin(), items.end(),
                       [&](const auto* item) { return item->colour == colour; })) {
         return false;
@@ -342,7 +342,7 @@ class AttachmentChooser {
     }
     const Index head = head_of(parent);
     if (head < 0) return {};
-    const Items items = wearable(kind, head);
+    const Items items = wearable_items(kind, head);
     const bool one = std::all_of(items.begin(), items.end(), [&](const auto* item) {
       return item->colour == items[0]->colour;
     });

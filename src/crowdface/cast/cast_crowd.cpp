@@ -86,8 +86,8 @@ void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
 /// meets the recipe's limits on measurements.
 ///
 /// \return  Nothing if no attempt meets the limits.
-std::optional<FacePlan> complete_by_limits(const CastingOptions& casting, const ManualRecipe& hand,
-                                           const FaceJudge& judge) {
+std::optional<FacePlan> completed_within_limits(const CastingOptions& casting,
+                                                const ManualRecipe& hand, const FaceJudge& judge) {
   const auto attempts =
       kAttemptFactorWithTraits * static_cast<std::uint32_t>(casting.diversity.max_attempts);
   for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
@@ -132,10 +132,10 @@ void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result
 }
 
 /// Casts the sampled faces `from` … `to`, after a review has been applied.
-void grow(const CastingOptions& casting, const FaceJudge& judge,
-          const std::vector<FaceDistribution>& distributions, std::uint64_t from, std::uint64_t to,
-          PopulationBalance& population, const FaceJoinedCallback& on_face_joined,
-          CastingResult& result) {
+void cast_after_review(const CastingOptions& casting, const FaceJudge& judge,
+                       const std::vector<FaceDistribution>& distributions, std::uint64_t from,
+                       std::uint64_t to, PopulationBalance& population,
+                       const FaceJoinedCallback& on_face_joined, CastingResult& result) {
   auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   const std::size_t others = result.crowd.size() - (from - 1);
   for (std::size_t i = 0; i < result.crowd.size(); ++i) {
@@ -156,7 +156,7 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
   CrowdSoFar& crowd = *so_far;
   for (const ManualRecipe& hand : casting.recipes) {
-    std::optional<FacePlan> face = complete_by_limits(casting, hand, judge);
+    std::optional<FacePlan> face = completed_within_limits(casting, hand, judge);
     if (!face) {
       RejectionCounts rejections;
       rejections.add(RejectionReason::kTraits);
@@ -197,7 +197,8 @@ CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
   so_far.reset();  // free the search index, which takes as much memory as the points
   const auto grow_to = [&](std::uint64_t count) {
     if (result.shortfall || count <= sampled) return;
-    grow(casting, judge, distributions, sampled + 1, count, population, on_face_joined, result);
+    cast_after_review(casting, judge, distributions, sampled + 1, count, population, on_face_joined,
+                      result);
     sampled = count;
   };
   for (std::size_t r = 0; r < casting.reviews.size(); ++r) {

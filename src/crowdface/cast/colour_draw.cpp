@@ -28,7 +28,7 @@ class ColourChooser {
 
   /// Returns whether two heads have the same tags. Compares only the tags that
   /// ColourOptions::tags_to_match lists.
-  bool alike(Index a, Index b) const {
+  bool have_equal_tags(Index a, Index b) const {
     return compared_tags_.empty() || compared_tags_[static_cast<std::size_t>(a)] ==
                                          compared_tags_[static_cast<std::size_t>(b)];
   }
@@ -40,7 +40,7 @@ class ColourChooser {
                                   const std::string& who) const {
     std::vector<Index> heads;
     for (Index h = 0; h < static_cast<Index>(draw_.head_names.size()); ++h) {
-      if (alike(h, typical)) heads.push_back(h);
+      if (have_equal_tags(h, typical)) heads.push_back(h);
     }
     const std::string purpose = concat("colours/", who);
     const RandomKey key = {draw_.seed, index, purpose, attempt};
@@ -62,7 +62,7 @@ class ColourChooser {
 
  private:
   const ColourOptions& draw_;
-  /// for each head, the tags that `alike` compares, sorted
+  /// for each head, the tags that `have_equal_tags` compares, sorted
   std::vector<std::vector<std::string>> compared_tags_;
 };
 
@@ -106,7 +106,7 @@ void choose_colours(const ColourOptions& draw, std::vector<FacePlan>& crowd) {
     std::map<Index, double> inherited;
     for (const std::string& name : face.parents) {
       for (const SourceWeight& one : parents.colours_of(name)) {
-        if (drawing.alike(one.head, typical)) inherited[one.head] += one.weight;
+        if (drawing.have_equal_tags(one.head, typical)) inherited[one.head] += one.weight;
       }
     }
     if (!inherited.empty()) {

@@ -27,7 +27,7 @@ constexpr int kMaxMeshTrials = 4;
 /// Returns a smaller distance to try. At the distance `fails`, only `reached` of `count` faces fit.
 /// The number of faces that fit is proportional to a power of the distance, with an exponent
 /// between −2.5 and −5.
-double next_smaller(double fails, std::uint64_t reached, std::uint64_t count) {
+double smaller_distance(double fails, std::uint64_t reached, std::uint64_t count) {
   const double share = (static_cast<double>(reached) + 0.5) / (static_cast<double>(count) + 1);
   return fails * std::clamp(std::pow(share, 0.4), 0.6, 0.93);
 }
@@ -64,14 +64,14 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
     return cast.shortfall;
   };
   double works = 0, fails = distance;
-  double next = next_smaller(fails, std::min(shortfall.cast_count, easier.count), easier.count);
+  double next = smaller_distance(fails, std::min(shortfall.cast_count, easier.count), easier.count);
   while ((draws < kMaxTrialCandidates || works == 0) && fails >= kBisectionRatio * works) {
     const double mm = whole_hundredths(next);
     if (mm <= works) break;
     if (const auto missing = shortfall_at(mm, {})) {
       fails = mm;
       next = works > 0 ? std::sqrt(works * fails)
-                       : next_smaller(fails, missing->cast_count, easier.count);
+                       : smaller_distance(fails, missing->cast_count, easier.count);
     } else {
       works = mm;
       next = std::sqrt(works * fails);

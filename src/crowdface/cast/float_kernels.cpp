@@ -80,7 +80,7 @@ double fixed_order_dot(const float* a, const float* b, std::size_t count) {
 
 /// The terms that add_scaled_and_sum_squares adds up: term i is (to[i] + factor·from[i])².
 /// Computing term i also stores to[i] + factor·from[i] in to[i].
-struct SquaresAfter {
+struct SquaresOfUpdatedNumbers {
   float factor;
   const float* from;
   float* to;
@@ -99,7 +99,7 @@ struct SquaresAfter {
 };
 
 double add_scaled_and_sum_squares(float factor, const float* from, std::size_t count, float* to) {
-  return sum_of(SquaresAfter{factor, from, to}, count);
+  return sum_of(SquaresOfUpdatedNumbers{factor, from, to}, count);
 }
 
 void add_scaled(float factor, const float* from, std::size_t count, float* to) {

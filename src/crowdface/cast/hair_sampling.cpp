@@ -23,7 +23,7 @@ HairColour mix(const HairColour& a, const HairColour& b, double share) {
 
 /// Chooses an index at random; `shares` are the probabilities of the indices. Returns −1 if the
 /// random number `drawn` (0 … 1) exceeds the sum of the shares.
-int share_at(const std::vector<double>& shares, double drawn) {
+int random_index(const std::vector<double>& shares, double drawn) {
   for (std::size_t i = 0; i < shares.size(); ++i) {
     if (drawn < shares[i]) return static_cast<int>(i);
     drawn -= shares[i];
@@ -97,7 +97,7 @@ std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face) {
     chosen = schedule->second[place->second.face_index];
   } else {
     const std::string purpose = concat("hair/colour/", face.id);
-    chosen = share_at(parts, random_uniform({options_.seed, face.index.value_or(0), purpose}));
+    chosen = random_index(parts, random_uniform({options_.seed, face.index.value_or(0), purpose}));
   }
   return chosen < 0 ? std::nullopt : std::optional(colours[static_cast<std::size_t>(chosen)]);
 }

@@ -113,8 +113,8 @@ std::size_t farthest_from_first(const std::vector<FaceSpace::Point>& points) {
 /// Visits all faces, always going to the nearest face that is not yet visited; see find_likeness.
 ///
 /// \param near  For each face, its nearest faces. Every face that is not listed is farther away.
-std::vector<std::size_t> walk(const std::vector<FaceSpace::Point>& points,
-                              const std::vector<std::vector<Neighbour>>& near) {
+std::vector<std::size_t> nearest_neighbour_walk(const std::vector<FaceSpace::Point>& points,
+                                                const std::vector<std::vector<Neighbour>>& near) {
   std::vector<bool> gone(points.size(), false);
   // contains the faces that were not yet visited when the tree was built
   std::optional<LikenessTree> tree;
@@ -148,7 +148,7 @@ Likeness find_likeness(const std::vector<FaceSpace::Point>& points, std::size_t 
     const std::size_t face = tree.face(place);
     likeness.neighbours[face] = tree.nearest(face, neighbour_count);
   });
-  likeness.face_order = walk(points, likeness.neighbours);
+  likeness.face_order = nearest_neighbour_walk(points, likeness.neighbours);
   return likeness;
 }
 

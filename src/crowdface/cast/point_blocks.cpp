@@ -8,15 +8,17 @@
 namespace crowdface {
 
 PointBlocks::PointBlocks(Index dimensions)
-    : dimensions_((dimensions + kChunk - 1) / kChunk * kChunk),
-      chunks_(static_cast<std::size_t>(dimensions_ / kChunk)) {}
+    : dimensions_((dimensions + kCoordinatesPerChunk - 1) / kCoordinatesPerChunk *
+                  kCoordinatesPerChunk),
+      chunks_(static_cast<std::size_t>(dimensions_ / kCoordinatesPerChunk)) {}
 
 void PointBlocks::add(Index number, const float* coordinates) {
   if (size() % kLanes == 0) {
-    for (auto& chunk : chunks_) chunk.resize(chunk.size() + kChunk * kLanes);
+    for (auto& chunk : chunks_) chunk.resize(chunk.size() + kCoordinatesPerChunk * kLanes);
   }
   for (Index d = 0; d < dimensions_; ++d) {
-    chunks_[static_cast<std::size_t>(d / kChunk)][chunk_offset(size(), d)] = coordinates[d];
+    chunks_[static_cast<std::size_t>(d / kCoordinatesPerChunk)][chunk_offset(size(), d)] =
+        coordinates[d];
   }
   point_numbers_.push_back(number);
 }
@@ -35,11 +37,11 @@ std::vector<float> PointBlocks::padded_query(const Eigen::VectorXf& query) const
 PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& query, Index block,
                                                   float bound) const {
   Lanes sums = {};
-  for (Index chunk = 0; chunk < dimensions_; chunk += kChunk) {
+  for (Index chunk = 0; chunk < dimensions_; chunk += kCoordinatesPerChunk) {
     // The sums only grow, so once all sums exceed the bound, no point of the block is within the
     // bound.
     if (!add_squares(query.data() + chunk, &chunk_of(chunk)[chunk_offset(block * kLanes, chunk)],
-                     kChunk, bound, sums.data())) {
+                     kCoordinatesPerChunk, bound, sums.data())) {
       sums.fill(HUGE_VALF);
       return sums;
     }

@@ -85,20 +85,22 @@ class PointBlocks {
 
  private:
   /// number of coordinates that are summed before the sums are compared with the bound
-  static constexpr Index kChunk = 16;
+  static constexpr Index kCoordinatesPerChunk = 16;
 
   /// Returns the offset of a point's coordinate within the coordinate's chunk.
   static std::size_t chunk_offset(Index index, Index dimension) {
-    return static_cast<std::size_t>((index / kLanes * kChunk + dimension % kChunk) * kLanes +
-                                    index % kLanes);
+    return static_cast<std::size_t>(
+        (index / kLanes * kCoordinatesPerChunk + dimension % kCoordinatesPerChunk) * kLanes +
+        index % kLanes);
   }
   const std::vector<float>& chunk_of(Index dimension) const {
-    return chunks_[static_cast<std::size_t>(dimension / kChunk)];
+    return chunks_[static_cast<std::size_t>(dimension / kCoordinatesPerChunk)];
   }
 
-  Index dimensions_;  ///< number of stored coordinates of each point, a multiple of kChunk
+  Index
+      dimensions_;  ///< number of stored coordinates of each point, a multiple of kCoordinatesPerChunk
   std::vector<Index> point_numbers_;  ///< numbers of the points, in the order of `add`
-  /// For each chunk of kChunk coordinates, the values sorted by block, then coordinate, then lane.
+  /// For each chunk of kCoordinatesPerChunk coordinates, the values sorted by block, then coordinate, then lane.
   /// Nearly all searches of a block end in the first chunk, so the first chunks of all blocks are
   /// contiguous in memory.
   std::vector<std::vector<float>> chunks_;

@@ -236,7 +236,7 @@ void read_schema(const YamlNode& node, Config&, ConfigDraft& draft) {
 }
 
 /// Returns the default sampling options, with one region.
-SamplingOptions with_a_region() {
+SamplingOptions one_region_sampling() {
   SamplingOptions sampling;
   sampling.regions.resize(1);
   return sampling;
@@ -270,7 +270,7 @@ const Keys<Config>& root_keys() {
       section_key("plane", &Config::plane, plane_keys(), {}, check_plane)
           .not_affecting_face_files(),
       section_key("sampling", &Config::sampling, sampling_keys())
-          .with_nested_keys(sampling_keys(), with_a_region())
+          .with_nested_keys(sampling_keys(), one_region_sampling())
           .not_affecting_face_files(),
       section_key("distance", &Config::distance, distance_keys()).not_affecting_face_files(),
       section_key("diversity", &Config::diversity, diversity_keys()).not_affecting_face_files(),

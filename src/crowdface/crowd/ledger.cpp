@@ -48,7 +48,7 @@ void add_counts(const LedgerEntry& entry, FileCounts& counts) {
 }
 
 /// Returns the FileCounts of all entries as JSON text.
-std::string count_files(const std::vector<LedgerEntry>& entries) {
+std::string file_counts_json(const std::vector<LedgerEntry>& entries) {
   FileCounts counts;
   for (const LedgerEntry& entry : entries) add_counts(entry, counts);
   return Json(counts).dump();
@@ -68,7 +68,7 @@ class LedgerReader {
     if (ended) entry = parse_ledger_line(line);
     if (entry && entry->item == kEndItem) {
       lines.is_complete = entry->key == line_hash_.digest() &&
-                          (entry->note.empty() || entry->note == count_files(lines.entries));
+                          (entry->note.empty() || entry->note == file_counts_json(lines.entries));
     } else if (entry) {
       lines.entries.push_back(std::move(*entry));
     } else {

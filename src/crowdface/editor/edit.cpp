@@ -83,9 +83,9 @@ std::vector<std::string> generate_arguments(const Config& config, const ConfigOv
 /// requests about this job.
 struct OpenedJob {
   OpenedJob(Job job, const EditOptions& options, EditedFolder& folder, GenerateRun& run,
-            bool may_edit_config, std::function<void()> open_again)
+            bool may_edit_config, std::function<void()> reload_job)
       : session(std::move(job), options.cache, options.preview_vertices),
-        api(session, folder, run, may_edit_config, std::move(open_again)) {}
+        api(session, folder, run, may_edit_config, std::move(reload_job)) {}
   EditSession session;
   EditApi api;
 };
@@ -104,14 +104,14 @@ void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& o
   std::mutex opening, answering;
   std::shared_ptr<OpenedJob>
       opened;  // guarded by `answering`; a running request keeps its job alive
-  std::function<void()> open_again;
+  std::function<void()> reload_job;
   const auto open = [&](Job next) {
     auto made =
-        std::make_shared<OpenedJob>(std::move(next), options, folder, run, !is_crowd, open_again);
+        std::make_shared<OpenedJob>(std::move(next), options, folder, run, !is_crowd, reload_job);
     const std::lock_guard its(answering);
     opened = std::move(made);
   };
-  open_again = [&] {
+  reload_job = [&] {
     const std::lock_guard one(opening);
     open(load_edited_job(config_or_crowd, overrides, options.cache));
   };

@@ -19,12 +19,12 @@
 namespace crowdface {
 
 EditApi::EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
-                 std::function<void()> open_again)
+                 std::function<void()> reload_job)
     : session_(session),
       may_edit_config_(may_edit_config),
       folder_(folder),
       run_(run),
-      open_again_(std::move(open_again)),
+      reload_job_(std::move(reload_job)),
       page_(gallery_page_folder(), "editor"),
       pictures_(session.job()),
       attachments_(session.job(), session.crowd()),
@@ -67,7 +67,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"POST", "api/dropped", &EditApi::begin_drop},
                                             {"PUT", "api/dropped/", &EditApi::receive_dropped_file},
                                             {"POST", "api/heads", &EditApi::add_heads},
-                                            {"POST", "api/open", &EditApi::open_again}};
+                                            {"POST", "api/open", &EditApi::reload_job}};
   return answer_or_refuse(request, [this](const HttpRequest& asked) {
     for (const Route& route : routes) {
       const bool is_prefix = route.path.ends_with('/');

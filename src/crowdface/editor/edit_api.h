@@ -32,9 +32,9 @@ class EditApi {
   /// \param may_edit_config  whether requests may save recipes and regions to the job's config;
   ///                         true if the config is the user's own file, not the config.yaml in a
   ///                         crowd's folder
-  /// \param open_again  reloads the config and the crowd, and replaces this object by a new EditApi
+  /// \param reload_job  reloads the config and the crowd, and replaces this object by a new EditApi
   EditApi(EditSession& session, EditedFolder& folder, GenerateRun& run, bool may_edit_config,
-          std::function<void()> open_again);
+          std::function<void()> reload_job);
 
   /// Never throws because of the content of a request: the answer to a faulty request is {"error":
   /// sentence}.
@@ -52,7 +52,7 @@ class EditApi {
   // Handlers of requests that save the editor's state or write other files.
   Handler saved_state, take_over_editing, save_state, save_face, put_recipe, review;
   // Handlers of requests that generate the crowd and load the result.
-  Handler generate, stop_generate, generate_progress, open_again;
+  Handler generate, stop_generate, generate_progress, reload_job;
   // Handlers of requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
   // Handlers of requests that add heads.
@@ -91,7 +91,7 @@ class EditApi {
   bool may_edit_config_;
   EditedFolder& folder_;
   GenerateRun& run_;
-  std::function<void()> open_again_;
+  std::function<void()> reload_job_;
   PageFiles page_;
   EditPictures pictures_;
   EditAttachments attachments_;

@@ -135,9 +135,9 @@ void EditApi::require_no_run() {
   throw UsageError("the crowd is being generated: wait until it is done, or stop it");
 }
 
-HttpAnswer EditApi::open_again(const HttpRequest&, const std::string&) {
+HttpAnswer EditApi::reload_job(const HttpRequest&, const std::string&) {
   require_no_run();
-  open_again_();
+  reload_job_();
   return json_answer(Json::object());
 }
 
@@ -245,7 +245,7 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
     }
     painting_.delete_stored_strokes();
   }
-  open_again(request, rest);
+  reload_job(request, rest);
   return json_answer({{"regions", edit_json(edits, "regions")}});
 }
 
@@ -282,14 +282,14 @@ HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& res
   if (body.contains("back")) {
     folder_.require_same_folder();
     restore_section(config.file, "faces", optional_text_in(body, "back"));
-    open_again(request, rest);
+    reload_job(request, rest);
     return json_answer(Json::object());
   }
   const std::vector<std::filesystem::path> heads = dropped_.move_to_config_folder();
   try {
     const auto edits = save_heads_in_edits(config.file, heads);
     try {
-      open_again_();
+      reload_job_();
     } catch (...) {
       restore_section(config.file, "faces", before);
       write_file(config.file, config_text);

@@ -28,7 +28,7 @@ class TextureAtlas {
   }
   /// Whether the atlas contains the texture of a polygon.
   bool covers_polygon(std::uint32_t polygon) const {
-    return !cell_of_face_.empty() && cell_of_face_[polygon] != TextureLayer::kNone;
+    return !cell_of_polygon_.empty() && cell_of_polygon_[polygon] != TextureLayer::kNone;
   }
   /// Returns the atlas of a head's colour textures, as a JPEG file; nothing if the head has no
   /// texture.
@@ -46,7 +46,7 @@ class TextureAtlas {
 
   const Inputs& inputs_;
   /// for each polygon: index of the cell, or TextureLayer::kNone; empty: no head has textures
-  std::vector<std::uint32_t> cell_of_face_;
+  std::vector<std::uint32_t> cell_of_polygon_;
   std::uint32_t cell_count_ = 0;
   int columns_ = 1, rows_ = 1, cell_px_ = 0;
 };

@@ -89,7 +89,7 @@ Positions coarse_at(const Rim& rim, const Topology& topology, const Positions& p
 
 BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
                          const std::filesystem::path& texture)
-    : neck_(neck),
+    : heads_on_body_(neck),
       topology_(neck.body->file.topology),
       uvs_(neck.body->file.uvs),
       body_optical_densities_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
@@ -120,8 +120,8 @@ BlendedPicture BodyPainter::paint(const Positions& ring_densities) const {
   for (std::size_t i = 0; i < neck_bend_for_colours_.vertices().size(); ++i) {
     added.row(neck_bend_for_colours_.vertices()[i]) += faded.row(static_cast<Index>(i));
   }
-  for (std::size_t i = 0; i < neck_.body_rim.size(); ++i) {
-    added.row(neck_.body_rim[i]) = difference.row(static_cast<Index>(i));
+  for (std::size_t i = 0; i < heads_on_body_.body_rim.size(); ++i) {
+    added.row(heads_on_body_.body_rim[i]) = difference.row(static_cast<Index>(i));
   }
   VertexFactorsOfImage fields;
   fields.heads = {0};

@@ -31,7 +31,7 @@ class BodyPainter {
   BlendedPicture paint(const Positions& ring_densities) const;
 
  private:
-  const HeadsOnBody& neck_;
+  const HeadsOnBody& heads_on_body_;
   Topology topology_;
   TextureCoordinates uvs_;
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`

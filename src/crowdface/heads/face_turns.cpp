@@ -109,12 +109,12 @@ RigidMotion between(const RigidMotion& a, const RigidMotion& b, double w,
 
 FacePoses::FacePoses(const Inputs& inputs, const PreparedHeads& prepared,
                      const RegionWeights& regions)
-    : neck_(*inputs.heads_on_body),
+    : heads_on_body_(*inputs.heads_on_body),
       placed_heads_(heads_above(inputs, prepared, regions)),
-      turned_heads_(placed_heads_) {
-  turned_heads_.trajectories = turned_heads_.owned_trajectories;
-  turn_heads(neck_, turned_heads_);
-  mean_motion_ = head_motion(placed_heads_.mean, turned_heads_.mean);
+      heads_in_common_pose_(placed_heads_) {
+  heads_in_common_pose_.trajectories = heads_in_common_pose_.owned_trajectories;
+  turn_heads(heads_on_body_, heads_in_common_pose_);
+  mean_motion_ = head_motion(placed_heads_.mean, heads_in_common_pose_.mean);
 }
 
 std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
@@ -126,7 +126,8 @@ std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
   plain.mirrored = false;
   RigidMotion motion;
   if (is_turned)
-    motion = head_motion(sample_face(placed_heads_, plain), sample_face(turned_heads_, plain));
+    motion =
+        head_motion(sample_face(placed_heads_, plain), sample_face(heads_in_common_pose_, plain));
   if (is_unmirrored(recipe)) return motion;
   // `plane` is the symmetry plane of the mean of the placed heads. A face must be mirrored in the
   // symmetry plane of the common pose, which is the image of `plane` under `mean_motion_`.
@@ -134,8 +135,8 @@ std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
   if (recipe.asymmetry != 1) {
     const RigidMotion of_image =
         after(mean_motion_, motion_of_mirror_image(after(back, motion), *plane));
-    motion =
-        between(motion, of_image, mirror_image_weight(recipe.asymmetry, false), neck_.seam_centre);
+    motion = between(motion, of_image, mirror_image_weight(recipe.asymmetry, false),
+                     heads_on_body_.seam_centre);
   }
   return recipe.mirrored ? after(motion_of_mirror_image(mean_motion_, *plane), after(back, motion))
                          : motion;
@@ -143,7 +144,7 @@ std::optional<RigidMotion> FacePoses::motion_of(const Recipe& recipe,
 
 bool FacePoses::uses_rotated_head(const Recipe& recipe) const {
   const auto is_turned = [&](const SourceWeight& part) {
-    return !neck_.heads[static_cast<std::size_t>(part.head)].pose_rotation.isZero(0);
+    return !heads_on_body_.heads[static_cast<std::size_t>(part.head)].pose_rotation.isZero(0);
   };
   if (std::ranges::any_of(target_head_weights(recipe), is_turned)) return true;
   for (const RegionRecipe& region : recipe.regions) {

@@ -31,10 +31,10 @@ class FacePoses {
   /// Returns whether a head with weight in the recipe was rotated to the common pose.
   bool uses_rotated_head(const Recipe& recipe) const;
 
-  const HeadsOnBody& neck_;
+  const HeadsOnBody& heads_on_body_;
   /// the heads above the bend of the neck, in file units, as placed on the body
   SampledHeads placed_heads_;
-  SampledHeads turned_heads_;  ///< `placed_heads_`, rotated to the common pose
+  SampledHeads heads_in_common_pose_;  ///< `placed_heads_`, rotated to the common pose
   /// motion of the mean head from its pose on the body to the common pose
   RigidMotion mean_motion_;
 };

@@ -48,7 +48,7 @@ std::string first_uv_difference(const HeadMesh& expected, const HeadMesh& found)
 }
 
 /// Whether each polygon of `found` is also a polygon of `first`.
-bool has_only_faces_of(const Topology& first, const Topology& found) {
+bool has_only_polygons_of(const Topology& first, const Topology& found) {
   std::set<std::vector<std::uint32_t>> faces;
   for (Index f = 0; f < first.face_count(); ++f) {
     const auto face = first.face(f);
@@ -100,7 +100,7 @@ std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head
                ? "; its polygons were cut into triangles: export it without triangulating"
                : "; its triangles were joined to polygons: export it like the others";
   }
-  if (same_vertices && has_only_faces_of(first, found)) {
+  if (same_vertices && has_only_polygons_of(first, found)) {
     return concat("; it lacks ", first.face_count() - found.face_count(),
                   " of the polygons: show hidden parts and export all parts again");
   }
@@ -189,9 +189,9 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
 std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
   constexpr Index kSamples = 2000;
   // Two heads may be the same person if their distance is at most kMaxMm and small for this crowd:
-  // at most kMaxOfOthers times the median, over all other heads, of the distance to the nearest
+  // at most kMaxNearestRatio times the median, over all other heads, of the distance to the nearest
   // head. Heads at most kIdenticalMm apart are copies of one head; the median does not matter then.
-  constexpr double kMaxMm = 1, kMaxOfOthers = 0.4, kIdenticalMm = 0.01;
+  constexpr double kMaxMm = 1, kMaxNearestRatio = 0.4, kIdenticalMm = 0.01;
   const std::vector<Head>& heads = inputs.head_set.heads;
   std::vector<Positions> sampled(heads.size());
   std::vector<Index> rows;
@@ -233,7 +233,7 @@ std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
       }
       const double middle =
           others.empty() ? 0 : nth_smallest(std::move(others), (heads.size() - 2) / 2);
-      if (mean > kMaxMm || (mean > kMaxOfOthers * middle && mean > kIdenticalMm)) continue;
+      if (mean > kMaxMm || (mean > kMaxNearestRatio * middle && mean > kIdenticalMm)) continue;
       warnings.push_back(concat("heads ", heads[a].name, " and ", heads[b].name, " are ",
                                 format_fixed(mean, 2),
                                 " mm apart (rms): are they the same person? Faces that mix the two "

@@ -98,12 +98,12 @@ ShapeSet load_template(const ShapeSource& source, const Inputs& inputs, double e
 }
 
 /// A head as stored in its file, and the rigid motion to its position among the loaded heads.
-struct RestingHead {
+struct HeadAsStored {
   Positions mesh;
   RigidMotion motion;
 };
 
-RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t head) {
+HeadAsStored head_as_stored(const Config& config, const Inputs& inputs, std::size_t head) {
   const Positions& used = inputs.head_set.heads[head].positions;
   if (config.faces.align != Align::kRigid && !inputs.heads_on_body) return {used, {}};
   Positions mesh = read_positions(config.faces.files[head], inputs.head_set.topology,
@@ -118,7 +118,7 @@ RestingHead resting_head(const Config& config, const Inputs& inputs, std::size_t
 void load_head(const ShapeSource& source, const Inputs& inputs, std::size_t head, double extent,
                std::vector<OwnShape>& shapes, Problems& problems) {
   const std::vector<std::filesystem::path>& files = source.config.shapes.head_files[head];
-  const RestingHead rest = resting_head(source.config, inputs, head);
+  const HeadAsStored rest = head_as_stored(source.config, inputs, head);
   read_meshes(files, source, problems, [&](std::size_t s, const Positions& mesh) {
     Displacements moves = make_shape({}, rest.mesh, mesh, extent).moves;
     for (Index row = 0; row < moves.moves.rows(); ++row) {

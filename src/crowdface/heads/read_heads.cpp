@@ -123,7 +123,7 @@ void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
 }
 
 /// Adds a note to each head whose polygons were reversed and not turned back by restore_mirrored.
-void note_reversed_faces(std::vector<std::optional<HeadFile>>& files) {
+void note_reversed_polygons(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (head && head->file.has_reversed_faces) head->file.notes.emplace_back(kReversedFacesNote);
   }
@@ -219,7 +219,7 @@ std::pair<fs::path, std::string> store_textures(const HeadFile& head, const Cach
 }
 
 /// Reads a head from a file that is not an OBJ file. If the file has no polygons, the head gets a
-/// mesh later, from give_faces_to_points.
+/// mesh later, from give_polygons_to_point_clouds.
 void read_other_format(HeadReading& reading, const CacheFolder& cache, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
   FileMesh mesh = read_mesh(file.path);
@@ -278,8 +278,8 @@ void finish_reading(HeadReading& reading, SharedMeshes& shared) {
 
 /// Gives heads without polygons the polygons of the first mesh that has the same number of
 /// vertices.
-void give_faces_to_points(std::vector<std::optional<HeadFile>>& files,
-                          std::vector<std::optional<Error>>& errors) {
+void give_polygons_to_point_clouds(std::vector<std::optional<HeadFile>>& files,
+                                   std::vector<std::optional<Error>>& errors) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (!files[i] || files[i]->mesh) continue;
     const auto other = std::ranges::find_if(files, [&](const auto& file) {
@@ -327,12 +327,12 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
     finish_reading(readings[i], shared);
     files[i] = std::move(readings[i].head);
   });
-  give_faces_to_points(files, errors);
+  give_polygons_to_point_clouds(files, errors);
   for (const auto& error : errors) {
     if (error) problems.add(*error);
   }
   restore_mirrored(files);
-  note_reversed_faces(files);
+  note_reversed_polygons(files);
   log_notes(files);
   return files;
 }

@@ -33,14 +33,14 @@ std::vector<double> skin_tones(const Inputs& inputs) {
 }
 
 HeadColourWeights::HeadColourWeights(const Config& config, const Inputs& inputs)
-    : heads_(inputs.head_set.heads.size()),
+    : head_count_(inputs.head_set.heads.size()),
       region_area_fractions_(region_area_fractions(
           inputs.regions,
           face_vertex_areas(inputs.head_set.topology, inputs.skin_components, inputs.mean_head,
                             FaceArea::kFront, config.faces.front))) {}
 
 std::vector<double> HeadColourWeights::weights_of(const Recipe& recipe) const {
-  return face_colour_weights(recipe, heads_, region_area_fractions_).weights_for_skin;
+  return face_colour_weights(recipe, head_count_, region_area_fractions_).weights_for_skin;
 }
 
 }  // namespace crowdface

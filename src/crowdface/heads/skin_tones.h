@@ -21,7 +21,7 @@ class HeadColourWeights {
   std::vector<double> weights_of(const Recipe& recipe) const;
 
  private:
-  std::size_t heads_;  ///< number of heads
+  std::size_t head_count_;  ///< number of heads
   std::vector<double> region_area_fractions_;
 };
 

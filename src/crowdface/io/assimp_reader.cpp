@@ -24,15 +24,15 @@ struct Collected {
   bool any_colours = false;
 };
 
-void collect_mesh(const aiMesh& from, const aiMatrix4x4& place, const std::string& material,
-                  Collected& all) {
+void collect_mesh(const aiMesh& from, const aiMatrix4x4& world_transform,
+                  const std::string& material, Collected& all) {
   constexpr unsigned kMinCorners = 3;
   FileMesh& mesh = all.mesh;
   const auto first = static_cast<std::uint32_t>(all.points.size() / 3);
   const bool has_uvs = from.HasTextureCoords(0), has_colours = from.HasVertexColors(0);
   all.any_colours = all.any_colours || has_colours;
   for (unsigned v = 0; v < from.mNumVertices; ++v) {
-    const aiVector3D point = place * from.mVertices[v];
+    const aiVector3D point = world_transform * from.mVertices[v];
     all.points.insert(all.points.end(), {point.x, point.y, point.z});
     const aiVector3D uv = has_uvs ? from.mTextureCoords[0][v] : aiVector3D();
     all.uvs.insert(all.uvs.end(), {uv.x, uv.y});
@@ -42,7 +42,7 @@ void collect_mesh(const aiMesh& from, const aiMatrix4x4& place, const std::strin
     }
     mesh.mesh_of_vertex.push_back(all.piece);
   }
-  const bool mirrored = aiMatrix3x3(place).Determinant() < 0;
+  const bool mirrored = aiMatrix3x3(world_transform).Determinant() < 0;
   if (mesh.materials.empty() || mesh.materials.back().name != material) {
     mesh.materials.push_back({material, mesh.topology.face_count()});
   }
@@ -63,17 +63,17 @@ void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& a
                   Collected& all) {
   constexpr int kDeepest = 256;
   if (depth > kDeepest) throw std::runtime_error("its nodes are nested too deeply");
-  const aiMatrix4x4 place = above * node.mTransformation;
+  const aiMatrix4x4 world_transform = above * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[m]];
     const aiString name = mesh.mMaterialIndex < scene.mNumMaterials
                               ? scene.mMaterials[mesh.mMaterialIndex]->GetName()
                               : mesh.mName;
-    collect_mesh(mesh, place, name.C_Str(), all);
+    collect_mesh(mesh, world_transform, name.C_Str(), all);
   }
   if (node.mNumMeshes > 0) ++all.piece;
   for (unsigned c = 0; c < node.mNumChildren; ++c) {
-    collect_node(scene, *node.mChildren[c], place, depth + 1, all);
+    collect_node(scene, *node.mChildren[c], world_transform, depth + 1, all);
   }
 }
 

@@ -62,8 +62,8 @@ void join_uvs(FileMesh& mesh) {
 
 }  // namespace
 
-void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vector<double>& uvs,
-              const std::vector<double>& colours) {
+void set_vertex_data(FileMesh& mesh, const std::vector<double>& points,
+                     const std::vector<double>& uvs, const std::vector<double>& colours) {
   const auto rows = static_cast<Index>(points.size() / 3);
   mesh.topology.vertex_count = rows;
   mesh.positions = Eigen::Map<const Positions>(points.data(), rows, 3);

@@ -45,8 +45,8 @@ struct FileMesh : Mesh {
 /// coordinates, clears the corners' indices of texture coordinates.
 /// \param points, colours  three numbers per vertex; `colours` may be empty
 /// \param uvs              two numbers per texture coordinate
-void set_rows(FileMesh& mesh, const std::vector<double>& points, const std::vector<double>& uvs,
-              const std::vector<double>& colours);
+void set_vertex_data(FileMesh& mesh, const std::vector<double>& points,
+                     const std::vector<double>& uvs, const std::vector<double>& colours);
 
 /// The text of a note that the blend shapes in a mesh file are ignored, because the program reads
 /// each blend shape from a separate mesh file (docs/shapes.md).

@@ -64,8 +64,9 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   source_vertices_ = split.vertices;
   has_uvs_ = !split.uvs.empty() && uvs.rows() > 0;
   if (has_uvs_) shared_data_ = encoded_texture_coordinates(split, uvs);
-  if (influences.group_count() > 0) skin_ = skin_attributes(influences, source_vertices_);
-  for (GlbSkinAttribute& one : skin_) shared_data_ += std::exchange(one.bytes, {});
+  if (influences.group_count() > 0)
+    skin_attributes_ = skin_attributes(influences, source_vertices_);
+  for (GlbSkinAttribute& one : skin_attributes_) shared_data_ += std::exchange(one.bytes, {});
   for (std::size_t m = 0; m < materials.size(); ++m) {
     std::size_t indices = 0;
     for (std::size_t t = 0; t < split.triangles.size(); ++t) {
@@ -102,7 +103,8 @@ std::size_t GlbPart::add_to_scene(Json& scene, const Positions& positions,
   bounded["max"] = vector_json(positions.colwise().maxCoeff());
   add_attribute("NORMAL", "VEC3", 3);
   if (has_uvs_) add_attribute("TEXCOORD_0", "VEC2", 2);
-  for (const GlbSkinAttribute& one : skin_) add_attribute(one.name, "VEC4", 4, one.component_type);
+  for (const GlbSkinAttribute& one : skin_attributes_)
+    add_attribute(one.name, "VEC4", 4, one.component_type);
   std::size_t all = 0;
   for (const Primitive& primitive : primitives_) all += primitive.index_count;
   buffer.add_view(all * sizeof(std::uint32_t), kElementArrayBuffer);
@@ -132,7 +134,7 @@ std::size_t GlbPart::add_to_scene(Json& scene, const Positions& positions,
   set_morph_targets(mesh, scene["accessors"].size(), targets_);
   add_targets(moves, source_vertices_, topology_.vertex_count, scene, buffer);
   Json node = {{"name", name_}, {"mesh", scene["meshes"].size()}};
-  if (skin_.empty()) {
+  if (skin_attributes_.empty()) {
     scene["nodes"][0]["children"].push_back(scene["nodes"].size());
   } else {
     node["skin"] = 0;

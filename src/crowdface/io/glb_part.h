@@ -96,8 +96,8 @@ class GlbPart {
   std::vector<std::size_t> image_sizes_;
   // The `bytes` of the images and of the skin attributes are empty; `shared_data_` has the data.
   std::vector<GlbImage> images_;
-  std::vector<GlbSkinAttribute> skin_;  ///< no elements if the mesh is not skinned
-  std::vector<std::string> targets_;    ///< names of the morph targets
+  std::vector<GlbSkinAttribute> skin_attributes_;  ///< no elements if the mesh is not skinned
+  std::vector<std::string> targets_;               ///< names of the morph targets
   GivenNormals given_normals_;
   std::string shared_data_;  ///< texture coordinates, influences, triangles, images
 };

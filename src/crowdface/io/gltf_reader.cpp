@@ -38,7 +38,7 @@ struct UvTransform {
 };
 
 /// The vertices of one accessor, as a range of rows in the list of all vertices of the file.
-struct Rows {
+struct VertexRange {
   std::uint32_t first = 0, count = 0;
 };
 
@@ -137,30 +137,30 @@ class GltfMeshReader {
     return file_.scene().at("materials").at(number).value("name", concat("material_", number));
   }
 
-  void add_mesh(const GltfJson& node, const Eigen::Matrix4d& place) {
+  void add_mesh(const GltfJson& node, const Eigen::Matrix4d& world_transform) {
     const auto number = node["mesh"].get<std::size_t>();
     const GltfJson& mesh = file_.scene().at("meshes").at(number);
     const std::string name = node.value("name", mesh.value("name", concat("mesh_", number)));
-    std::map<std::size_t, Rows> known;
+    std::map<std::size_t, VertexRange> known;
     for (const GltfJson& primitive : mesh.at("primitives")) {
       const int mode = primitive.value("mode", kTriangles);
       if (mode < kTriangles || mode > kFan) continue;  // points and lines
-      add_primitive(primitive, mode, place, material_name(primitive, name), known);
+      add_primitive(primitive, mode, world_transform, material_name(primitive, name), known);
     }
     ++piece_;
   }
 
   /// \param known  maps an accessor to the vertices that earlier primitives of the same mesh added
   ///               for this accessor
-  void add_primitive(const GltfJson& json, int mode, const Eigen::Matrix4d& place,
-                     const std::string& material, std::map<std::size_t, Rows>& known) {
+  void add_primitive(const GltfJson& json, int mode, const Eigen::Matrix4d& world_transform,
+                     const std::string& material, std::map<std::size_t, VertexRange>& known) {
     const GltfJson& attributes = json.at("attributes");
     const auto accessor = attributes.at("POSITION").get<std::size_t>();
     const UvTransform transform = uv_transform(json);
     const std::string uv_set = concat("TEXCOORD_", transform.set);
     const bool packed =
         json.contains("extensions") && json["extensions"].contains("KHR_draco_mesh_compression");
-    Rows rows{static_cast<std::uint32_t>(pieces()), 0};
+    VertexRange rows{static_cast<std::uint32_t>(pieces()), 0};
     Primitive part;
     if (!packed && known.contains(accessor)) {
       rows = known[accessor];
@@ -168,7 +168,7 @@ class GltfMeshReader {
     } else {
       part = packed ? unpack(json, uv_set) : read(json, uv_set);
       rows.count = static_cast<std::uint32_t>(part.places.size() / 3);
-      add_rows(part, place, transform);
+      add_rows(part, world_transform, transform);
       if (!packed) known.emplace(accessor, rows);
     }
     for (const std::uint32_t corner : part.corners) {
@@ -176,7 +176,7 @@ class GltfMeshReader {
         file_.fail(concat("a triangle refers to vertex ", corner, " of ", rows.count));
       }
     }
-    add_faces(part.corners, mode, rows.first, place, material);
+    add_faces(part.corners, mode, rows.first, world_transform, material);
   }
 
   std::size_t pieces() const { return mesh_.mesh_of_vertex.size(); }
@@ -229,13 +229,14 @@ class GltfMeshReader {
     return part;
   }
 
-  void add_rows(const Primitive& part, const Eigen::Matrix4d& place, const UvTransform& uv) {
+  void add_rows(const Primitive& part, const Eigen::Matrix4d& world_transform,
+                const UvTransform& uv) {
     const std::size_t count = part.places.size() / 3;
     const bool has_uvs = part.uvs.size() == 2 * count;
     const bool has_colours = part.colours.size() == part.colour_width * count;
     const double cos = std::cos(uv.rotation), sin = std::sin(uv.rotation);
     for (std::size_t i = 0; i < count; ++i) {
-      const Eigen::Vector3d point = transform_point(place, &part.places[3 * i]);
+      const Eigen::Vector3d point = transform_point(world_transform, &part.places[3 * i]);
       points_.insert(points_.end(), point.data(), point.data() + 3);
       mesh_.mesh_of_vertex.push_back(piece_);
       uv_rows_.push_back(has_uvs ? static_cast<std::uint32_t>(uvs_.size() / 2) : kNoIndex);
@@ -255,8 +256,8 @@ class GltfMeshReader {
   }
 
   void add_faces(const std::vector<std::uint32_t>& corners, int mode, std::uint32_t first,
-                 const Eigen::Matrix4d& place, const std::string& material) {
-    const bool mirrored = place.topLeftCorner<3, 3>().determinant() < 0;
+                 const Eigen::Matrix4d& world_transform, const std::string& material) {
+    const bool mirrored = world_transform.topLeftCorner<3, 3>().determinant() < 0;
     if (mesh_.materials.empty() || mesh_.materials.back().name != material) {
       mesh_.materials.push_back({material, mesh_.topology.face_count()});
     }
@@ -283,7 +284,7 @@ class GltfMeshReader {
   }
 
   void finish() {
-    set_rows(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
+    set_vertex_data(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
     if (!has_ids_) mesh_.vertex_ids.clear();
     note_shapes();
     std::set<std::string> used, unused;

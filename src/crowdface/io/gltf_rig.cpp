@@ -23,7 +23,9 @@ constexpr std::size_t kLongestJointName = 1000;  ///< bytes
 class RigReader {
  public:
   RigReader(std::string_view bytes, const std::filesystem::path& path)
-      : file_(bytes, path), parents_(file_.parents()), worlds_(file_.world_transforms(parents_)) {
+      : file_(bytes, path),
+        parents_(file_.parents()),
+        world_transforms_(file_.world_transforms(parents_)) {
     const Json& nodes = file_.scene().at("nodes");
     joint_of_.assign(nodes.size(), kNoIndex);
     for (const Json& skin : file_.scene().value("skins", Json::array())) {
@@ -32,7 +34,7 @@ class RigReader {
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       if (joint_of_[n] == kNoIndex) continue;
       joint_of_[n] = static_cast<std::uint32_t>(rig_.joints.size());
-      rig_.joints.push_back({joint_name(nodes[n], n), 0, worlds_[n]});
+      rig_.joints.push_back({joint_name(nodes[n], n), 0, world_transforms_[n]});
     }
     if (rig_.joints.empty()) file_.fail("expected a mesh that is bound to joints, found no skin");
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
@@ -93,7 +95,7 @@ class RigReader {
       file_.fail(
           concat("the mesh of its node ", node, " is neither bound to a joint nor below one"));
     }
-    const Eigen::Matrix4d& place = worlds_[node];
+    const Eigen::Matrix4d& place = world_transforms_[node];
     for (std::size_t p = 0; p < count; ++p) {
       points_.push_back(transform_point(place, &places[3 * p]));
       rig_.influences.add_group(std::array{Influence{joint, 1}});
@@ -104,7 +106,7 @@ class RigReader {
   struct Skin {
     std::vector<std::uint32_t> joints;
     /// for each joint, the transform from the mesh's axes to the file's axes in the rest pose
-    std::vector<Eigen::Matrix4d> at_rest;
+    std::vector<Eigen::Matrix4d> rest_transforms;
   };
   const Skin& skin_of(std::size_t number) {
     const auto [known, is_new] = skins_.try_emplace(number);
@@ -121,10 +123,11 @@ class RigReader {
         file_.fail("a skin lacks inverse bind matrices");
     }
     for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-      skin.at_rest.push_back(rig_.joints[skin.joints[j]].rest_transform);
+      skin.rest_transforms.push_back(rig_.joints[skin.joints[j]].rest_transform);
       if (inverses.empty()) continue;
       const auto first = inverses.begin() + static_cast<std::ptrdiff_t>(16 * j);
-      skin.at_rest.back() = matrix_product(skin.at_rest.back(), matrix_from({first, first + 16}));
+      skin.rest_transforms.back() =
+          matrix_product(skin.rest_transforms.back(), matrix_from({first, first + 16}));
     }
     return skin;
   }
@@ -156,7 +159,7 @@ class RigReader {
               concat("a vertex is bound to the joint ", joint, ", which its skin does not have"));
         }
         of_point[skin.joints[joint]] += weight;
-        place += weight * transform_point(skin.at_rest[joint], &places[3 * p]);
+        place += weight * transform_point(skin.rest_transforms[joint], &places[3 * p]);
         sum += weight;
       }
       if (!(sum > 0)) file_.fail(concat("its vertex ", p, " is bound to no joint"));
@@ -172,7 +175,7 @@ class RigReader {
   GltfFile file_;
   std::vector<std::uint32_t> parents_;  ///< parent of each node, or kNoIndex
   /// for each node, the transform from its axes to the file's axes in the rest pose
-  std::vector<Eigen::Matrix4d> worlds_;
+  std::vector<Eigen::Matrix4d> world_transforms_;
   /// for each node, the index of its joint in `rig_.joints`; kNoIndex if the node is not a joint
   std::vector<std::uint32_t> joint_of_;
   std::map<std::size_t, Skin> skins_;

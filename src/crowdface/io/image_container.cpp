@@ -130,7 +130,7 @@ bool is_list_of_texts(std::string_view value) {
 /// Whether the stored size of an attribute's value equals the size of the attribute's type. For
 /// some types the decoder ignores the stored size. If the two sizes differed, the decoder would
 /// read the next attribute at another position than this parser.
-bool has_its_size(const Attribute& attribute) {
+bool has_size_of_type(const Attribute& attribute) {
   for (const auto& [type, size] : kFixedTypes) {
     if (attribute.type == type) return attribute.value.size() == size;
   }
@@ -166,7 +166,7 @@ std::string exr_defect(std::string_view bytes, int max_side) {
     while (!header.at_end()) {
       const auto attribute = header.next();
       if (!attribute) return "is damaged or cut short: its header runs beyond the file's end";
-      if (!has_its_size(*attribute)) {
+      if (!has_size_of_type(*attribute)) {
         return concat("is damaged: the ", attribute->value.size(), " bytes of its attribute ",
                       quoted(attribute->name), " are not of the type ", quoted(attribute->type));
       }

@@ -168,7 +168,7 @@ class Collector {
   void take_library(const fs::path& name) {
     if (add_name(name, "material file", mesh_, libraries_) != NameStatus::kNew) return;
     if (!take_file(name, "material file")) return;
-    files_.files.back().is_library = true;
+    files_.files.back().is_material_file = true;
     const fs::path file = folder_ / name;
     std::error_code error;
     const bool is_too_large = fs::file_size(file, error) > kLargestMaterialFile;

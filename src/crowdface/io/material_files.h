@@ -17,7 +17,7 @@ namespace crowdface {
 struct MaterialFile {
   std::filesystem::path source;       ///< path of the file to copy
   std::filesystem::path destination;  ///< path of the copy, relative to the meshes' folder
-  bool is_library = false;            ///< true: a material file; false: a texture
+  bool is_material_file = false;      ///< true: a material file; false: a texture
   /// Kind of the texture. Nothing if the file is a material file, if material files use the texture
   /// for several kinds, or if an unknown statement names the texture.
   std::optional<TextureKind> kind = {};

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 // One entry per format. An entry lists the values of the members of MeshFormatTraits in order.
 constexpr std::array<MeshFormatTraits, kMeshFormatCount> kTraits = {
-    {{MeshFormat::kObj, "obj", ".obj", "mesh", true, true, FileNormals::kOnLevels,
+    {{MeshFormat::kObj, "obj", ".obj", "mesh", true, true, FileNormals::kReducedLevels,
       DataStorage::kOwnFiles, DataStorage::kOwnFiles, DataStorage::kOwnFiles,
       [](const fs::path& file, Index) { return read_obj(file).positions; }},
      {MeshFormat::kPly, "ply", ".ply", "ply", true, false, FileNormals::kLikeTarget,

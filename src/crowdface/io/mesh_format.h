@@ -32,10 +32,10 @@ enum class DataStorage {
 
 /// For which meshes an encoder must be given normals.
 enum class FileNormals {
-  kNone,        ///< for no mesh
-  kOnLevels,    ///< for levels of detail; the encoder computes the normals of full meshes
-  kLikeTarget,  ///< for all meshes if the file of the target head has normals; else for none
-  kAlways,      ///< for all meshes
+  kNone,           ///< for no mesh
+  kReducedLevels,  ///< for levels of detail; the encoder computes the normals of full meshes
+  kLikeTarget,     ///< for all meshes if the file of the target head has normals; else for none
+  kAlways,         ///< for all meshes
 };
 
 /// Properties of a format. The program needs them to plan, name, read and check files of the

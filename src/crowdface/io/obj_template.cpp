@@ -196,7 +196,7 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
   Positions normals;
   if (fans_) normals = fans_->normals(topology_, positions, {0, 0, 0});
   for (const auto& [row, normal] : given_normals_) normals.row(row) = normal;
-  const Rows rows{positions, normals, colours};
+  const NewValues rows{positions, normals, colours};
   EncodedFile file;
   char* buffer = file.reserve(buffer_size_);
   std::vector<std::string_view> pieces(blocks_.size());
@@ -210,7 +210,7 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
   return file;
 }
 
-char* ObjTemplate::encode_block(const Block& block, const Rows& rows, char* out) const {
+char* ObjTemplate::encode_block(const Block& block, const NewValues& rows, char* out) const {
   std::uint64_t at = block.begin;
   for (const NumberRange& range : block.ranges) {
     out = copy(text_.substr(at, range.begin - at), out);
@@ -220,7 +220,7 @@ char* ObjTemplate::encode_block(const Block& block, const Rows& rows, char* out)
   return out;
 }
 
-char* ObjTemplate::encode_range(const NumberRange& range, const Rows& rows, char* out) const {
+char* ObjTemplate::encode_range(const NumberRange& range, const NewValues& rows, char* out) const {
   const std::string_view old = text_.substr(range.begin, range.length);
   if (!range.is_normal && has_colours_) {
     return write_coloured(out, rows.positions, rows.colours, range.row);

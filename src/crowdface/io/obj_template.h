@@ -66,7 +66,7 @@ class ObjTemplate {
     std::vector<NumberRange> ranges;
   };
   /// The new values of the `v` and `vn` lines.
-  struct Rows {
+  struct NewValues {
     const Positions& positions;
     const Positions& normals;
     const ColourRows& colours;
@@ -77,10 +77,10 @@ class ObjTemplate {
   void add_block(const std::vector<NumberRange>& ranges);
   /// Writes the text of a block with new numbers.
   /// \return the end of the output.
-  char* encode_block(const Block& block, const Rows& rows, char* out) const;
+  char* encode_block(const Block& block, const NewValues& rows, char* out) const;
   /// Writes the new numbers of one line.
   /// \return the end of the output.
-  char* encode_range(const NumberRange& range, const Rows& rows, char* out) const;
+  char* encode_range(const NumberRange& range, const NewValues& rows, char* out) const;
 
   std::string_view text_;
   const Topology& topology_;

@@ -35,7 +35,7 @@ MergedMaterials::MergedMaterials(const std::filesystem::path& mesh,
                                  const std::vector<std::string>& libraries,
                                  const std::string& shared) {
   for (const MaterialFile& file : find_material_files(mesh, libraries).files) {
-    if (!file.is_library) continue;
+    if (!file.is_material_file) continue;
     std::string folder = file.destination.parent_path().generic_string();
     if (!shared.empty()) folder = concat(shared, folder.empty() ? "" : "/", folder);
     const std::string text = read_file(file.source);

@@ -33,8 +33,8 @@ std::size_t vertex_size(bool with_normals, bool with_colours) {
 
 PlyTemplate::PlyTemplate(const Topology& topology)
     : vertex_count_(topology.vertex_count), face_count_(topology.face_count()) {
-  faces_.reserve(static_cast<std::size_t>(face_count_) +
-                 topology.corner_vertices.size() * sizeof(std::uint32_t));
+  encoded_polygons_.reserve(static_cast<std::size_t>(face_count_) +
+                            topology.corner_vertices.size() * sizeof(std::uint32_t));
   for (Index f = 0; f < face_count_; ++f) {
     const auto face = topology.face(f);
     constexpr std::size_t kMaxCorners = 255;
@@ -42,8 +42,8 @@ PlyTemplate::PlyTemplate(const Topology& topology)
       throw InvalidInput(concat("PLY: expected faces of at most 255 corners, found one of ",
                                 face.size(), ", face ", f + 1));
     }
-    faces_.push_back(static_cast<char>(face.size()));
-    for (const std::uint32_t vertex : face) append_number(faces_, vertex);
+    encoded_polygons_.push_back(static_cast<char>(face.size()));
+    for (const std::uint32_t vertex : face) append_number(encoded_polygons_, vertex);
   }
 }
 
@@ -71,7 +71,7 @@ EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& nor
     }
   });
   file.add_without_copy({vertices, static_cast<std::size_t>(vertex_count_) * size});
-  file.add_without_copy(faces_);
+  file.add_without_copy(encoded_polygons_);
   return file;
 }
 

@@ -29,14 +29,14 @@ class PlyTemplate {
                      const ColourRows& colours = {}) const;
 
   /// Memory used by this object, in bytes.
-  std::size_t memory_bytes() const { return faces_.size(); }
+  std::size_t memory_bytes() const { return encoded_polygons_.size(); }
   /// Memory needed to encode one file with normals and colours, in bytes.
   std::size_t encoding_memory_bytes() const;
 
  private:
   Index vertex_count_;
   Index face_count_;
-  std::string faces_;  ///< the polygons, encoded as in the file
+  std::string encoded_polygons_;  ///< the polygons, encoded as in the file
 };
 
 /// Reads the positions of a file that `PlyTemplate` wrote.

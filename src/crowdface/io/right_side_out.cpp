@@ -15,7 +15,7 @@ namespace {
 
 /// The OBJ text with reversed polygons: the first corner of each polygon stays first, and its other
 /// corners are in reverse order.
-std::string with_turned_faces(std::string_view text) {
+std::string with_reversed_polygons(std::string_view text) {
   std::string turned;
   turned.reserve(text.size());
   for (std::size_t begin = 0; begin < text.size();) {
@@ -51,7 +51,7 @@ void reverse_inward_faces(FileMesh& mesh) {
 
 ObjFile with_outward_faces(ObjFile file) {
   if (!is_inside_out(file.topology, file.positions)) return file;
-  MappedFile text = MappedFile::from_text(with_turned_faces(file.file.bytes()));
+  MappedFile text = MappedFile::from_text(with_reversed_polygons(file.file.bytes()));
   const ObjSummary summary = summarise_obj(text.bytes());
   ObjFile turned = read_obj(file.path, std::move(text), summary);
   turned.notes = std::move(file.notes);

@@ -30,7 +30,7 @@ std::filesystem::path texture_at_end(std::string_view rest, const std::filesyste
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::filesystem::path relative = (folder / name).lexically_normal();
     for (const MaterialFile& file : files.files) {
-      if (!file.is_library && file.destination == relative) return file.source;
+      if (!file.is_material_file && file.destination == relative) return file.source;
     }
   }
   return {};
@@ -61,7 +61,7 @@ void take(const MaterialStatement& statement, const std::filesystem::path& folde
 std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) {
   std::vector<SurfaceMaterial> materials;
   for (const MaterialFile& file : files.files) {
-    if (!file.is_library) continue;
+    if (!file.is_material_file) continue;
     const std::string text = read_file(file.source);
     for (const std::string_view line : split_lines(text)) {
       throw_if_interrupted();

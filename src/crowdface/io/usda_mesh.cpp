@@ -40,13 +40,14 @@ std::string corner_counts(const Topology& topology) {
 
 UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, const Options& options)
     : vertex_count_(topology.vertex_count), subdivision_(options.subdivision) {
-  faces_ =
+  shared_text_ =
       concat("            uniform bool doubleSided = 1\n            int[] faceVertexCounts = ",
              corner_counts(topology),
              "\n            int[] faceVertexIndices = ", usda_list(topology.corner_vertices), '\n');
-  if (!topology.corner_uvs.empty()) faces_ += uv_lines(topology, uvs);
-  faces_ += concat(options.extra_prim_lines, "            uniform token subdivisionScheme = \"",
-                   subdivision_ == Subdivision::kNone ? "none" : "catmullClark", "\"\n");
+  if (!topology.corner_uvs.empty()) shared_text_ += uv_lines(topology, uvs);
+  shared_text_ +=
+      concat(options.extra_prim_lines, "            uniform token subdivisionScheme = \"",
+             subdivision_ == Subdivision::kNone ? "none" : "catmullClark", "\"\n");
   std::vector<std::vector<std::uint32_t>> of_material(options.materials.size());
   for (Index f = 0; f < topology.face_count() && !of_material.empty(); ++f) {
     const std::size_t material =
@@ -70,14 +71,14 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
   }
 }
 
-void UsdaMesh::add(EncodedFile& file, const PrimPaths& place, const Positions& positions,
+void UsdaMesh::add(EncodedFile& file, const PrimPaths& prim_paths, const Positions& positions,
                    const Positions& normals, std::span<const Displacements> moves,
                    const std::string& what, const ColourRows& colours) const {
   require(moves.size() == shapes_.size(), "UsdaMesh: displacements of each target");
   require_finite(positions, vertex_count_, what);
   Positions extent(2, 3);
   extent << positions.colwise().minCoeff(), positions.colwise().maxCoeff();
-  file.add(concat("        def Mesh \"", place.name,
+  file.add(concat("        def Mesh \"", prim_paths.name,
                   "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"",
                   shapes_.empty() ? "" : ", \"SkelBindingAPI\"", "]\n        )\n        {\n",
                   "            float3[] extent = [", usda_rows(extent), "]\n            ",
@@ -97,22 +98,22 @@ void UsdaMesh::add(EncodedFile& file, const PrimPaths& place, const Positions& p
     file.add(usda_rows(linear_light(colours)));
     file.add("] (\n                interpolation = \"vertex\"\n            )\n");
   }
-  file.add_without_copy(faces_);
-  add_shapes(file, place, moves, what);
-  add_subsets(file, place);
+  file.add_without_copy(shared_text_);
+  add_shapes(file, prim_paths, moves, what);
+  add_subsets(file, prim_paths);
   file.add("        }\n");
 }
 
-void UsdaMesh::add_shapes(EncodedFile& file, const PrimPaths& place,
+void UsdaMesh::add_shapes(EncodedFile& file, const PrimPaths& prim_paths,
                           std::span<const Displacements> moves, const std::string& what) const {
   if (shapes_.empty()) return;
   std::vector<std::string> targets;
   for (const std::string& shape : shapes_) {
-    targets.push_back(concat('<', place.face_prim, '/', place.name, '/', shape, '>'));
+    targets.push_back(concat('<', prim_paths.face_prim, '/', prim_paths.name, '/', shape, '>'));
   }
   file.add(concat("            uniform token[] skel:blendShapes = ", usda_list(quoted_shape_names_),
                   "\n            rel skel:blendShapeTargets = ", usda_list(targets),
-                  "\n            rel skel:skeleton = <", place.face_prim, "/skeleton>\n"));
+                  "\n            rel skel:skeleton = <", prim_paths.face_prim, "/skeleton>\n"));
   for (std::size_t s = 0; s < shapes_.size(); ++s) {
     require_finite(moves[s].moves, moves[s].moves.rows(), what);
     file.add(concat("\n            def BlendShape \"", shapes_[s],
@@ -128,14 +129,14 @@ void UsdaMesh::add_shapes(EncodedFile& file, const PrimPaths& place,
   }
 }
 
-void UsdaMesh::add_subsets(EncodedFile& file, const PrimPaths& place) const {
+void UsdaMesh::add_subsets(EncodedFile& file, const PrimPaths& prim_paths) const {
   const auto used =
       std::ranges::count_if(materials_, [](const std::string& name) { return !name.empty(); });
   for (std::size_t m = 0; m < materials_.size(); ++m) {
     const std::string& name = materials_[m];
     if (name.empty()) continue;
     const std::string binding =
-        concat("rel material:binding = <", place.materials, '/', name, ">\n");
+        concat("rel material:binding = <", prim_paths.materials, '/', name, ">\n");
     if (used == 1) {
       file.add("            " + binding);
       return;
@@ -151,7 +152,7 @@ void UsdaMesh::add_subsets(EncodedFile& file, const PrimPaths& place) const {
 }
 
 std::size_t UsdaMesh::memory_bytes() const {
-  std::size_t bytes = faces_.size();
+  std::size_t bytes = shared_text_.size();
   for (const auto* texts : {&subsets_, &indices_}) {
     for (const std::string& text : *texts) bytes += text.size();
   }

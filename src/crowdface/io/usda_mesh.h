@@ -55,7 +55,7 @@ class UsdaMesh {
   /// \param colours  one row per vertex, written as the primvar displayColor in linear light; or no
   ///                 rows.
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
-  void add(EncodedFile& file, const PrimPaths& place, const Positions& positions,
+  void add(EncodedFile& file, const PrimPaths& prim_paths, const Positions& positions,
            const Positions& normals, std::span<const Displacements> moves, const std::string& what,
            const ColourRows& colours = {}) const;
 
@@ -70,15 +70,15 @@ class UsdaMesh {
 
  private:
   /// Adds the blend shapes.
-  void add_shapes(EncodedFile& file, const PrimPaths& place, std::span<const Displacements> moves,
-                  const std::string& what) const;
+  void add_shapes(EncodedFile& file, const PrimPaths& prim_paths,
+                  std::span<const Displacements> moves, const std::string& what) const;
   /// Binds the materials: one material to the whole mesh, or each material to its polygons.
-  void add_subsets(EncodedFile& file, const PrimPaths& place) const;
+  void add_subsets(EncodedFile& file, const PrimPaths& prim_paths) const;
 
   Index vertex_count_;
   Subdivision subdivision_;
   /// the text of polygons, texture coordinates and options, which is the same in all files
-  std::string faces_;
+  std::string shared_text_;
   /// prim names of the materials; empty for a material that no polygon uses
   std::vector<std::string> materials_;
   std::vector<std::string> subsets_;  ///< for each material, the text that lists its polygons

@@ -352,7 +352,7 @@ class UsdaReader {
   }
 
   void finish() {
-    set_rows(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
+    set_vertex_data(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
     read_texture_files(std::move(files_), name_, mesh_);
   }
 

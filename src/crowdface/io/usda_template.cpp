@@ -120,7 +120,7 @@ UsdaTemplate::UsdaTemplate(const Topology& topology, const TextureCoordinates& u
     : mesh_(mesh_of(topology, uvs, options, subdivision)),
       layer_metadata_(usda_layer_metadata(options.unit, options.up)),
       axis_transform_(rotation_text(options)),
-      surfaces_(options.materials),
+      glb_materials_(options.materials),
       shared_folder_(options.shared_folder) {
   UsdaNames names;
   for (const std::string& point : options.point_names)
@@ -147,7 +147,7 @@ EncodedFile UsdaTemplate::encode(const Positions& positions, const Positions& no
   add_points(file, points, name);
   file.add("    }\n");
   std::vector<UsdaSurface> surfaces;
-  for (const GlbMaterial& one : surfaces_)
+  for (const GlbMaterial& one : glb_materials_)
     surfaces.push_back(surface_of(one, images, shared_folder_));
   file.add(usda_materials(root, "materials", mesh_.materials(), surfaces));
   for (const PlacedUsdaPart& part : parts) part.part->add_materials(file, root, part.look);

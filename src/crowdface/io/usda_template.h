@@ -55,7 +55,7 @@ class UsdaTemplate {
   std::string layer_metadata_;  ///< the layer's unit and up axis
   /// transform of the mesh if the stage's axes differ from the heads' axes; else empty
   std::string axis_transform_;
-  std::vector<GlbMaterial> surfaces_;
+  std::vector<GlbMaterial> glb_materials_;
   std::string shared_folder_;                  ///< see `GlbOptions::shared_folder`
   std::vector<std::string> point_prim_names_;  ///< prim names of the points
 };

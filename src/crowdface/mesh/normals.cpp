@@ -35,19 +35,20 @@ Positions face_area_vectors(const Topology& topology, const Positions& positions
   return areas;
 }
 
-NormalFans::NormalFans(const Topology& topology) : faces_(VertexFaces(topology)) {}
+NormalFans::NormalFans(const Topology& topology) : polygons_of_normal_(VertexFaces(topology)) {}
 
 NormalFans::NormalFans(const Topology& topology, std::span<const std::uint32_t> normal_of_corner,
                        Index count)
-    : faces_(compressed_rows<std::uint32_t>(static_cast<std::size_t>(count), [&](const auto& put) {
-        for (Index f = 0; f < topology.face_count(); ++f) {
-          const auto [begin, end] = topology.corners(f);
-          for (auto c = begin; c < end; ++c) {
-            const std::uint32_t normal = normal_of_corner[c];
-            if (normal != kNoIndex) put(normal, static_cast<std::uint32_t>(f));
-          }
-        }
-      })) {}
+    : polygons_of_normal_(
+          compressed_rows<std::uint32_t>(static_cast<std::size_t>(count), [&](const auto& put) {
+            for (Index f = 0; f < topology.face_count(); ++f) {
+              const auto [begin, end] = topology.corners(f);
+              for (auto c = begin; c < end; ++c) {
+                const std::uint32_t normal = normal_of_corner[c];
+                if (normal != kNoIndex) put(normal, static_cast<std::uint32_t>(f));
+              }
+            }
+          })) {}
 
 Positions NormalFans::normals(const Topology& topology, const Positions& positions,
                               const Eigen::RowVector3d& fallback) const {

@@ -32,15 +32,18 @@ class NormalFans {
   Positions normals(const Positions& areas, const Eigen::RowVector3d& fallback) const;
 
   /// Number of normals.
-  Index rows() const { return static_cast<Index>(faces_.group_count()); }
+  Index rows() const { return static_cast<Index>(polygons_of_normal_.group_count()); }
   /// The polygons whose normals are summed for the normal with index `row`, ascending.
-  std::span<const std::uint32_t> polygons_at(Index row) const { return faces_.items_of(row); }
+  std::span<const std::uint32_t> polygons_at(Index row) const {
+    return polygons_of_normal_.items_of(row);
+  }
   std::size_t memory_bytes() const {
-    return (faces_.offsets.size() + faces_.items.size()) * sizeof(std::uint32_t);
+    return (polygons_of_normal_.offsets.size() + polygons_of_normal_.items.size()) *
+           sizeof(std::uint32_t);
   }
 
  private:
-  CompressedRows<std::uint32_t> faces_;  ///< the polygons of each normal, ascending
+  CompressedRows<std::uint32_t> polygons_of_normal_;  ///< the polygons of each normal, ascending
 };
 
 /// Unit normals of the vertices, #V by 3: the normalised, area-weighted sums of polygon normals

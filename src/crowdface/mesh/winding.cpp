@@ -13,8 +13,8 @@ constexpr Index kFacesPerBlock = 4096;
 
 /// Flux of (position − middle) through the surface, as a fraction of the largest possible flux: 1
 /// if all polygons face away from the middle, −1 if all polygons face towards it.
-double outward_share(const Topology& topology, const Positions& positions, const Positions& areas,
-                     const Eigen::RowVector3d& middle) {
+double outward_flux_fraction(const Topology& topology, const Positions& positions,
+                             const Positions& areas, const Eigen::RowVector3d& middle) {
   const auto sum = [&](auto&& term) {
     return parallel_sum(topology.face_count(), kFacesPerBlock, [&](Index begin, Index end) {
       double total = 0;
@@ -37,13 +37,14 @@ double outward_share(const Topology& topology, const Positions& positions, const
 float winding_sign(const Topology& topology, const Positions& positions) {
   constexpr double kMinInwardShare = 0.05;
   const Positions areas = face_area_vectors(topology, positions);
-  return outward_share(topology, positions, areas, positions.colwise().mean()) < -kMinInwardShare
+  return outward_flux_fraction(topology, positions, areas, positions.colwise().mean()) <
+                 -kMinInwardShare
              ? -1.0F
              : 1.0F;
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  // the magnitude of outward_share is 1 for a sphere, and about 0.3 for an open surface such as the
+  // the magnitude of outward_flux_fraction is 1 for a sphere, and about 0.3 for an open surface such as the
   // front of a head
   constexpr double kMinInwardShare = 0.2;
   constexpr double kFlat = 0.8;  // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
@@ -57,7 +58,7 @@ bool is_inside_out(const Topology& topology, const Positions& positions) {
     weight += area;
   }
   if (!(areas.colwise().sum().norm() < kFlat * weight)) return false;
-  return outward_share(topology, positions, areas, middle / weight) < -kMinInwardShare;
+  return outward_flux_fraction(topology, positions, areas, middle / weight) < -kMinInwardShare;
 }
 
 void reverse_faces(Topology& topology) {

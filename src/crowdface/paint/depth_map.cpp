@@ -54,7 +54,7 @@ DepthMap::AxisCells DepthMap::cells_at(double offset, double extent, Index count
   if (place < 0.5) return cells;
   const auto below = static_cast<Index>(place - 0.5);
   if (below + 1 >= count) return cells;
-  cells.cell_centred_below = below;
+  cells.previous_cell = below;
   cells.next_cell_weight = place - 0.5 - static_cast<double>(below);
   return cells;
 }
@@ -88,9 +88,9 @@ double DepthMap::depth(double lateral_position, double height) const {
 
 double DepthMap::depth_in_cells(const AxisCells& column, const AxisCells& row) const {
   if (column.containing_cell < 0 || row.containing_cell < 0) return kNoDepth;
-  if (column.cell_centred_below >= 0 && row.cell_centred_below >= 0) {
-    const double* corner = &depths_[static_cast<std::size_t>(row.cell_centred_below * columns_ +
-                                                             column.cell_centred_below)];
+  if (column.previous_cell >= 0 && row.previous_cell >= 0) {
+    const double* corner =
+        &depths_[static_cast<std::size_t>(row.previous_cell * columns_ + column.previous_cell)];
     const double s = column.next_cell_weight, t = row.next_cell_weight;
     const double depth = (1 - t) * ((1 - s) * corner[0] + s * corner[1]) +
                          t * ((1 - s) * corner[columns_] + s * corner[columns_ + 1]);

@@ -41,8 +41,8 @@ class DepthMap {
   struct AxisCells {
     Index containing_cell = -1;  ///< the cell that contains the coordinate; −1: none
     /// largest index of a cell whose centre is below the coordinate; −1: none
-    Index cell_centred_below = -1;
-    /// interpolation weight of the next cell; the cell `cell_centred_below` has the remaining
+    Index previous_cell = -1;
+    /// interpolation weight of the next cell; the cell `previous_cell` has the remaining
     /// weight
     double next_cell_weight = 0;
   };

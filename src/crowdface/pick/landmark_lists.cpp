@@ -20,9 +20,9 @@ using ListJson = nlohmann::ordered_json;
 constexpr std::size_t kMaxListed = 1000;
 
 /// Collects landmarks by name. Error messages name the file and the faulty position in the file.
-class PlaceList {
+class LandmarkList {
  public:
-  explicit PlaceList(const std::filesystem::path& path) : path_(path.string()) {}
+  explicit LandmarkList(const std::filesystem::path& path) : path_(path.string()) {}
 
   void add(std::string name, const std::vector<double>& numbers, const std::string& where) {
     if (places_.size() >= kMaxListed)
@@ -72,7 +72,7 @@ std::string_view attribute_of(std::string_view tag, const std::string& name) {
   return {};
 }
 
-void read_picked_points(std::string_view text, PlaceList& list) {
+void read_picked_points(std::string_view text, LandmarkList& list) {
   std::size_t line = 1, seen = 0;
   for (std::size_t at = text.find("<point"); at != text.npos; at = text.find("<point", at + 1)) {
     std::string tag(text.substr(at, std::min(text.find_first_of("<>", at + 1), text.size()) - at));
@@ -93,7 +93,7 @@ void read_picked_points(std::string_view text, PlaceList& list) {
 }
 
 /// Reads the markups of 3D Slicer before version 4.13: id, x, y, z, orientation, flags, label, ….
-void read_fcsv(std::string_view text, PlaceList& list) {
+void read_fcsv(std::string_view text, LandmarkList& list) {
   constexpr std::size_t kLabel = 11;
   std::size_t line_number = 0;
   for (std::string_view line : split_lines(text)) {
@@ -114,7 +114,7 @@ void read_fcsv(std::string_view text, PlaceList& list) {
 
 /// Reads a name and numbers per line, separated by tabs, semicolons, commas or blanks. The first
 /// line may be a header.
-void read_table(std::string_view text, PlaceList& list) {
+void read_table(std::string_view text, LandmarkList& list) {
   std::size_t line_number = 0;
   for (std::string_view line : split_lines(text)) {
     ++line_number;
@@ -168,7 +168,7 @@ std::vector<double> numbers_of_json(const ListJson& value) {
   return numbers;
 }
 
-void read_json_item(const std::string& key, const ListJson& item, PlaceList& list) {
+void read_json_item(const std::string& key, const ListJson& item, LandmarkList& list) {
   std::string name = key;
   std::vector<double> numbers = numbers_of_json(item);
   if (item.is_object()) {
@@ -186,7 +186,7 @@ void read_json_item(const std::string& key, const ListJson& item, PlaceList& lis
 }
 
 /// \return false if the text has a key `template` or `scan` (see read_landmarks), or is not JSON.
-bool read_json(std::string_view text, PlaceList& list) {
+bool read_json(std::string_view text, LandmarkList& list) {
   const ListJson root = parse_shallow_json(text);
   if (root.is_discarded() || (!root.is_object() && !root.is_array())) return false;
   const ListJson* items = &root;
@@ -207,7 +207,7 @@ bool read_json(std::string_view text, PlaceList& list) {
   return true;
 }
 
-void read_array(std::string_view bytes, const std::string& name, PlaceList& list) {
+void read_array(std::string_view bytes, const std::string& name, LandmarkList& list) {
   const NpyArray array = parse_npy(bytes, name);
   const std::size_t width = array.width();
   const bool sound = array.shape.size() <= 2 && (width == 1 || width == 3);
@@ -223,7 +223,7 @@ void read_array(std::string_view bytes, const std::string& name, PlaceList& list
 
 std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     std::string_view bytes, const std::filesystem::path& path) {
-  PlaceList list(path);
+  LandmarkList list(path);
   const std::string ending = lower_case(path.extension().string());
   std::string_view text = bytes;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);

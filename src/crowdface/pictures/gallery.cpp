@@ -152,7 +152,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
       inputs_(inputs),
       pictured_mesh_(shown),
       vertex_faces_(shown.topology()),
-      packing_frame_(frame_of(inputs, shown.body_points())) {
+      packing_grid_(frame_of(inputs, shown.body_points())) {
   const HeadSet& head_set = inputs.head_set;
   const Topology& topology = shown.topology();
   const Surfaces surfaces = shown.surfaces();
@@ -239,7 +239,7 @@ std::string GalleryMeshes::pack_shapes(std::span<const Displacements> shape_move
   std::string bytes;
   for (std::size_t s = 0; s < shape_moves.size(); ++s) {
     for (const std::uint32_t row : shown_shapes_[s].rows) {
-      bytes += pack_displacement(shape_moves[s].moves.row(row), packing_frame_);
+      bytes += pack_displacement(shape_moves[s].moves.row(row), packing_grid_);
     }
   }
   return bytes;
@@ -296,8 +296,8 @@ std::string GalleryMeshes::shared_script() const {
   json["vertices"] = mesh_.vertices.size();
   json["up"] = axis_to_json(config_.faces.up);
   json["front"] = axis_to_json(config_.faces.front);
-  json["low"] = to_json(packing_frame_.low_corner);
-  json["step"] = packing_frame_.step;
+  json["low"] = to_json(packing_grid_.low_corner);
+  json["step"] = packing_grid_.step;
   json["box"] = {to_json(box_min_), to_json(box_max_)};
   json["triangles"] = base64(little_endian(mesh_.triangles));
   json["draft"] = base64(little_endian(draft_triangles_));
@@ -335,8 +335,8 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
   const Positions& positions = shown.positions();
   const TextureSet* const texture_set = shown.textures();
   const VertexColours* const colours = shown.colours();
-  std::string bytes = pack_face(pictured_mesh_.topology(), mesh_.vertices, vertex_faces_,
-                                packing_frame_, positions);
+  std::string bytes =
+      pack_face(pictured_mesh_.topology(), mesh_.vertices, vertex_faces_, packing_grid_, positions);
   if (texture_set != nullptr) bytes += pack_roughness(*texture_set);
   std::vector<std::string> parts = {concat("\"points\":\"", base64(bytes), '"')};
   if (!shown_shapes_.empty())
@@ -346,7 +346,7 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
     for (const PlacedAttachment& one : placed) {
       packed.push_back(
           concat(Json(one.look().name()).dump(), ':',
-                 attachments_.positions_as_json(one, packing_frame_, min_displacement())));
+                 attachments_.positions_as_json(one, packing_grid_, min_displacement())));
     }
     parts.push_back(concat("\"worn\":{", join(packed, ","), '}'));
   }

@@ -71,7 +71,7 @@ class GalleryMeshes {
   /// triangles of a coarser mesh, which uses the vertices of `mesh_`; see draft_triangles
   std::vector<std::uint32_t> draft_triangles_;
   VertexFaces vertex_faces_;  ///< the polygons around each vertex of the mesh before reduction
-  PackingGrid packing_frame_;
+  PackingGrid packing_grid_;
   ShownAttachments attachments_;
   /// colours of surfaces without textures, per vertex of the reduced mesh
   VertexColours colours_;

@@ -180,8 +180,8 @@ class Canvas {
 };
 
 /// For each UDIM tile, the polygons that have a corner in the tile.
-std::map<int, std::vector<Index>> faces_by_tile(const Topology& topology,
-                                                const TextureCoordinates& uvs) {
+std::map<int, std::vector<Index>> polygons_by_tile(const Topology& topology,
+                                                   const TextureCoordinates& uvs) {
   std::map<int, std::vector<Index>> tiles;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto corners = topology.face_uvs(f);
@@ -219,7 +219,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
   const UvSamples samples = gather_uv_samples(topology, uvs, UvTiling::kUdim);
   PaintedMasks out;
   out.texels_per_side = size;
-  for (const auto& [tile, faces] : faces_by_tile(topology, uvs)) {
+  for (const auto& [tile, faces] : polygons_by_tile(topology, uvs)) {
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;

@@ -71,20 +71,20 @@ struct Occluders {
   std::vector<Quad> quads;
   /// x, y, z of each occluding vertex in the average face. If empty, there is no average face, and
   /// the renderer builds a new scene for each face.
-  std::vector<float> typical;
+  std::vector<float> average_positions;
 };
 
 /// Largest number of occluding triangles. Reducing a larger mesh removes only detail far smaller
 /// than a pixel.
 constexpr std::size_t kMaxOccluders = 100'000;
 
-Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical) {
+Occluders occluders_of(const std::vector<Quad>& quads, const Positions& average_positions) {
   Occluders occluders;
   const auto points = [](const Positions& positions) {
     return std::vector<float>(positions.data(), positions.data() + positions.size());
   };
   if (quads.size() <= kMaxOccluders) {
-    occluders.typical = points(typical);
+    occluders.average_positions = points(average_positions);
     return occluders;
   }
   std::vector<Triangle> triangles;
@@ -92,10 +92,10 @@ Occluders occluders_of(const std::vector<Quad>& quads, const Positions& typical)
     triangles.push_back({quad[0], quad[1], quad[2]});
     if (quad[2] != quad[3]) triangles.push_back({quad[0], quad[2], quad[3]});
   }
-  ReducedMesh reduced = reduce_mesh(triangles, typical, kMaxOccluders);
+  ReducedMesh reduced = reduce_mesh(triangles, average_positions, kMaxOccluders);
   occluders.vertices = std::move(reduced.vertices);
   for (const Triangle& t : reduced.triangles) occluders.quads.push_back({t[0], t[1], t[2], t[2]});
-  occluders.typical = points(typical(occluders.vertices, kAllColumns));
+  occluders.average_positions = points(average_positions(occluders.vertices, kAllColumns));
   return occluders;
 }
 
@@ -124,7 +124,7 @@ struct FaceRenderer::PreparedHeads {
         sampling(choice.samples_per_side, choice.key_light_rays, choice.sky_rays) {}
 
   /// Updates the workspace's scene of occluders from `workspace.points`.
-  void put_into_scene(Workspace& workspace) const {
+  void update_occluders(Workspace& workspace) const {
     std::vector<float>& points = workspace.occluder_points;
     if (occluders.vertices.empty()) {
       points = workspace.points;
@@ -135,13 +135,13 @@ struct FaceRenderer::PreparedHeads {
                     points.data() + 3 * i);
       }
     }
-    if (occluders.typical.empty()) {
+    if (occluders.average_positions.empty()) {
       workspace.occluders = std::make_unique<RayScene>(device, std::move(points), quads);
       return;
     }
     if (workspace.occluders == nullptr) {
       workspace.occluders = std::make_unique<RayScene>(
-          device, occluders.typical, occluders.vertices.empty() ? quads : occluders.quads,
+          device, occluders.average_positions, occluders.vertices.empty() ? quads : occluders.quads,
           RayScene::Tree::kMovable);
     }
     workspace.occluders->set_points(points);
@@ -241,7 +241,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   const auto distance = static_cast<float>(1 / camera.tan_half_fov);
   workspace->rasterizer.project(workspace->points, prepared_->quads, distance,
                                 prepared_->options.size_px);
-  prepared_->put_into_scene(*workspace);
+  prepared_->update_occluders(*workspace);
   std::optional<AttachmentScene> attachment_scene;
   if (!attachments.empty()) {
     attachment_scene.emplace(prepared_->device, attachments, camera, prepared_->options.size_px);

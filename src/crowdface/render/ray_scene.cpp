@@ -76,7 +76,7 @@ std::vector<Triangle> split(const std::vector<Quad>& quads) {
 /// Embree filter for stochastic transparency (see Ray::opacity_seed): rejects a hit with
 /// probability 1 − opacity. Hashing the primitive's index makes surfaces behind each other reject
 /// different rays.
-void pass_holes(const RTCFilterFunctionNArguments* met) {
+void reject_transparent_hits(const RTCFilterFunctionNArguments* met) {
   const Opacity& opacity = *static_cast<const Opacity*>(met->geometryUserPtr);
   for (unsigned int i = 0; i < met->N; ++i) {
     if (met->valid[i] != -1) continue;
@@ -219,8 +219,8 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   if (state_->geometry == nullptr) return;
   state_->opacity = std::move(opacity);
   rtcSetGeometryUserData(state_->geometry, &state_->opacity);
-  rtcSetGeometryIntersectFilterFunction(state_->geometry, pass_holes);
-  rtcSetGeometryOccludedFilterFunction(state_->geometry, pass_holes);
+  rtcSetGeometryIntersectFilterFunction(state_->geometry, reject_transparent_hits);
+  rtcSetGeometryOccludedFilterFunction(state_->geometry, reject_transparent_hits);
   state_->commit_points();
 }
 

@@ -46,19 +46,19 @@ enum class PixelVariation : std::uint8_t { kNone, kRelief, kEdge };
 class PointLists {
  public:
   void resize(std::size_t count) {
-    room_ = std::max(room_, count + kMaxLanes);
-    numbers_.resize(PointVisibility::kFields * room_);
+    capacity_ = std::max(capacity_, count + kMaxLanes);
+    numbers_.resize(PointVisibility::kFields * capacity_);
   }
-  float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * room_; }
+  float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * capacity_; }
   PointVisibility lights() const {
     PointVisibility lights;
     for (std::size_t f = 0; f < lights.field_values.size(); ++f)
-      lights.field_values[f] = numbers_.data() + f * room_;
+      lights.field_values[f] = numbers_.data() + f * capacity_;
     return lights;
   }
 
  private:
-  std::size_t room_ = 0;
+  std::size_t capacity_ = 0;
   std::vector<float> numbers_;
 };
 
@@ -397,11 +397,11 @@ class Tile {
     return blocked;
   }
 
-  static bool shows_one(const Pixel& pixel) {
+  static bool has_uniform_samples(const Pixel& pixel) {
     return pixel.change == PixelVariation::kNone && pixel.first < pixel.end;
   }
 
-  std::size_t light_index(int x, int y) const {
+  std::size_t visibility_index(int x, int y) const {
     return PixelVisibility::index(x - left_, y - top_);
   }
 
@@ -410,7 +410,7 @@ class Tile {
     for (int y = rim_top_; y < rim_bottom_; ++y) {
       for (int x = rim_left_; x < rim_right_; ++x) {
         const std::span<const CameraHit> camera_hits = hits_of(pixel(x, y));
-        if (!camera_hits.empty()) put(mean_of(camera_hits), light_index(x, y), memory_.pixels);
+        if (!camera_hits.empty()) put(mean_of(camera_hits), visibility_index(x, y), memory_.pixels);
       }
     }
   }
@@ -423,7 +423,7 @@ class Tile {
              VisibleFractions& shares) {
     shares.key.resize(count + kMaxLanes);
     shares.sky.resize(count + kMaxLanes);
-    filter_visibility(points.lights(), count, memory_.pixels, light_index(x, y), consecutive,
+    filter_visibility(points.lights(), count, memory_.pixels, visibility_index(x, y), consecutive,
                       pixel_side(), shares.key.data(), shares.sky.data());
   }
 
@@ -452,7 +452,7 @@ class Tile {
     memory_.points.resize(width);
     for (std::size_t i = 0; i < width; ++i) {
       const Pixel& at = pixel(left_ + static_cast<int>(i), y);
-      if (!shows_one(at)) continue;
+      if (!has_uniform_samples(at)) continue;
       mean_hits[i] = mean_of(hits_of(at));
       mean_hits[i].surface.normal.normalize();
       put(mean_hits[i], i, memory_.points);
@@ -462,7 +462,7 @@ class Tile {
     for (std::size_t i = 0; i < width; ++i) {
       const int x = left_ + static_cast<int>(i);
       const Pixel& at = pixel(x, y);
-      if (shows_one(at)) {
+      if (has_uniform_samples(at)) {
         add_to_batch(mean_hits[i], memory_.row_shares, i);
       } else {
         add_each(hits_of(at), x, y);
@@ -473,7 +473,7 @@ class Tile {
     for (int x = left_; x < right_; ++x) {
       const Pixel& at = pixel(x, y);
       LinearRgb light = at.backdrop;  // sum, divided below by the number of samples
-      if (shows_one(at)) {
+      if (has_uniform_samples(at)) {
         light = memory_.batch.radiance(next++);
       } else {
         for (std::uint32_t m = at.first; m < at.end; ++m) light += memory_.batch.radiance(next++);

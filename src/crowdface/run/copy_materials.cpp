@@ -46,7 +46,7 @@ class MaterialCopies {
       heads_of_warning_[warning].push_back(head);
     }
     for (const MaterialFile& material : found->second.files) {
-      const bool own_library = material.is_library && !own_.empty();
+      const bool own_library = material.is_material_file && !own_.empty();
       const bool own_texture = material.kind && own_.contains(*material.kind);
       if (!own_library && !own_texture) copy(material, head);
     }

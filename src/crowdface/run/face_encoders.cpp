@@ -92,7 +92,7 @@ bool FaceEncoders::needs_normals(MeshFormat format, std::size_t level, Index tar
   switch (traits_of(format).normals) {
     case FileNormals::kNone:
       return false;
-    case FileNormals::kOnLevels:
+    case FileNormals::kReducedLevels:
       return level > 0;
     case FileNormals::kLikeTarget:
       return has_normals(inputs_, target);

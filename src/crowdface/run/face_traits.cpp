@@ -106,11 +106,12 @@ FaceTraits::FaceTraits(const Config& config, const Inputs& inputs, const Prepare
       builder_(config, inputs, prepared),
       mm_per_unit_(mm_per(config.faces.units)),
       mirror_(inputs.mirror_map),
-      neck_(inputs.heads_on_body),
+      heads_on_body_(inputs.heads_on_body),
       vertex_count_(inputs.head_set.topology.vertex_count) {
   const std::set<std::uint32_t> corners = corners_of(landmarks_, trait_indices_);
   std::set<std::uint32_t> all = corners;
-  if (neck_ != nullptr) all.insert(neck_->seam.rim.begin(), neck_->seam.rim.end());
+  if (heads_on_body_ != nullptr)
+    all.insert(heads_on_body_->seam.rim.begin(), heads_on_body_->seam.rim.end());
   landmark_vertices_.assign(all.begin(), all.end());
   for (const std::uint32_t v : landmark_vertices_) {
     if (mirror_) all.insert(mirror_->corners[v].begin(), mirror_->corners[v].end());
@@ -150,7 +151,8 @@ Positions FaceTraits::exact_landmarks(const Recipe& recipe, NeckState neck) cons
     for (const std::uint32_t v : samples_) face.row(v) = turn->apply(row3(face, v)).transpose();
   }
   if (recipe.mirrored) mirror_landmark_vertices(face);
-  if (neck_ != nullptr && neck == NeckState::kBent) neck_->seam.bend_to_seam(face);
+  if (heads_on_body_ != nullptr && neck == NeckState::kBent)
+    heads_on_body_->seam.bend_to_seam(face);
   return landmarks_.landmark_positions(face, mm_per_unit_);
 }
 

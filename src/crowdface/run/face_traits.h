@@ -45,7 +45,7 @@ class FaceTraits {
   FaceBuilder builder_;
   double mm_per_unit_;
   std::shared_ptr<const MirrorMap> mirror_;
-  std::shared_ptr<const HeadsOnBody> neck_;
+  std::shared_ptr<const HeadsOnBody> heads_on_body_;
   /// the vertices of the landmarks and, if there is a neck, of the ring of vertices at the neck
   std::vector<std::uint32_t> landmark_vertices_;
   /// the vertices on which the exact landmark positions depend, ascending; `heads_` holds the

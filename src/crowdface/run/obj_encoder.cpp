@@ -42,7 +42,7 @@ std::string library_line(const std::vector<MaterialFile>& files,
                          const std::filesystem::path& from) {
   std::string line;
   for (const MaterialFile& file : files) {
-    if (!file.is_library) continue;
+    if (!file.is_material_file) continue;
     line += concat(line.empty() ? "mtllib " : " ", (from / file.destination).generic_string());
   }
   return line;

@@ -249,11 +249,11 @@ std::uint64_t suitable_prepare_task_count(const Inputs& inputs, std::uint64_t pr
   return tasks_for(all / static_cast<double>(processor_count), kSeconds, heads);
 }
 
-std::string_view name_of(Engine engine) {
-  return engine == Engine::kSlurm ? "slurm" : "parallel";
+std::string_view name_of(JobEngine engine) {
+  return engine == JobEngine::kSlurm ? "slurm" : "parallel";
 }
 
-std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
+std::filesystem::path write_task_scripts(const TaskJob& job, JobEngine engine,
                                          const JobEngineOptions& options) {
   const std::filesystem::path folder = job.directory.cluster_task_folder();
   refuse_link_out_of_crowd(job.directory, folder);
@@ -265,8 +265,8 @@ std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
                                         {"shards", job.shard_count},
                                         {"processors", job.processor_count}};
   write_file(folder / "job.json", notes.dump() + "\n");
-  write_file(folder / "submit.sh",
-             engine == Engine::kSlurm ? slurm_script(job, options) : parallel_script(job, options));
+  write_file(folder / "submit.sh", engine == JobEngine::kSlurm ? slurm_script(job, options)
+                                                               : parallel_script(job, options));
   return folder / "submit.sh";
 }
 

@@ -32,8 +32,8 @@ struct TaskJob {
   std::uint64_t memory_bytes = 0;        ///< bytes per task; 0: the engine's default
 };
 
-enum class Engine { kSlurm, kParallel };
-std::string_view name_of(Engine engine);
+enum class JobEngine { kSlurm, kParallel };
+std::string_view name_of(JobEngine engine);
 
 /// Options for the render farm's job engine; some engines use only part of them.
 struct JobEngineOptions {
@@ -56,7 +56,7 @@ std::uint64_t suitable_prepare_task_count(const Inputs& inputs, std::uint64_t pr
 /// task on the machine that starts the script. `submit.sh` submits all tasks to Slurm, or runs all
 /// tasks to completion with GNU parallel.
 /// \return the path of `submit.sh`.
-std::filesystem::path write_task_scripts(const TaskJob& job, Engine engine,
+std::filesystem::path write_task_scripts(const TaskJob& job, JobEngine engine,
                                          const JobEngineOptions& options);
 
 }  // namespace crowdface

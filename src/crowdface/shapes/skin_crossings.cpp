@@ -321,10 +321,11 @@ SkinCrossings::SearchedSkin SkinCrossings::find_searched_skin(const Positions& n
     if (is_skin_[shape.vertices[row]])
       searched_skin.skin_displacements.push_back({row, shape.vertices[row]});
   }
-  searched_skin.shaped_positions.resize(static_cast<Index>(searched_skin.rows.size()), 3);
-  for (std::size_t i = 0; i < searched_skin.rows.size(); ++i) {
+  searched_skin.shaped_positions.resize(static_cast<Index>(searched_skin.skin_displacements.size()),
+                                        3);
+  for (std::size_t i = 0; i < searched_skin.skin_displacements.size(); ++i) {
     searched_skin.shaped_positions.row(static_cast<Index>(i)) =
-        shaped.row(searched_skin.rows[i].vertex);
+        shaped.row(searched_skin.skin_displacements[i].vertex);
   }
   // Search skin that may touch, and a few rings of triangles around this skin.
   std::vector<bool> meets = skin_that_may_touch(skin_, neutral, shaped, extent_);

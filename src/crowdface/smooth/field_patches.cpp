@@ -295,7 +295,7 @@ FieldPatch FieldPatches::operator[](std::size_t patch) const {
   result.stored_vertex_count = arrays_.stored_vertex_counts[patch];
   result.quantization_steps = arrays_.quantization_steps.data() + place.first_field;
   result.quantized_values = arrays_.quantized_values.data() + place.first_value;
-  if (!result.is_whole()) result.weights = arrays_.weights.data() + place.first_weight;
+  if (!result.stores_all_vertices()) result.weights = arrays_.weights.data() + place.first_weight;
   return result;
 }
 

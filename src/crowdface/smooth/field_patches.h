@@ -43,7 +43,7 @@ struct FieldPatch {
   const float* weights = nullptr;
 
   /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
-  bool is_whole() const { return stored_vertex_count == vertices.size(); }
+  bool stores_all_vertices() const { return stored_vertex_count == vertices.size(); }
   /// Count of 16-bit numbers stored for each field: 3 coordinates at each of the
   /// `stored_vertex_count` vertices, rounded up to a multiple of kPatchPadding.
   std::size_t values_per_field() const { return values_per_field(stored_vertex_count); }

@@ -107,16 +107,17 @@ class TileFitter {
       };
       // Omit trailing fields as long as the sum of their error bounds is negligible. This avoids
       // computing their error at each level.
-      std::size_t looked_at = count_;
+      std::size_t significant_field_count = count_;
       double skipped = 0;
-      for (; looked_at > 0; --looked_at) {
-        const double more = max_magnitudes_[looked_at - 1] * longest(of_field(looked_at - 1));
+      for (; significant_field_count > 0; --significant_field_count) {
+        const double more = max_magnitudes_[significant_field_count - 1] *
+                            longest(of_field(significant_field_count - 1));
         if (skipped + more > kSkippedShare * tolerance_) break;
         skipped += more;
       }
       // rounding_bounds[p]: bound of the rounding error of the first p fields.
       std::vector<double> rounding_bounds = {0};
-      for (std::size_t p = 0; p < looked_at; ++p) {
+      for (std::size_t p = 0; p < significant_field_count; ++p) {
         const double half_a_step = 0.5 * static_cast<double>(quantization_step(of_field(p)));
         rounding_bounds.push_back(rounding_bounds.back() +
                                   max_magnitudes_[p] * std::sqrt(3.0) * half_a_step);
@@ -125,8 +126,8 @@ class TileFitter {
       const double most =
           std::min(tolerance_ - rounding_bounds.back(), kTruncationShare * tolerance_) - skipped;
       const TruncationError left_out =
-          choose_fewest_fields(by_coordinate.data(), looked_at, functions_.data(), count_,
-                               static_cast<std::size_t>(directions_.level_functions.rows()),
+          choose_fewest_fields(by_coordinate.data(), significant_field_count, functions_.data(),
+                               count_, static_cast<std::size_t>(directions_.level_functions.rows()),
                                most > 0 ? static_cast<float>(most * most) : 0.0F);
       fitted.fields.add(by_vertex, left_out.kept_fields);
       const double missed = std::sqrt(static_cast<double>(left_out.squared_error)) + skipped +

@@ -72,7 +72,9 @@ void order_within(const Tile& tile, const SmoothingOperator& smoothing,
 class TileBuilder {
  public:
   TileBuilder(const SmoothingOperator& smoothing, Tiling& tiling)
-      : smoothing_(smoothing), tiling_(tiling), local_(tiling.vertex_of_row.size(), kNowhere) {}
+      : smoothing_(smoothing),
+        tiling_(tiling),
+        local_row_of_vertex_(tiling.vertex_of_row.size(), kNowhere) {}
 
   void build(Tile& tile) {
     vertices_.assign(tiling_.vertex_of_row.begin() + tile.first_row,
@@ -91,7 +93,7 @@ class TileBuilder {
     for (std::size_t l = tile.row_count; l < vertices_.size(); ++l) {
       tile.halo.push_back(tiling_.row_of_vertex[vertices_[l]]);
     }
-    for (const std::uint32_t v : vertices_) local_[v] = kNowhere;
+    for (const std::uint32_t v : vertices_) local_row_of_vertex_[v] = kNowhere;
   }
 
  private:
@@ -103,8 +105,8 @@ class TileBuilder {
   void collect_neighbours(std::size_t begin, std::size_t end) {
     for (std::size_t l = begin; l < end; ++l) {
       for (const std::uint32_t n : smoothing_.neighbours(vertices_[l])) {
-        if (local_[n] != kNowhere) continue;
-        local_[n] = kFound;
+        if (local_row_of_vertex_[n] != kNowhere) continue;
+        local_row_of_vertex_[n] = kFound;
         vertices_.push_back(n);
       }
     }
@@ -118,7 +120,7 @@ class TileBuilder {
 
   void number(std::size_t begin) {
     for (std::size_t l = begin; l < vertices_.size(); ++l) {
-      local_[vertices_[l]] = static_cast<std::uint32_t>(l);
+      local_row_of_vertex_[vertices_[l]] = static_cast<std::uint32_t>(l);
     }
   }
 
@@ -133,14 +135,14 @@ class TileBuilder {
                              static_cast<std::uint32_t>(tile.neighbours.size())});
       }
       ++tile.runs.back().row_count;
-      for (const std::uint32_t n : ring) tile.neighbours.push_back(local_[n]);
+      for (const std::uint32_t n : ring) tile.neighbours.push_back(local_row_of_vertex_[n]);
     }
   }
 
   const SmoothingOperator& smoothing_;
   Tiling& tiling_;
   /// each vertex's local row in the current tile
-  std::vector<std::uint32_t> local_;
+  std::vector<std::uint32_t> local_row_of_vertex_;
   /// the vertex of each local row of the current tile
   std::vector<std::uint32_t> vertices_;
 };

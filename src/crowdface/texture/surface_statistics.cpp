@@ -113,8 +113,8 @@ CompressedRows<Sample> sample_surface(const std::vector<SurfaceTexels>& texels,
 /// \param row_of  row_of(i, vertex): input row i. Called by any thread.
 /// \param take    take(i, vertex, row): receives the smoothed row i. Called by any thread.
 template <class RowOf, class Take>
-void smooth_known(const ChebyshevFilter& filter, std::uint64_t level, std::size_t count,
-                  const RowOf& row_of, const Take& take) {
+void normalized_convolution(const ChebyshevFilter& filter, std::uint64_t level, std::size_t count,
+                            const RowOf& row_of, const Take& take) {
   constexpr std::size_t kMaxAtOnce = 4;
   constexpr double kTolerance = 1e-6;  // the values have seven digits
   constexpr float kMinKnown = 1e-3F;
@@ -237,7 +237,7 @@ void smooth_covariances(const ChebyshevFilter& filter, std::uint64_t level, cons
         .subspan(vertex * statistics.pair_count + ranges[range].first,
                  ranges[range].second - ranges[range].first);
   };
-  smooth_known(
+  normalized_convolution(
       filter, level, ranges.size(),
       [&](std::size_t range, std::uint32_t vertex) {
         const std::span<const float> products = of_vertex(range, vertex);
@@ -264,7 +264,7 @@ SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,
   const auto vertices = static_cast<std::size_t>(filter.vertex_count());
   const CompressedRows<Sample> samples = sample_surface(texels, vertices);
   statistics.coarse_values.assign(heads, Colours(filter.vertex_count(), 3));
-  smooth_known(
+  normalized_convolution(
       filter, scale.detail_iterations, heads,
       [&](std::size_t head, std::uint32_t vertex) {
         return mean_numbers(samples.items_of(vertex), maps, head);

@@ -22,7 +22,7 @@ TraitLimits merge_limits(const TraitLimits& defaults, const TraitLimits& limits)
 
 TraitDistributions::TraitDistributions(const std::vector<std::vector<std::optional<double>>>& heads,
                                        std::vector<TraitTarget> table)
-    : sorted_values_(measurements().size()), table_(std::move(table)) {
+    : sorted_values_(measurements().size()), target_distributions_(std::move(table)) {
   for (const auto& head : heads) {
     for (std::size_t m = 0; m < head.size(); ++m) {
       if (head[m]) sorted_values_[m].push_back(*head[m]);
@@ -32,8 +32,8 @@ TraitDistributions::TraitDistributions(const std::vector<std::vector<std::option
 }
 
 double TraitDistributions::quantile(std::size_t trait, double fraction) const {
-  const auto row = std::ranges::find(table_, trait, &TraitTarget::trait);
-  if (row != table_.end()) return normal_quantile(*row, fraction);
+  const auto row = std::ranges::find(target_distributions_, trait, &TraitTarget::trait);
+  if (row != target_distributions_.end()) return normal_quantile(*row, fraction);
   const std::vector<double>& values = sorted_values_[trait];
   const double at = fraction * static_cast<double>(values.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(at), values.size() - 1);

@@ -89,7 +89,7 @@ unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
       const auto along = [&](const std::array<float, kMaxTriangles>& side) {
         const auto at = hn::PromoteTo(doubles, hn::LoadU(singles, &side[begin]));
         return hn::Mul(hn::Sub(at, hn::Set(doubles, ray.origin[c])),
-                       hn::Set(doubles, ray.inverse[c]));
+                       hn::Set(doubles, ray.inverse_direction[c]));
       };
       const auto low = along(boxes.low[c]), high = along(boxes.high[c]);
       near = hn::Max(near, hn::Min(low, high));
@@ -185,15 +185,15 @@ BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
   for (std::size_t c = 0; c < 3; ++c) {
     const auto axis = static_cast<Index>(c);
     origin[c] = from[axis];
-    inverse[c] = direction[axis] == 0 ? kInverseOfZero : 1 / direction[axis];
+    inverse_direction[c] = direction[axis] == 0 ? kInverseOfZero : 1 / direction[axis];
   }
 }
 
 bool ray_hits_box(const BoxRay& ray, const Box& box) {
   double near = 0, far = std::numeric_limits<double>::infinity();
   for (std::size_t c = 0; c < 3; ++c) {
-    const double a = (box.low[c] - ray.origin[c]) * ray.inverse[c];
-    const double b = (box.high[c] - ray.origin[c]) * ray.inverse[c];
+    const double a = (box.low[c] - ray.origin[c]) * ray.inverse_direction[c];
+    const double b = (box.high[c] - ray.origin[c]) * ray.inverse_direction[c];
     near = std::max(near, std::min(a, b));
     far = std::min(far, std::max(a, b));
   }

@@ -62,8 +62,8 @@ struct BoxRay {
   /// ray.
   static constexpr double kRounding = 1 + 4 * std::numeric_limits<double>::epsilon();
 
-  /// `inverse` contains 1/d for each coordinate d of the direction
-  std::array<double, 3> origin, inverse;
+  /// `inverse_direction` contains 1/d for each coordinate d of the direction
+  std::array<double, 3> origin, inverse_direction;
 
   BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction);
 };

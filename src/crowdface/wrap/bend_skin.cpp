@@ -69,8 +69,8 @@ class Bending {
     }
     choose_scan_points();
     choose_rims();
-    found_on_scan_.assign(visibility_weights_.size(), kNoIndex);
-    found_on_skin_.resize(scan_points_.size());
+    last_scan_triangles_.assign(visibility_weights_.size(), kNoIndex);
+    last_skin_hits_.resize(scan_points_.size());
   }
 
   Positions run() {
@@ -162,9 +162,9 @@ class Bending {
           const double seen = visibility_weights_[v];
           if (seen == 0) return;
           const Eigen::Vector3d point = row3(current, v);
-          const auto place =
-              scan_.nearest(point, row3(normals, v), kMinNormalCosine, reach, found_on_scan_[v]);
-          found_on_scan_[v] = place.triangle;
+          const auto place = scan_.nearest(point, row3(normals, v), kMinNormalCosine, reach,
+                                           last_scan_triangles_[v]);
+          last_scan_triangles_[v] = place.triangle;
           if (place.is_found)
             correspondences[v] = {true, place.normal, place.point - point, areas_(v) * seen};
         });
@@ -183,7 +183,7 @@ class Bending {
                       DataTerms& data_terms) {
     const SurfaceTree tree(current, skin_.triangles);
     std::vector<Correspondence> correspondences(scan_points_.size());
-    std::vector<SurfaceHit>& hits = found_on_skin_;
+    std::vector<SurfaceHit>& hits = last_skin_hits_;
     parallel_for_each(correspondences.size(), 128, [&](std::size_t i) {
       const std::uint32_t s = scan_points_[i];
       const Eigen::Vector3d point = row3(scan_.scan().positions, s);
@@ -230,8 +230,9 @@ class Bending {
   std::vector<double> visibility_weights_;
   std::vector<std::uint32_t> scan_points_;
   // Results of the previous search for closest points; the next search uses them as guesses.
-  std::vector<std::uint32_t> found_on_scan_;  ///< for each skin vertex: a triangle of the scan
-  std::vector<SurfaceHit> found_on_skin_;     ///< for each sampled scan point: a point of the skin
+  std::vector<std::uint32_t>
+      last_scan_triangles_;                 ///< for each skin vertex: a triangle of the scan
+  std::vector<SurfaceHit> last_skin_hits_;  ///< for each sampled scan point: a point of the skin
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;
   /// Only some scan vertices are sampled; each sampled point stands for this many scan vertices.

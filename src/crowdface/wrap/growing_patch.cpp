@@ -23,14 +23,14 @@ GrowingPatch::GrowingPatch(const SkinMesh& skin, const Triangle& triangle)
 }
 
 void GrowingPatch::grow() {
-  ++ring_;
+  ++ring_count_;
   for (std::size_t i = 0, known = vertices_.size(); i < known; ++i) {
-    if (rings_[i] < ring_ - 1) continue;
+    if (rings_[i] < ring_count_ - 1) continue;
     for (const std::uint32_t n : skin_.adjacency.items_of(vertices_[i])) {
       if (is_member_[n]) continue;
       is_member_[n] = true;
       vertices_.push_back(n);
-      rings_.push_back(ring_);
+      rings_.push_back(ring_count_);
     }
   }
 }

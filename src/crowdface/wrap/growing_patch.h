@@ -23,7 +23,7 @@ class GrowingPatch {
   /// Weight of vertex `i` of the patch: 1 at the triangle, falling to 0 beyond the last ring. With
   /// a larger steepness, the weight falls mainly near the border.
   double weight(std::size_t i) const {
-    return std::min(1.0, weight_steepness_ * (1 - rings_[i] / (ring_ + 1.0)));
+    return std::min(1.0, weight_steepness_ * (1 - rings_[i] / (ring_count_ + 1.0)));
   }
   void set_weight_steepness(double weight_steepness) { weight_steepness_ = weight_steepness; }
 
@@ -32,7 +32,7 @@ class GrowingPatch {
   std::vector<std::uint32_t> vertices_;
   std::vector<int> rings_;  ///< ring number of each vertex in `vertices_`
   std::vector<bool> is_member_;
-  int ring_ = 0;  ///< number of rings added so far
+  int ring_count_ = 0;  ///< number of rings added so far
   double weight_steepness_ = 1;
 };
 

@@ -137,7 +137,7 @@ WrapDistances measure_distances(const WrapTemplate& wrap_template, const WrapRes
   return {percentile(distances, 0.5), percentile(distances, 0.95)};
 }
 
-double share_without_data(const WrapTemplate& wrap_template, const WrapResult& result) {
+double fraction_without_data(const WrapTemplate& wrap_template, const WrapResult& result) {
   Index visible = 0, without = 0;
   for (Index v = 0; v < result.distance_mm.size(); ++v) {
     if (!seen(wrap_template, v)) continue;
@@ -203,7 +203,8 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const 
                               farthest_region(wrap_template, result, regions),
                               ": exclude with --ignore what is not skin, or pick landmarks there"));
   }
-  if (const double lacking = share_without_data(wrap_template, result); lacking > kMaxWithoutData) {
+  if (const double lacking = fraction_without_data(wrap_template, result);
+      lacking > kMaxWithoutData) {
     warnings.push_back(concat("the scan has no data for ", format_fixed(100 * lacking, 0),
                               " % of the skin, whose shape is estimated"));
   }
@@ -220,7 +221,7 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const 
 
 void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result,
                      const SkinRegions& regions) {
-  if (share_without_data(wrap_template, result) > 1 - kMinWithData) {
+  if (fraction_without_data(wrap_template, result) > 1 - kMinWithData) {
     throw InvalidInput(
         "the scan has no data for the skin: is it a head, and are the landmarks, or --scan-up and "
         "--scan-front, correct?");
@@ -269,7 +270,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_
     report["regions_mm"][regions.names[r]] =
         spread_json(visible_distances(wrap_template, result, &regions, r));
   }
-  report["without_data"] = rounded(share_without_data(wrap_template, result));
+  report["without_data"] = rounded(fraction_without_data(wrap_template, result));
   if (facts.share_without_scan) report["textures_filled"] = rounded(*facts.share_without_scan);
   report["flipped_triangles"] = result.folded_triangle_count;
   report["landmarks"] = nlohmann::ordered_json::array();

@@ -19,7 +19,7 @@ struct WrapDistances {
 };
 WrapDistances measure_distances(const WrapTemplate& wrap_template, const WrapResult& result);
 /// Returns the fraction of the visible skin for which there is no scan data.
-double share_without_data(const WrapTemplate& wrap_template, const WrapResult& result);
+double fraction_without_data(const WrapTemplate& wrap_template, const WrapResult& result);
 
 /// Warnings for the user; one sentence each, with advice.
 /// \param regions  the warnings name the regions in which a large fraction of the skin is far from

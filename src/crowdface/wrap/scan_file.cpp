@@ -68,7 +68,7 @@ void refuse_fan(const Scan& scan, const std::filesystem::path& path) {
 
 /// Handles vertices with positions that are not finite: removes the triangles that use such
 /// vertices, and moves the vertices to the position of another vertex.
-void leave_out_unplaced(Scan& scan) {
+void remove_non_finite_positions(Scan& scan) {
   const auto is_placed = [&](std::uint32_t v) { return scan.positions.row(v).allFinite(); };
   if (scan.positions.allFinite()) return;
   keep_triangles(scan,
@@ -91,7 +91,7 @@ Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
   Scan scan{std::move(mesh.positions), triangles_of(mesh.topology), std::move(mesh.notes)};
   scan.file_triangle_indices.resize(scan.triangles.size());
   std::iota(scan.file_triangle_indices.begin(), scan.file_triangle_indices.end(), 0U);
-  leave_out_unplaced(scan);
+  remove_non_finite_positions(scan);
   if (scan.triangles.empty()) {
     refuse_file(path, concat("expected a surface of triangles, found ", scan.positions.rows(),
                              " points and no face: build a mesh of them first (MeshLab: Surface "

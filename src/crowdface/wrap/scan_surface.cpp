@@ -11,14 +11,14 @@ namespace {
 
 /// The surface ignores components, such as dust and hair clips, with less than this fraction of the
 /// largest component's area. Eyeballs are kept: an eyeball has about 0.01 of a head's area.
-constexpr double kMinShare = 0.001;
+constexpr double kMinAreaFraction = 0.001;
 
-constexpr double kRounded = 1e-9;  ///< smaller barycentric coordinates count as zero
+constexpr double kZeroTolerance = 1e-9;  ///< smaller barycentric coordinates count as zero
 
 }  // namespace
 
 ScanSurface::ScanSurface(const Scan& scan)
-    : scan_(remove_small_pieces(scan, kMinShare)),
+    : scan_(remove_small_pieces(scan, kMinAreaFraction)),
       normals_(vertex_normals_or_zero(scan_.triangles, scan_.positions)),
       is_boundary_vertex_(
           build_adjacency(topology_of(scan_.triangles, scan_.positions.rows())).boundary),
@@ -34,7 +34,7 @@ ScanSurface::ClosestPoint ScanSurface::closest_point_of(const SurfaceHit& hit) c
   bool rim = true;  // all corners with a nonzero coordinate are on the boundary
   for (std::size_t k = 0; k < 3; ++k) {
     place.normal += hit.barycentric[k] * normals_.row(corners[k]).transpose();
-    if (hit.barycentric[k] > kRounded && !is_boundary_vertex_[corners[k]]) rim = false;
+    if (hit.barycentric[k] > kZeroTolerance && !is_boundary_vertex_[corners[k]]) rim = false;
   }
   place.normal = place.normal.normalized();
   place.is_on_boundary = rim;

@@ -16,7 +16,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxProbes = 3000;  ///< vertices sampled in each step
-constexpr double kKept = 0.8;  ///< fraction of the correspondences that is used: the closest ones
+constexpr double kKeptFraction =
+    0.8;  ///< fraction of the correspondences that is used: the closest ones
 constexpr Index kPoseUnknowns = 7;
 /// Standard deviation of the pose's scale, relative to its first estimate, if a model is fitted.
 constexpr double kScaleDeviation = 0.02;
@@ -55,7 +56,8 @@ std::vector<Match> find_matches(const Positions& placed, const Positions& normal
 void leave_out_farthest(std::vector<Match>& matches) {
   std::vector<double> distances;
   for (const Match& match : matches) distances.push_back(match.distance);
-  const auto rank = static_cast<std::size_t>(kKept * static_cast<double>(distances.size() - 1));
+  const auto rank =
+      static_cast<std::size_t>(kKeptFraction * static_cast<double>(distances.size() - 1));
   const double most = nth_smallest(std::move(distances), rank);
   std::erase_if(matches, [&](const Match& match) { return match.distance > most; });
 }

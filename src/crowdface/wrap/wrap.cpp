@@ -25,7 +25,7 @@ namespace crowdface {
 namespace {
 
 /// A head counts as symmetric if at least this fraction of its vertices have a mirror vertex.
-constexpr double kMirroredShare = 0.9;
+constexpr double kMinMirroredFraction = 0.9;
 /// A landmark is an outlier if its final distance is larger than kMinOutlierMm, and larger than
 /// kOutlierFactor times the median of all landmarks' final distances.
 constexpr double kMinOutlierMm = 4, kOutlierFactor = 3.5;
@@ -160,8 +160,9 @@ void refuse_no_pose(const Similarity& pose) {
 ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& wrap_template) {
   const FoundMirror mirror = find_mirror(wrap_template.topology, wrap_template.components,
                                          heads.mean, wrap_template.axes.side());
-  const ShapeModel both =
-      mirror.partner_fraction() < kMirroredShare ? heads : add_mirror_images(heads, mirror.map);
+  const ShapeModel both = mirror.partner_fraction() < kMinMirroredFraction
+                              ? heads
+                              : add_mirror_images(heads, mirror.map);
   ShapeModel of_skin{wrap_template.skin.rows_of(both.mean), {}};
   for (const Positions& mode : both.modes)
     of_skin.modes.push_back(wrap_template.skin.rows_of(mode));

@@ -112,19 +112,19 @@ double Hair::density_after_balding(const Vector3d& p) const {
 }
 
 bool Hair::may_cover(const Vector3d& p) const {
-  return height_above_edge(p) > -1 || hanging_fraction(p) > 0;
+  return height_above_style_hairline(p) > -1 || hanging_fraction(p) > 0;
 }
 
 double Hair::coverage(const Vector3d& p, double strand_brightness) const {
-  const double frayed = height_above_edge(p) + 0.25 * edge_.at(p) +
+  const double frayed = height_above_style_hairline(p) + 0.25 * edge_.at(p) +
                         (style_.has_low_hairline ? 0.15 : 0.25) * strand_brightness;
   const double edge = smooth_step(-0.2, style_.has_low_hairline ? 0.6 : 1.0, frayed);
   return std::max(edge * density_after_balding(p), smooth_step(0.02, 0.2, hanging_fraction(p)));
 }
 
 double Hair::thickness(const Vector3d& p) const {
-  const double rise = smooth_step(-0.2, 2.4, height_above_edge(p)) * density_after_balding(p) *
-                      (1 - 0.6 * recession_);
+  const double rise = smooth_step(-0.2, 2.4, height_above_style_hairline(p)) *
+                      density_after_balding(p) * (1 - 0.6 * recession_);
   const double top = smooth_step(5.5, 10.5, p.y());
   const double fuller = 1 + style_.extra_volume_to_side * p.x() / (3 + std::abs(p.x()));
   const double curl = 1 + style_.curliness * 0.22 * locks_.at(p);

@@ -50,7 +50,7 @@ class Hair {
   double thickness(const Eigen::Vector3d& p) const;
 
  private:
-  double height_above_edge(const Eigen::Vector3d& p) const {
+  double height_above_style_hairline(const Eigen::Vector3d& p) const {
     return height_above_hairline(p, style_.has_low_hairline, recession_);
   }
   double density_after_balding(const Eigen::Vector3d& p) const;

@@ -64,7 +64,7 @@ class HairCardBuilder {
         pieces_(std::max(cut.top_length, cut.side_length) > kShort ? kPieces : kPiecesOfShort) {}
 
   Card grow(const Root& root, std::uint64_t number, int layer) const {
-    return cut_.layers > 1 ? tangle(root, number, layer) : comb(root, number);
+    return cut_.layers > 1 ? random_curl(root, number, layer) : comb(root, number);
   }
 
  private:
@@ -138,7 +138,7 @@ class HairCardBuilder {
   }
 
   /// Returns a short curl in a random direction; `layer` sets its height above the scalp.
-  Card tangle(const Root& root, std::uint64_t number, int layer) const {
+  Card random_curl(const Root& root, std::uint64_t number, int layer) const {
     const auto unit = [&](const char* purpose) { return random_uniform({17, number, purpose}); };
     const double top = smooth_step(1, 7, root.place.y());
     const double level = 0.3 + 0.7 * (layer + 0.2 + 0.8 * unit("level")) / cut_.layers;
