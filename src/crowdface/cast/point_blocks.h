@@ -100,7 +100,8 @@ class PointBlocks {
   Index
       dimensions_;  ///< number of stored coordinates of each point, a multiple of kCoordinatesPerChunk
   std::vector<Index> point_numbers_;  ///< numbers of the points, in the order of `add`
-  /// For each chunk of kCoordinatesPerChunk coordinates, the values sorted by block, then coordinate, then lane.
+  /// For each chunk of kCoordinatesPerChunk coordinates, the values sorted by block, then
+  /// coordinate, then lane.
   /// Nearly all searches of a block end in the first chunk, so the first chunks of all blocks are
   /// contiguous in memory.
   std::vector<std::vector<float>> chunks_;
