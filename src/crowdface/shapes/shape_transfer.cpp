@@ -63,7 +63,7 @@ class FaceShape {
     fit_lids();
     if (shape_.moves_contacts) correct_gaps();
     shape_.skin_over_parts.keep_in_front(rest_, face_frames_.frames.face_motion,
-                                         shape_.searched_skin.rows, mesh_, result_);
+                                         shape_.searched_skin.skin_displacements, mesh_, result_);
     remove_crossings();
     move_lid_followers(uncorrected_skin);
   }
