@@ -49,7 +49,7 @@ bool FaceSearch::needs_candidates(std::size_t unchecked_count) const {
   return count == 0 || next_attempt_ < initial_attempts_end_;
 }
 
-/// If measurements are limited, measures a candidate and checks the limits. Each candidate that
+/// If the config limits measurements, measures a candidate and checks the limits. Each candidate that
 /// violates these limits raises the allowed number of attempts by one, up to a multiple of the
 /// usual number.
 bool FaceSearch::meets_limits(Candidate& candidate) {

@@ -37,7 +37,7 @@ class TraitRules {
 /// Returns whether any face of the crowd has limits on measurements.
 bool has_trait_limits(const CastingOptions& casting);
 
-/// Largest number of candidates for one face if measurements are limited, as a multiple of
+/// Largest number of candidates for one face if the config limits measurements, as a multiple of
 /// DiversityOptions::max_attempts. The number may be large, because generating and measuring a
 /// candidate takes microseconds.
 inline constexpr std::uint32_t kAttemptFactorWithTraits = 20;

@@ -16,7 +16,7 @@ namespace crowdface {
 class CrowdLock {
  public:
   /// Creates the folder if necessary, and waits for the lock; logs a message if the lock is not
-  /// free. Then removes files that killed runs left half written.
+  /// free. Then removes the incomplete files of killed runs.
   /// \throws CannotCreate, IoError, Interrupted.
   CrowdLock(const CrowdDirectory& directory, const Shard& shard);
 

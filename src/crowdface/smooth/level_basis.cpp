@@ -33,10 +33,10 @@ std::vector<std::uint32_t> strided_rows(std::size_t count, std::size_t most) {
   return rows;
 }
 
-/// Chooses the rows (vertices) from which the principal directions are computed. Half of the chosen
-/// rows are evenly spaced. For the other half, the function divides all rows into blocks of
-/// consecutive rows, and chooses in each block the row that moves most at the first node (level 1),
-/// because a small number of fields fits such rows worst.
+/// Chooses the vertices (rows) from which the principal directions are computed. Half of the chosen
+/// vertices are evenly spaced. For the other half, the function divides all vertices into blocks of
+/// consecutive vertices. In each block, it chooses the vertex that smoothing to level 1 moves most,
+/// because such a vertex is hard to fit with few fields.
 NodeDisplacements sample_displacements(const std::vector<FieldRows>& displacements) {
   const FieldRows& first = displacements.front();
   const auto moved = [&](std::size_t r) {

@@ -32,7 +32,7 @@ SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd
 /// Each vertex has its own 3 by 3 matrix W.
 struct DataTerms {
   std::vector<Eigen::Matrix3d> matrices;  ///< W of each vertex: symmetric, positive semidefinite
-  Positions right_hand_side;  ///< #V by 3: for each vertex, the sum of the added W · offset
+  Positions right_hand_side;  ///< #V by 3: W · offset of each vertex, summed over its terms
 
   explicit DataTerms(Index vertices)
       : matrices(static_cast<std::size_t>(vertices), Eigen::Matrix3d::Zero()),

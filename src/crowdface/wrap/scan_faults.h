@@ -22,9 +22,9 @@ struct SkinRegions {
 };
 
 /// Finds defects of a scan from the wrapped template: closed eyes (lids that meet in front of an
-/// eyeball), an open mouth (lips that do not touch), hair (a skull that is larger than the
-/// template's after the faces are aligned, or that is far from the scan). Returns one sentence per
-/// defect, with advice. Without regions the function checks only the eyes.
+/// eyeball), an open mouth (lips that do not touch), and hair (the scan's skull is larger than the
+/// template's after the faces are aligned, or the wrapped skull is far from the scan). Returns one
+/// sentence per defect, with advice. Without regions the function checks only the eyes.
 std::vector<std::string> scan_faults(const WrapTemplate& wrap_template, const WrapResult& result,
                                      const SkinRegions& regions);
 
