@@ -41,49 +41,48 @@ TEST(Bands, ComeNearTheMaskThatSyntheticHeadsBring) {
   EXPECT_LT((alpha - theirs).cwiseAbs().mean(), 0.045);
 }
 
-TEST(Bands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
-  const HeadSet faces = synth_heads(20000);
-  const HeadShape head = mean_head_shape(faces);
-  const auto marks = find_face_marks(faces.topology, head, {});
-  ASSERT_TRUE(marks);
-  const auto alpha = propose_bands(faces.topology, head, *marks, kFive);
-  EXPECT_LT((alpha.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
-  EXPECT_GE(alpha.minCoeff(), 0);
-  for (Index v = 0; v < alpha.rows(); ++v) {
-    const double x = head.positions(v, 0), y = head.positions(v, 1);
+/// Five bands of synthetic heads.
+class FiveBands : public ::testing::Test {
+ protected:
+  HeadSet faces_ = synth_heads(20000);
+  HeadShape head_ = mean_head_shape(faces_);
+  FaceMarks marks_ = find_face_marks(faces_.topology, head_, {}).value();
+  RegionWeights::Alpha alpha_ = propose_bands(faces_.topology, head_, marks_, kFive);
+};
+
+TEST_F(FiveBands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
+  EXPECT_LT((alpha_.rowwise().sum().array() - 1).abs().maxCoeff(), 1e-12);
+  EXPECT_GE(alpha_.minCoeff(), 0);
+  for (Index v = 0; v < alpha_.rows(); ++v) {
+    const double x = head_.positions(v, 0), y = head_.positions(v, 1);
     if (std::abs(x) < 3) {
-      EXPECT_LT(alpha(v, 3), 0.02) << "no ear so near the middle";
+      EXPECT_LT(alpha_(v, 3), 0.02) << "no ear so near the middle";
     }
-    if (y > marks->tip_height) {
-      EXPECT_LT(alpha(v, 4), 0.05) << "no neck beside the nose";
+    if (y > marks_.tip_height) {
+      EXPECT_LT(alpha_(v, 4), 0.05) << "no neck beside the nose";
     }
-    if (y < marks->chin_height - 4.5) {
-      EXPECT_EQ(alpha(v, 4), 1);
+    if (y < marks_.chin_height - 4.5) {
+      EXPECT_EQ(alpha_(v, 4), 1);
     }
   }
   Index left = 0, right = 0;
-  for (Index v = 0; v < alpha.rows(); ++v) {
-    if (alpha(v, 3) > 0.9) ++(head.positions(v, 0) < 0 ? left : right);
+  for (Index v = 0; v < alpha_.rows(); ++v) {
+    if (alpha_(v, 3) > 0.9) ++(head_.positions(v, 0) < 0 ? left : right);
   }
   EXPECT_GT(left, 100);
   EXPECT_GT(right, 100);
 }
 
 // The transitions around ears and neck were 16 mm wide, and blended faces had ridges above the ears.
-TEST(Bands, AllTransitionsAreWide) {
-  const HeadSet faces = synth_heads(20000);
-  const HeadShape head = mean_head_shape(faces);
-  const auto marks = find_face_marks(faces.topology, head, {});
-  ASSERT_TRUE(marks);
-  const auto alpha = propose_bands(faces.topology, head, *marks, kFive);
-  const double face = marks->eye_to_mouth();
+TEST_F(FiveBands, AllTransitionsAreWide) {
+  const double face = marks_.eye_to_mouth();
   double steepest = 0;
-  for (Index f = 0; f < faces.topology.face_count(); ++f) {
-    const auto corners = faces.topology.face(f);
+  for (Index f = 0; f < faces_.topology.face_count(); ++f) {
+    const auto corners = faces_.topology.face(f);
     for (std::size_t c = 0; c < corners.size(); ++c) {
       const std::uint32_t a = corners[c], b = corners[(c + 1) % corners.size()];
-      const double length = (head.positions.row(a) - head.positions.row(b)).norm();
-      const double change = (alpha.row(a) - alpha.row(b)).cwiseAbs().maxCoeff();
+      const double length = (head_.positions.row(a) - head_.positions.row(b)).norm();
+      const double change = (alpha_.row(a) - alpha_.row(b)).cwiseAbs().maxCoeff();
       if (length > 0) steepest = std::max(steepest, change / length * face);
     }
   }

@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// Tolerance of span_basis for the smoothing displacements and for the coordinate functions: root
-/// mean square over the face in millimetres.
+/// Largest error with which span_basis may approximate smoothing displacements and coordinate
+/// functions: root mean square over the face, in millimetres.
 constexpr double kFieldTolerance = 0.004;
 /// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
@@ -45,9 +45,9 @@ bool is_extrapolated(const Recipe& recipe) {
 
 }  // namespace
 
-/// The order of the coordinate functions in the rows of a matrix: first the mean head, then each
-/// head's deviation from the mean head, then the displacement fields, sorted by region, head and
-/// mode.
+/// The order of the coordinate functions in the rows of a matrix: the mean head, then the deviation
+/// of each head from the mean head, then the displacement fields. The fields are sorted by region;
+/// those of a region by head; those of a head by mode.
 struct FaceSpace::FunctionRowOrder {
   Index heads, modes;
   static Index of_head(Index head) { return 3 + 3 * head; }

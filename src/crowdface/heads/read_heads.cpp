@@ -122,7 +122,7 @@ void restore_mirrored(std::vector<std::optional<HeadFile>>& files) {
   }
 }
 
-/// Adds a note to each head whose polygons were reversed and not turned back by restore_mirrored.
+/// Adds a note to each head whose polygons are still reversed after restore_mirrored.
 void note_reversed_polygons(std::vector<std::optional<HeadFile>>& files) {
   for (std::optional<HeadFile>& head : files) {
     if (head && head->file.has_reversed_faces) head->file.notes.emplace_back(kReversedFacesNote);

@@ -30,7 +30,7 @@ class SeamColours {
   /// The weighted mean of the heads' optical densities at the first `rows` of the `vertices_`.
   Positions blend(const std::vector<double>& weights, Index rows) const;
 
-  /// the neck ring's vertices, then the band's other vertices
+  /// the vertices of the band: first those of the neck ring, then all others
   std::vector<std::uint32_t> vertices_;
   Index ring_size_ = 0;  ///< number of vertices in the ring
   /// area around each of the `vertices_`, as a fraction of the band's area

@@ -32,7 +32,7 @@ class ShownAttachments {
  private:
   /// One mesh per material. A mesh has no triangles if no polygon has its material.
   using MaterialMeshes = std::vector<PreviewMesh>;
-  /// Returns the reduced meshes of an attachment; makes them on the first call.
+  /// Returns the reduced meshes of an attachment. The first call computes and stores them.
   const MaterialMeshes& material_meshes(const Attachment& item) const;
 
   mutable LazyMap<const Attachment*, MaterialMeshes> meshes_;

@@ -125,8 +125,8 @@ CameraHit camera_hit(const HeadScene& scene, const RayHit& hit, const Vector& di
   result.can_receive_key_light = can_receive_key_light(result.surface.normal, result.surface.kind);
   // Start shadow rays on the smooth surface that the vertex normals imply. This surface lies above
   // the facets, so that facets do not show at grazing light (Hanika 2021, "Hacking the shadow
-  // terminator"). At sharp edges a vertex normal may point below the facet. Skip vertices with such
-  // normals, because these vertices would move the start of the rays below the facet.
+  // terminator"). At sharp edges a vertex normal may point below the facet. Such a normal would
+  // move the start of the rays below the facet, so vertices with such normals are skipped.
   Vector lift = Vector::Zero();
   for (int c = 0; c < 4; ++c) {
     const std::uint32_t vertex = quad[static_cast<std::size_t>(c)];

@@ -30,9 +30,9 @@ class FaceTraits {
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
-  /// The mesh to measure. kBent: the face as written, moved onto the body and bent at the neck to
-  /// fit the body. kAsBlended: the face before these steps. Casting uses kAsBlended, so that a body
-  /// does not change the recipes.
+  /// Which mesh of a face is measured: the written mesh, which is moved onto the body and bent at the
+  /// neck (kBent), or the mesh before it is moved and bent (kAsBlended). Casting measures kAsBlended,
+  /// so that recipes do not depend on the body.
   enum class NeckState { kBent, kAsBlended };
   /// Computes the positions that the landmarks have on the selected mesh of the face.
   Positions exact_landmarks(const Recipe& recipe, NeckState neck) const;

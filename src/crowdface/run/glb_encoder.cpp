@@ -31,7 +31,8 @@ std::uint8_t byte_at(const Image& image, int x, int y, int channel) {
   return static_cast<std::uint8_t>(std::lround(255.0F * value));
 }
 
-/// Returns the unchanged bytes of an image file; nothing if glTF does not support the format.
+/// Reads the bytes of a PNG or JPEG file. Returns nothing for other files, because glTF does not
+/// support their formats.
 std::optional<GlbImage> supported_image(const fs::path& file) {
   std::string bytes = read_file(file);
   if (bytes.starts_with("\x89PNG")) return GlbImage{std::move(bytes), "image/png"};

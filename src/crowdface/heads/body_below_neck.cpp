@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/neck_body.h"
+#include "crowdface/heads/body_below_neck.h"
 
 #include <algorithm>
 #include <string>
