@@ -37,6 +37,11 @@ TEST(Constraints, MessagesNameTheKeyAndItsLimit) {
   believability.max_exposed_mm2 = 4.5;
   EXPECT_EQ(describe(RejectionReason::kMinDistance, diversity, believability),
             "diversity.min_distance, 1.25 mm");
+  EXPECT_EQ(describe(RejectionReason::kMinDistanceToHeads, diversity, believability),
+            "the rule that no face looks like a head (diversity.min_distance_to_faces is not set)");
+  diversity.min_distance_to_heads_mm = 0.8;
+  EXPECT_EQ(describe(RejectionReason::kMinDistanceToHeads, diversity, believability),
+            "diversity.min_distance_to_faces, 0.8 mm");
   EXPECT_EQ(
       describe_violation(RejectionReason::kExposed, diversity, believability),
       "the lining of nose, lips or lids shows through the skin by more than the limit, 4.5 mm²");

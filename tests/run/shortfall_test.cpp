@@ -46,16 +46,20 @@ TEST(TellShortfall, NamesTheHeadsOfAGroupThatHasFew) {
   config.groups[0].sampling.sources = {1};
   config.groups[1].name = "women";
   config.groups[1].sampling.sources = {0, 1, 2};
-  const auto told = [&](int group) {
+  config.families.resize(1);
+  config.families[0].name = "brothers";
+  config.families[0].group = 0;
+  const auto told = [&](const Shortfall& shortfall) {
     try {
-      throw_shortfall(config, {}, {0, {}, group});
+      throw_shortfall(config, {}, shortfall);
     } catch (const Unsatisfiable& error) {
       return std::string(error.what());
     }
   };
-  EXPECT_THAT(told(0), ::testing::HasSubstr("more heads in the group old_men: its only heads are "
-                                            "bob (the keys"));
-  EXPECT_THAT(told(1), ::testing::Not(::testing::HasSubstr("more heads in the group")));
+  const char* const advice = "more heads in the group old_men: its only heads are bob (the keys";
+  EXPECT_THAT(told({0, {}, 0}), ::testing::HasSubstr(advice));
+  EXPECT_THAT(told({0, {}, 1}), ::testing::Not(::testing::HasSubstr("more heads in the group")));
+  EXPECT_THAT(told({0, {}, -1, "brothers"}), ::testing::HasSubstr(advice));
 }
 
 }  // namespace

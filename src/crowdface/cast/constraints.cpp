@@ -95,6 +95,10 @@ std::string describe(RejectionReason reason, const DiversityOptions& diversity,
   if (reason == RejectionReason::kRejected) {
     return concat("the distance to faces that reviews rejected (", full_key(constraint), ")");
   }
+  if (reason == RejectionReason::kMinDistanceToHeads && diversity.min_distance_to_heads_mm == 0) {
+    return concat("the rule that no face looks like a head (", full_key(constraint),
+                  " is not set)");
+  }
   return concat(full_key(constraint), ", ", limit_of(constraint, diversity, believability));
 }
 

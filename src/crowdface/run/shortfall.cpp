@@ -129,6 +129,10 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
                       "within max_distance of a founder, min_distance apart and nearer to each ",
                       "other than to all other faces (most candidates violate ",
                       asked_of(config, remedy.binding_constraint), ")");
+    const auto family = std::ranges::find(config.families, shortfall.family, &FamilyOptions::name);
+    if (family != config.families.end() && family->group) {
+      message += few_heads(config, config.groups[*family->group]);
+    }
   } else if (!shortfall.manual_face_id.empty()) {
     message += concat("the recipe ", shortfall.manual_face_id,
                       " cannot be drawn: ", asked_of(config, remedy.binding_constraint),
