@@ -93,7 +93,7 @@ TEST_F(CheckedWrap, PickedLandmarksStayAndTheWrongMouthIsNamed) {
 
 TEST_F(CheckedWrap, AMouthInItsPlaceIsNotDoubtfulBecauseItsShapeDiffers) {
   const WrapTemplate other = make_template(shape_.topology, 10 * some_head(1), {});
-  const Positions there = 10 * some_head(4);
+  const Positions there = 10 * some_head(5);
   std::vector<WrapLandmark> landmarks;
   for (const auto& [name, vertex] : propose_landmarks(other)) {
     landmarks.push_back({name, vertex, row3(there, vertex), true});

@@ -172,7 +172,8 @@ double relief_correlation_at_feature(const SkinPair& pair,
 }
 
 /// The highest correlation between the feature's relief on the template and the relief of the
-/// wrapped skin 4, 8 or 12 mm above or below the feature.
+/// wrapped skin up to 20 mm above or below the feature, at steps of 4 mm. (A wrap that takes the
+/// crease of the chin for the mouth puts the mouth 17 mm too low.)
 double correlation_beside(const SkinPair& pair, const FaceFeature& feature) {
   constexpr std::size_t kMaxVertices = 400, kMaxSurroundings = 20000;
   constexpr double kSurroundingsMm = 70, kMinCosine = 0.1;
@@ -194,7 +195,7 @@ double correlation_beside(const SkinPair& pair, const FaceFeature& feature) {
       coordinates_of(frame, pair.after, thinned(around, kMaxSurroundings));
   const Positions in_place = coordinates_of(frame, pair.after, vertices);
   double best = -1;
-  for (const double shift : {-12.0, -8.0, -4.0, 4.0, 8.0, 12.0}) {
+  for (const double shift : {-20.0, -16.0, -12.0, -8.0, -4.0, 4.0, 8.0, 12.0, 16.0, 20.0}) {
     Positions shifted = in_place;
     for (Index i = 0; i < shifted.rows(); ++i) {
       shifted(i, 2) = height_at(surroundings, in_place(i, 0), in_place(i, 1) + shift);

@@ -33,8 +33,7 @@ GuideRay eye_edge(const Vector2d& c) {
 GuideRay mouth_edge(const Vector2d& c) {
   // Concentrate the points on the short sides of the mouth's opening near the corners of the mouth.
   const double q = c.x() * c.x(), x = 2.42 * c.x() * (1.15 - 0.15 * q);
-  // The line between the lips dips in the middle and is slightly lower at the corners.
-  const double line = -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
+  const double line = lip_line(x);
   const double gap = 0.03 * c.y() * (1 + 2.2 * q);
   return {{0.4 * x, line + gap, 3}, {x, line + gap, 9.9 - 0.18 * x * x}};
 }

@@ -71,12 +71,12 @@ double nose(const Vector3d& p) {
 }
 
 double upper_lip(const Vector3d& p) {
-  const double side = capsule_distance(p, {0.5, -6.52, 9.62}, {2.5, -6.97, 8.4}, 0.38, 0.2);
+  const double side = capsule_distance(p, {0.5, -6.52, 9.62}, {2.5, -6.88, 8.4}, 0.38, 0.2);
   return smooth_union(side, ellipsoid(p, {0, -6.62, 9.68}, {0.5, 0.4, 0.44}), 0.5);
 }
 
 double lower_lip(const Vector3d& p) {
-  return smooth_union(capsule_distance(p, {0.5, -7.42, 9.52}, {2.45, -7.06, 8.4}, 0.44, 0.2),
+  return smooth_union(capsule_distance(p, {0.5, -7.42, 9.52}, {2.45, -6.97, 8.4}, 0.44, 0.2),
                       ellipsoid(p, {0, -7.48, 9.52}, {0.65, 0.45, 0.45}), 0.6);
 }
 
@@ -120,6 +120,11 @@ double skin_distance(const Vector3d& point) {
   const double lips = smooth_union(upper_lip(p), lower_lip(p), groove);
   d = smooth_union(d, lips, 0.4 + 0.4 * smooth_step(-7.6, -8.4, p.y()));
   return d;
+}
+
+double lip_line(double x) {
+  const double q = std::min(1.0, x * x / (kMouthHalfWidth * kMouthHalfWidth));
+  return -7.0 + 0.25 * q * (1 - q) * (1 - q) + 0.07 * q;
 }
 
 Vector3d skin_normal(const Vector3d& point) {

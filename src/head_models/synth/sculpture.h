@@ -10,6 +10,14 @@ namespace crowdface::synth {
 /// neck). Openings and ears are not included. The head is symmetric.
 double skin_distance(const Eigen::Vector3d& point);
 
+/// The y of the line between the lips of the average head, cm. The line dips in the middle; its
+/// ends, the corners of the mouth, lie slightly higher than its middle. (Faces whose corners lie
+/// lower look sad.)
+/// \param x  coordinate to the side, cm
+double lip_line(double x);
+/// half the width of the mouth, cm
+inline constexpr double kMouthHalfWidth = 2.45;
+
 /// Returns the central differences of a distance function, 2 · step · gradient.
 template <class Distance>
 Eigen::Vector3d central_differences(const Distance& distance, const Eigen::Vector3d& point,

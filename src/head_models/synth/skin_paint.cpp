@@ -7,6 +7,7 @@
 
 #include "crowdface/core/smooth_step.h"
 #include "head_models/synth/knots.h"
+#include "head_models/synth/sculpture.h"
 #include "head_models/synth/skin_surface.h"
 
 namespace crowdface::synth {
@@ -33,26 +34,21 @@ void cover(ScreenColour& colour, const ScreenColour& with, double amount) {
   colour += amount * (with - colour);
 }
 
-// The outline of the lips as functions of |x|, cm: the y of the line between the lips, and the
-// heights of the upper and the lower lip above and below this line.
-constexpr double kMouthHalf = 2.45;
-double lip_line(double x) {
-  const double q = std::min(1.0, x * x / (kMouthHalf * kMouthHalf));
-  return -7.0 + 0.25 * q * (1 - q) * (1 - q) - 0.03 * q * q * (3 - 2 * q);
-}
+// The heights of the upper and the lower lip above and below the line between the lips, cm, as
+// functions of |x|.
 double upper_lip(double x) {
-  const double t = std::min(1.0, x / kMouthHalf);
+  const double t = std::min(1.0, x / kMouthHalfWidth);
   return 0.86 * (1 - t * t) * (1 - 0.10 * smooth_step(0.25, 0, t));  // Cupid's bow
 }
 double lower_lip(double x) {
-  const double t = std::min(1.0, x / kMouthHalf);
+  const double t = std::min(1.0, x / kMouthHalfWidth);
   return 0.98 * (1 - t * t * (0.35 + 0.65 * t));
 }
 
 /// Returns 1 on the lips, 0 outside, with a transition of about 1.6 mm.
 double on_lips(const Vector3d& p) {
   const double x = std::abs(p.x());
-  if (p.z() < 6 || x > kMouthHalf) return 0;
+  if (p.z() < 6 || x > kMouthHalfWidth) return 0;
   const double up = p.y() - lip_line(x);
   const double beyond = up > 0 ? up - upper_lip(x) : -up - lower_lip(x);
   return smooth_step(0.07, -0.09, beyond);
@@ -121,7 +117,7 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   tint(lips, {0.93, 0.58, 0.64}, complexion_.lipstick);
   tint(lips, ScreenColour::Constant(0.86), complexion_.skin_tone);
   // The upper lip is darker, because it faces down.
-  if (p.y() > lip_line(std::abs(p.x()))) tint(lips, {0.96, 0.93, 0.93}, 1);
+  if (p.y() > lip_line(p.x())) tint(lips, {0.96, 0.93, 0.93}, 1);
   cover(colour, lips, amount);
 }
 
