@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "crowdface/mesh/vector3.h"
@@ -42,6 +43,27 @@ TEST_F(FoundLandmarksTest, LieWhereTheTemplatesOwnVerticesWouldOnThatHead) {
   }
   std::ranges::sort(off);
   EXPECT_LT(off[off.size() / 2], 4);
+}
+
+/// Edges are 5 mm long. Landmarks that were rounded to vertices of the scan were up to 5.4 mm away.
+TEST(FoundLandmarks, OfACoarseTemplateAsItsOwnScanLieWithinHalfAnEdgeOfItsVertices) {
+  const SyntheticHeads heads(5000, SyntheticHeads::Parts::kEyesAndTeeth);
+  Similarity place = some_place();
+  place.rotation = Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, 1).normalized());
+  for (std::uint64_t h = 0; h < 8; ++h) {
+    const WrapTemplate shape = make_template(heads.topology(), 10 * heads.positions(5, h), {});
+    const Scan scan{place.apply(shape.positions), triangles_of(heads.topology())};
+    const std::vector<WrapLandmark> found = find_landmarks(
+        shape, propose_landmarks(shape), scan,
+        {.up = place.rotation * Eigen::Vector3d::UnitY(),
+         .front = place.rotation * Eigen::Vector3d::UnitZ()});
+    EXPECT_GE(found.size(), 12U);
+    for (const WrapLandmark& landmark : found) {
+      if (landmark.name == "chin") continue;  // no shape tells the height of the foremost point
+      const Eigen::Vector3d off = row3(scan.positions, landmark.vertex) - landmark.scan_position;
+      EXPECT_LT(off.norm() / place.scale, 3.5) << landmark.name << " of head " << h;
+    }
+  }
 }
 
 TEST_F(FoundLandmarksTest, AScanWithoutAFaceHasNone) {

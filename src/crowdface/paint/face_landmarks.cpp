@@ -330,12 +330,11 @@ class LandmarkSearch {
     if (!left || !right || !left->is_skin || !right->is_skin) return std::nullopt;
     return (left->at.front + right->at.front) / 2;
   }
-  /// Like `depth`, but of whatever is seen from the front (skin, or teeth between the lips), and on
-  /// the side on which it lies farther back.
-  std::optional<double> depth_of_deeper_side(double across, double up) const {
+  /// Like `depth`, but of whatever is seen from the front: skin, or teeth between the lips.
+  std::optional<double> depth_of_any_part(double across, double up) const {
     const auto left = rays_.from_front(across, up), right = rays_.from_front(-across, up);
     if (!left || !right) return std::nullopt;
-    return std::min(left->at.front, right->at.front);
+    return (left->at.front + right->at.front) / 2;
   }
   void keep_pair(const std::string& name, double across, double up, const char* reason) {
     keep(name + "_left", rays_.from_front(across, up), reason);
@@ -378,7 +377,7 @@ class LandmarkSearch {
   }
 
   /// Finds the corners of the mouth: follows the groove between the lips outwards until the groove
-  /// is shallow on both sides.
+  /// is shallow.
   void mouth_corners() {
     constexpr double kFrom = 4, kTo = 42, kStep = 0.5, kWander = 1.2, kLip = 3.5;
     // The mouth ends where the groove is less deep than this fraction of its median depth.
@@ -391,7 +390,7 @@ class LandmarkSearch {
     for (double x = kFrom; x <= kTo; x += kStep) {
       HeadPoint deepest{x, up, 0};
       for (double y = up - kWander; y <= up + kWander; y += 0.1) {
-        const auto here = depth_of_deeper_side(x, y);
+        const auto here = depth_of_any_part(x, y);
         const auto above = depth(x, y + kLip), below = depth(x, y - kLip);
         if (!here || !above || !below) continue;
         const double hollow = std::min((*above + *below) / 2 - *here, 2 * kLip);

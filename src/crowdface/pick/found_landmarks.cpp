@@ -25,21 +25,24 @@ constexpr double kMaxFitDistanceMm = 14;
 /// (1.3 to 2.4 mm), because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
 
-/// Finds landmarks on a scan. Returns the scan vertex of each landmark, by name; empty if the mesh
-/// is not usable as a head (for example too small).
+/// Finds landmarks on a scan. Returns the point of each landmark in the coordinates of `scan`, by
+/// name; empty if the mesh is not usable as a head (for example too small).
 /// \param in_mm  the positions of the scan in millimetres.
 /// \param axes   the axes of the head in `in_mm`.
-std::map<std::string, std::uint32_t> propose_on(const Scan& scan, const Positions& in_mm,
-                                                const HeadAxes& axes,
-                                                const std::optional<ReliefMatch>& face = {}) {
+std::map<std::string, Eigen::Vector3d> landmarks_of_scan(
+    const Scan& scan, const Positions& in_mm, const HeadAxes& axes,
+    const std::optional<ReliefMatch>& face = {}) {
   if (!in_mm.allFinite()) return {};
+  std::map<std::string, Eigen::Vector3d> points;
   try {
     const WrapTemplate head =
         make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes, {}, face);
-    return propose_landmarks(head);
+    for (const auto& [name, point] : landmarks_of(head).points)
+      points[name] = point_on(scan.positions, point.corners, point.barycentric);
   } catch (const InvalidInput&) {
     return {};
   }
+  return points;
 }
 
 /// Repeatedly removes the worst landmark, until a similarity transform fits all remaining landmarks
@@ -83,21 +86,24 @@ std::vector<WrapLandmark> find_landmarks(
   // hint are inexact if the scan is rotated. The axes of the fitted pose are tilted if the scan
   // differs much from the template.
   const std::array candidates = {
-      propose_on(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
-      propose_on(scan, placed, wrap_template.axes)};
+      landmarks_of_scan(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
+      landmarks_of_scan(scan, placed, wrap_template.axes)};
   std::vector<WrapLandmark> most;
   for (const auto& of_scan : candidates) {
     std::vector<WrapLandmark> landmarks;
     for (const LandmarkDefinition& known : suggested_landmarks()) {
       const std::string name(known.name);
-      const auto of_template = template_vertices.find(name), found = of_scan.find(name);
+      const auto of_template = template_vertices.find(name);
+      const auto found = of_scan.find(name);
       if (!known.is_found_on_scans || of_template == template_vertices.end() ||
           found == of_scan.end())
         continue;
-      const std::uint32_t vertex = of_template->second, there = found->second;
-      if ((row3(placed, there) - row3(wrap_template.positions, vertex)).norm() > kMaxPoseDistanceMm)
+      const std::uint32_t vertex = of_template->second;
+      const Eigen::Vector3d& point = found->second;
+      const Eigen::Vector3d placed_point = apply_similarity(inverse(pose), point);
+      if ((placed_point - row3(wrap_template.positions, vertex)).norm() > kMaxPoseDistanceMm)
         continue;
-      landmarks.push_back({name, vertex, row3(scan.positions, there), true, kFoundErrorMm});
+      landmarks.push_back({name, vertex, point, true, kFoundErrorMm});
     }
     drop_outliers(wrap_template, landmarks);
     if (landmarks.size() > most.size()) most = std::move(landmarks);

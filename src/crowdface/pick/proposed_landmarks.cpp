@@ -6,18 +6,19 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/paint/bands.h"
-#include "crowdface/paint/face_landmarks.h"
 #include "crowdface/paint/face_marks.h"
 
 namespace crowdface {
 
+FaceLandmarks landmarks_of(const WrapTemplate& wrap_template) {
+  if (!wrap_template.face_match) return {};
+  return find_face_landmarks(wrap_template.topology, wrap_template.components, wrap_template.parts,
+                             head_shape(wrap_template), *wrap_template.face_match);
+}
+
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_template) {
   std::map<std::string, std::uint32_t> proposals;
-  if (!wrap_template.face_match) return proposals;
-  const FaceLandmarks found =
-      find_face_landmarks(wrap_template.topology, wrap_template.components, wrap_template.parts,
-                          head_shape(wrap_template), *wrap_template.face_match);
-  for (const auto& [name, place] : found.points) {
+  for (const auto& [name, place] : landmarks_of(wrap_template).points) {
     const auto nearest = std::ranges::max_element(place.barycentric) - place.barycentric.begin();
     proposals[name] = place.corners[static_cast<std::size_t>(nearest)];
   }

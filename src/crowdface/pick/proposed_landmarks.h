@@ -6,6 +6,7 @@
 #include <string>
 
 #include "crowdface/mesh/mirror_map.h"
+#include "crowdface/paint/face_landmarks.h"
 #include "crowdface/pick/pickable_mesh.h"
 #include "crowdface/wrap/report.h"
 #include "crowdface/wrap/wrap_template.h"
@@ -13,7 +14,11 @@
 namespace crowdface {
 
 /// Finds the landmarks of a template's face by their shape (find_face_landmarks).
-/// \return vertex numbers of the template by name; empty if no face is found.
+/// \return no points if no face is found.
+FaceLandmarks landmarks_of(const WrapTemplate& wrap_template);
+
+/// Like `landmarks_of`.
+/// \return the vertices of the template that are nearest to the landmarks, by name
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_template);
 
 /// A mesh of the template whose skin can be picked and whose eyes and teeth occlude the skin.
