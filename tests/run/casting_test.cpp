@@ -333,7 +333,7 @@ std::string refusal(const SmallCrowdFolder& folder, const std::vector<std::strin
 
 TEST(CastingOptions, WhatCannotBeDoneIsToldAndLeavesNothing) {
   SmallCrowd crowd = six_bowls();
-  for (const int count : {24, 60}) {
+  for (const int count : {24, 60, 500}) {
     crowd.count = count;
     crowd.more = "diversity: {min_distance: 4 mm}\n";
     const SmallCrowdFolder folder(crowd);

@@ -12,14 +12,13 @@ struct Remedy {
   /// Largest value of the constraint's distance, in whole hundredths of a millimetre, with which
   /// casting succeeded. Empty if the constraint has no distance, or if no value succeeded.
   std::optional<double> largest_distance_mm;
-  /// number of faces in the trials: the count of the crowd, but at most 400
+  /// number of faces in the trials: the count of the crowd, but at most 4000, in spread mode 400
   std::uint64_t trial_face_count = 0;
 };
 
 /// Searches for a remedy. Casts again with smaller distances, and bisects until the smallest
 /// distance that fails is at most 8 % above the largest distance that works. Also stops if a
-/// distance works and the trials have used 200,000 candidates. The time of a trial grows with the
-/// square of the number of faces, so trials cast at most 400 faces.
+/// distance works and the trials have used 200,000 candidates.
 ///
 /// \param trial_done  Called after each trial.
 /// \param find_mesh_defects  If given, the last trials also judge the candidates' whole meshes. If

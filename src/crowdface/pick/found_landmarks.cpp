@@ -37,7 +37,7 @@ std::map<std::string, Eigen::Vector3d> landmarks_of_scan(
   try {
     const WrapTemplate head =
         make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes, {}, face);
-    for (const auto& [name, point] : landmarks_of(head).points)
+    for (const auto& [name, point] : find_face_landmarks(head).points)
       points[name] = point_on(scan.positions, point.corners, point.barycentric);
   } catch (const InvalidInput&) {
     return {};

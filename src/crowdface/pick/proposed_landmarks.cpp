@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-FaceLandmarks landmarks_of(const WrapTemplate& wrap_template) {
+FaceLandmarks find_face_landmarks(const WrapTemplate& wrap_template) {
   if (!wrap_template.face_match) return {};
   return find_face_landmarks(wrap_template.topology, wrap_template.components, wrap_template.parts,
                              head_shape(wrap_template), *wrap_template.face_match);
@@ -18,7 +18,7 @@ FaceLandmarks landmarks_of(const WrapTemplate& wrap_template) {
 
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_template) {
   std::map<std::string, std::uint32_t> proposals;
-  for (const auto& [name, place] : landmarks_of(wrap_template).points) {
+  for (const auto& [name, place] : find_face_landmarks(wrap_template).points) {
     const auto nearest = std::ranges::max_element(place.barycentric) - place.barycentric.begin();
     proposals[name] = place.corners[static_cast<std::size_t>(nearest)];
   }

@@ -15,9 +15,9 @@ namespace crowdface {
 
 /// Finds the landmarks of a template's face by their shape (find_face_landmarks).
 /// \return no points if no face is found.
-FaceLandmarks landmarks_of(const WrapTemplate& wrap_template);
+FaceLandmarks find_face_landmarks(const WrapTemplate& wrap_template);
 
-/// Like `landmarks_of`.
+/// Like `find_face_landmarks`.
 /// \return the vertices of the template that are nearest to the landmarks, by name
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_template);
 
