@@ -53,10 +53,10 @@ TEST(FoundLandmarks, OfACoarseTemplateAsItsOwnScanLieWithinHalfAnEdgeOfItsVertic
   for (std::uint64_t h = 0; h < 8; ++h) {
     const WrapTemplate shape = make_template(heads.topology(), 10 * heads.positions(5, h), {});
     const Scan scan{place.apply(shape.positions), triangles_of(heads.topology())};
-    const std::vector<WrapLandmark> found = find_landmarks(
-        shape, propose_landmarks(shape), scan,
-        {.up = place.rotation * Eigen::Vector3d::UnitY(),
-         .front = place.rotation * Eigen::Vector3d::UnitZ()});
+    const std::vector<WrapLandmark> found =
+        find_landmarks(shape, propose_landmarks(shape), scan,
+                       {.up = place.rotation * Eigen::Vector3d::UnitY(),
+                        .front = place.rotation * Eigen::Vector3d::UnitZ()});
     EXPECT_GE(found.size(), 12U);
     for (const WrapLandmark& landmark : found) {
       if (landmark.name == "chin") continue;  // no shape tells the height of the foremost point

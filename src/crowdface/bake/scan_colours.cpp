@@ -119,11 +119,6 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
   for (std::string& warning : leave_out_unreadable_files(found))
     warnings_.push_back(std::move(warning));
   colours_ = read_mesh_maps(found.heads[0], TextureKind::kColour, topology, mesh_.uvs);
-  if (mesh.textures.empty()) {
-    for (const HeadTextureFiles::File& texture : found.heads[0].files) {
-      texture_paths_.push_back(texture.path);
-    }
-  }
   // Read colours of vertices and of materials.
   if (mesh.colours.rows() > 0) vertex_linear_colours_ = linear_light(byte_colours(mesh.colours));
   FaceMaterials materials = face_materials(mesh.materials, topology.face_count());

@@ -53,8 +53,6 @@ class ScanColours {
   bool has_vertex_colours() const { return vertex_linear_colours_.rows() > 0; }
   /// Messages about missing or unreadable files.
   const std::vector<std::string>& warnings() const { return warnings_; }
-  /// The paths of the texture files that give colours.
-  const std::vector<std::filesystem::path>& texture_paths() const { return texture_paths_; }
 
   /// Returns the mean colour of an area in linear light; nothing if the polygon that contains
   /// the area has no colour.
@@ -73,7 +71,6 @@ class ScanColours {
   Positions vertex_linear_colours_;  ///< #V: colours of vertices in linear light; or no rows
   std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< #materials
   std::vector<std::uint32_t> material_of_face_;                               ///< #F; or empty
-  std::vector<std::filesystem::path> texture_paths_;
   std::vector<std::string> warnings_;
   bool has_colours_ = false;
 };

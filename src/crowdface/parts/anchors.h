@@ -27,8 +27,6 @@ class Anchors {
   Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
           const PointGrid& skin, std::vector<std::uint32_t> vertices_to_bind);
 
-  const std::vector<std::uint32_t>& bound_vertices() const { return bound_vertices_; }
-
   /// Returns the offset of each bound vertex on a head, in the vertex's coordinate frame.
   std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
   /// Places each bound vertex of `result` at the given offset in the vertex's coordinate frame on

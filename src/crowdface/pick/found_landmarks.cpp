@@ -85,9 +85,9 @@ std::vector<WrapLandmark> find_landmarks(
   // Search with two sets of head axes, and keep the result with more landmarks. The axes of the
   // hint are inexact if the scan is rotated. The axes of the fitted pose are tilted if the scan
   // differs much from the template.
-  const std::array candidates = {
-      landmarks_of_scan(scan, scan.positions / pose.scale, {.front = hint.front, .up = hint.up}, face),
-      landmarks_of_scan(scan, placed, wrap_template.axes)};
+  const std::array candidates = {landmarks_of_scan(scan, scan.positions / pose.scale,
+                                                   {.front = hint.front, .up = hint.up}, face),
+                                 landmarks_of_scan(scan, placed, wrap_template.axes)};
   std::vector<WrapLandmark> most;
   for (const auto& of_scan : candidates) {
     std::vector<WrapLandmark> landmarks;
