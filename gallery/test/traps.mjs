@@ -149,6 +149,14 @@ const picture = async () => {
     return view.node.toDataURL();
   });
 };
+/** Waits until the page shows this picture; false if it does not within some ten seconds. */
+const becomes = async (wanted) => {
+  for (let tries = 0; tries < 50; tries += 1) {
+    if (await picture() === wanted) return true;
+    await page.waitForTimeout(200);
+  }
+  return false;
+};
 await settled();
 const bare = await picture();
 const canvas = await page.locator('canvas.turntable').boundingBox();
@@ -168,10 +176,6 @@ assert.ok(await picture() !== bare, 'a stroke is seen');
 await take('stroke');
 await page.keyboard.press('Control+z');
 // The page asks for the masks without the stroke some time after the key.
-const becomes = async (wanted) => {
-  for (let tries = 0; tries < 50 && await picture() !== wanted; tries += 1) await page.waitForTimeout(200);
-  return await picture() === wanted;
-};
 assert.ok(await becomes(bare), 'Ctrl+Z takes back the stroke');
 assert.equal(await undone.getAttribute('title'), label, 'and no step of the face');
 // The brush is still out after a reload, and the view is as it was.

@@ -10,11 +10,11 @@ namespace {
 /// No further trial begins once all trials together have used this number of candidates, provided
 /// that a trial has succeeded.
 constexpr std::uint64_t kMaxTrialCandidates = 200'000;
-/// Largest number of faces in a trial by first fit. A face takes a millisecond.
-constexpr std::uint64_t kMaxFirstFitFaces = 4000;
-/// Largest number of faces in a trial in spread mode, whose time grows with the square of the
-/// number of faces.
-constexpr std::uint64_t kMaxSpreadFaces = 400;
+/// Largest number of faces in a trial. Casting takes about a millisecond for each face.
+constexpr std::uint64_t kMaxTrialFaces = 4000;
+/// Largest number of faces in a slow trial: a trial in spread mode, which takes a time proportional
+/// to the square of the number of faces, or a trial that judges whole meshes.
+constexpr std::uint64_t kMaxSlowTrialFaces = 400;
 /// Bisection stops when the smallest distance that fails is at most this factor times the largest
 /// distance that works.
 constexpr double kBisectionRatio = 1.08;
@@ -50,8 +50,9 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   }
   easier.reviews.clear();
   easier.changes.clear();
-  const bool is_spread = casting.diversity.mode == DiversityOptions::Mode::kSpread;
-  easier.count = std::min(casting.count, is_spread ? kMaxSpreadFaces : kMaxFirstFitFaces);
+  const bool is_slow =
+      casting.diversity.mode == DiversityOptions::Mode::kSpread || find_mesh_defects;
+  easier.count = std::min(casting.count, is_slow ? kMaxSlowTrialFaces : kMaxTrialFaces);
   remedy.trial_face_count = easier.count;
   const Constraint& constraint = constraint_of(remedy.binding_constraint);
   if (!constraint.is_distance()) return remedy;
@@ -93,7 +94,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge) {
   // spread mode finds at most twice as many faces as first fit; a factor of 8 leaves a margin
   constexpr std::uint64_t kMaxSpreadToFirstFitRatio = 8;
-  const bool is_large = casting.count > kMaxSpreadToFirstFitRatio * kMaxSpreadFaces;
+  const bool is_large = casting.count > kMaxSpreadToFirstFitRatio * kMaxSlowTrialFaces;
   if (casting.diversity.mode != DiversityOptions::Mode::kSpread || !is_large ||
       !(casting.diversity.min_distance_mm > 0)) {
     return std::nullopt;
@@ -102,7 +103,7 @@ std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const 
   first_fit.diversity.mode = DiversityOptions::Mode::kFirstFit;
   first_fit.reviews.clear();
   first_fit.changes.clear();
-  first_fit.count = kMaxSpreadFaces;
+  first_fit.count = kMaxSlowTrialFaces;
   return cast_crowd(first_fit, judge).shortfall;
 }
 

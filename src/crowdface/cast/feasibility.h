@@ -12,13 +12,14 @@ struct Remedy {
   /// Largest value of the constraint's distance, in whole hundredths of a millimetre, with which
   /// casting succeeded. Empty if the constraint has no distance, or if no value succeeded.
   std::optional<double> largest_distance_mm;
-  /// number of faces in the trials: the count of the crowd, but at most 4000, in spread mode 400
+  /// Number of faces in the trials: the count of the crowd, but at most 4000. At most 400 in spread
+  /// mode, and if casting judges whole meshes.
   std::uint64_t trial_face_count = 0;
 };
 
 /// Searches for a remedy. Casts again with smaller distances, and bisects until the smallest
-/// distance that fails is at most 8 % above the largest distance that works. Also stops if a
-/// distance works and the trials have used 200,000 candidates.
+/// distance that fails is at most 8 % above the largest distance that works. Also stops when all
+/// trials together have used 200,000 candidates and a trial has succeeded.
 ///
 /// \param trial_done  Called after each trial.
 /// \param find_mesh_defects  If given, the last trials also judge the candidates' whole meshes. If

@@ -323,17 +323,14 @@ class LandmarkSearch {
     return from;
   }
 
+  enum class Seen { kSkin, kAny };
   /// The front coordinate of the skin at a distance `across` from the symmetry plane, averaged over
-  /// the left and right sides.
-  std::optional<double> depth(double across, double up) const {
-    const auto left = rays_.from_front(across, up), right = rays_.from_front(-across, up);
-    if (!left || !right || !left->is_skin || !right->is_skin) return std::nullopt;
-    return (left->at.front + right->at.front) / 2;
-  }
-  /// Like `depth`, but of whatever is seen from the front: skin, or teeth between the lips.
-  std::optional<double> depth_of_any_part(double across, double up) const {
+  /// the left and right sides. Nothing if another part covers the skin.
+  /// \param seen  kAny: of the foremost part, for example of teeth between the lips
+  std::optional<double> depth(double across, double up, Seen seen = Seen::kSkin) const {
     const auto left = rays_.from_front(across, up), right = rays_.from_front(-across, up);
     if (!left || !right) return std::nullopt;
+    if (seen == Seen::kSkin && !(left->is_skin && right->is_skin)) return std::nullopt;
     return (left->at.front + right->at.front) / 2;
   }
   void keep_pair(const std::string& name, double across, double up, const char* reason) {
@@ -390,7 +387,7 @@ class LandmarkSearch {
     for (double x = kFrom; x <= kTo; x += kStep) {
       HeadPoint deepest{x, up, 0};
       for (double y = up - kWander; y <= up + kWander; y += 0.1) {
-        const auto here = depth_of_any_part(x, y);
+        const auto here = depth(x, y, Seen::kAny);
         const auto above = depth(x, y + kLip), below = depth(x, y - kLip);
         if (!here || !above || !below) continue;
         const double hollow = std::min((*above + *below) / 2 - *here, 2 * kLip);

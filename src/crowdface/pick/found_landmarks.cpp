@@ -25,24 +25,24 @@ constexpr double kMaxFitDistanceMm = 14;
 /// (1.3 to 2.4 mm), because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
 
-/// Finds landmarks on a scan. Returns the point of each landmark in the coordinates of `scan`, by
-/// name; empty if the mesh is not usable as a head (for example too small).
+/// Finds landmarks on a scan. Returns their points by name, in the coordinates of `scan`. Returns
+/// nothing if the mesh cannot be a head, for example because it has too few vertices.
 /// \param in_mm  the positions of the scan in millimetres.
 /// \param axes   the axes of the head in `in_mm`.
 std::map<std::string, Eigen::Vector3d> landmarks_of_scan(
     const Scan& scan, const Positions& in_mm, const HeadAxes& axes,
     const std::optional<ReliefMatch>& face = {}) {
   if (!in_mm.allFinite()) return {};
-  std::map<std::string, Eigen::Vector3d> points;
   try {
+    std::map<std::string, Eigen::Vector3d> points;
     const WrapTemplate head =
         make_template(topology_of(scan.triangles, scan.positions.rows()), in_mm, axes, {}, face);
     for (const auto& [name, point] : find_face_landmarks(head).points)
       points[name] = point_on(scan.positions, point.corners, point.barycentric);
+    return points;
   } catch (const InvalidInput&) {
     return {};
   }
-  return points;
 }
 
 /// Repeatedly removes the worst landmark, until a similarity transform fits all remaining landmarks
@@ -76,7 +76,8 @@ std::vector<WrapLandmark> find_landmarks(
   if (wrap_template.reduced_skin) rest = skin_mesh.rows_of(rest);
   const Similarity pose = guess_pose(skin_mesh, rest, wrap_template.axes, ScanSurface(scan), hint,
                                      wrap_template.face_match);
-  const Positions placed = inverse(pose).apply(scan.positions);
+  const Similarity to_template = inverse(pose);
+  const Positions placed = to_template.apply(scan.positions);
   std::optional<ReliefMatch> face = hint.face;
   if (face) {
     face->eye_midpoint /= pose.scale;
@@ -100,7 +101,7 @@ std::vector<WrapLandmark> find_landmarks(
         continue;
       const std::uint32_t vertex = of_template->second;
       const Eigen::Vector3d& point = found->second;
-      const Eigen::Vector3d placed_point = apply_similarity(inverse(pose), point);
+      const Eigen::Vector3d placed_point = apply_similarity(to_template, point);
       if ((placed_point - row3(wrap_template.positions, vertex)).norm() > kMaxPoseDistanceMm)
         continue;
       landmarks.push_back({name, vertex, point, true, kFoundErrorMm});

@@ -177,6 +177,7 @@ double relief_correlation_at_feature(const SkinPair& pair,
 double correlation_beside(const SkinPair& pair, const FaceFeature& feature) {
   constexpr std::size_t kMaxVertices = 400, kMaxSurroundings = 20000;
   constexpr double kSurroundingsMm = 70, kMinCosine = 0.1;
+  constexpr int kMaxShiftMm = 20, kStepMm = 4;
   const std::vector<std::uint32_t> vertices = thinned(feature.skin_vertices, kMaxVertices);
   const Eigen::VectorXd weights = pair.areas(vertices);
   const Eigen::VectorXd expected =
@@ -195,7 +196,8 @@ double correlation_beside(const SkinPair& pair, const FaceFeature& feature) {
       coordinates_of(frame, pair.after, thinned(around, kMaxSurroundings));
   const Positions in_place = coordinates_of(frame, pair.after, vertices);
   double best = -1;
-  for (const double shift : {-20.0, -16.0, -12.0, -8.0, -4.0, 4.0, 8.0, 12.0, 16.0, 20.0}) {
+  for (int shift = -kMaxShiftMm; shift <= kMaxShiftMm; shift += kStepMm) {
+    if (shift == 0) continue;
     Positions shifted = in_place;
     for (Index i = 0; i < shifted.rows(); ++i) {
       shifted(i, 2) = height_at(surroundings, in_place(i, 0), in_place(i, 1) + shift);

@@ -28,8 +28,8 @@ std::vector<FaceFeature> face_features(const WrapTemplate& wrap_template,
 struct ReliefCorrelation {
   /// correlation between the template's and the wrapped head's relief
   double correlation_at_feature = 1;
-  /// the highest correlation between the template's relief and the relief of the wrapped head up to
-  /// 20 mm above or below the feature; computed only if `correlation_at_feature` is not high
+  /// The highest correlation between the template's relief and the wrapped head's relief at places
+  /// up to 20 mm above or below the feature. Computed only if `correlation_at_feature` is not high.
   double best_correlation_nearby = -1;
 
   bool is_high() const { return correlation_at_feature >= 0.7; }

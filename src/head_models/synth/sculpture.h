@@ -10,10 +10,9 @@ namespace crowdface::synth {
 /// neck). Openings and ears are not included. The head is symmetric.
 double skin_distance(const Eigen::Vector3d& point);
 
-/// The y of the line between the lips of the average head, cm. The line dips in the middle; its
-/// ends, the corners of the mouth, lie slightly higher than its middle. (Faces whose corners lie
-/// lower look sad.)
-/// \param x  coordinate to the side, cm
+/// Returns the y coordinate in cm of the line between the lips of the average head. The line is
+/// lowest in the middle and 0.7 mm higher at the corners of the mouth, because a face with low
+/// corners looks sad.
 double lip_line(double x);
 /// half the width of the mouth, cm
 inline constexpr double kMouthHalfWidth = 2.45;

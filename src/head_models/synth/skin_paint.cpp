@@ -34,12 +34,12 @@ void cover(ScreenColour& colour, const ScreenColour& with, double amount) {
   colour += amount * (with - colour);
 }
 
-// The heights of the upper and the lower lip above and below the line between the lips, cm, as
-// functions of |x|.
+/// Returns how far the upper lip reaches above `lip_line`, cm. \param x  at least 0.
 double upper_lip(double x) {
   const double t = std::min(1.0, x / kMouthHalfWidth);
   return 0.86 * (1 - t * t) * (1 - 0.10 * smooth_step(0.25, 0, t));  // Cupid's bow
 }
+/// Returns how far the lower lip reaches below `lip_line`, cm. \param x  at least 0.
 double lower_lip(double x) {
   const double t = std::min(1.0, x / kMouthHalfWidth);
   return 0.98 * (1 - t * t * (0.35 + 0.65 * t));
