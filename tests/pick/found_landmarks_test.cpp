@@ -45,13 +45,15 @@ TEST_F(FoundLandmarksTest, LieWhereTheTemplatesOwnVerticesWouldOnThatHead) {
   EXPECT_LT(off[off.size() / 2], 4);
 }
 
-/// Edges are 5 mm long. Landmarks that were rounded to vertices of the scan were up to 5.4 mm away.
-TEST(FoundLandmarks, OfACoarseTemplateAsItsOwnScanLieWithinHalfAnEdgeOfItsVertices) {
+/// The scan is the template itself, whose edges are 5 mm long. Earlier, each landmark of a scan was
+/// moved to the nearest vertex; then landmarks lay up to 6 mm from the template's.
+TEST(FoundLandmarks, AreNotRoundedToTheVerticesOfTheScan) {
   const SyntheticHeads heads(5000, SyntheticHeads::Parts::kEyesAndTeeth);
   Similarity place = some_place();
   place.rotation = Eigen::AngleAxisd(0.02, Eigen::Vector3d(1, 2, 1).normalized());
-  for (std::uint64_t h = 0; h < 8; ++h) {
-    const WrapTemplate shape = make_template(heads.topology(), 10 * heads.positions(5, h), {});
+  for (std::uint64_t h = 0; h < 12; ++h) {
+    const WrapTemplate shape =
+        make_template(heads.topology(), 10 * heads.positions(1 + h / 4, h % 4), {});
     const Scan scan{place.apply(shape.positions), triangles_of(heads.topology())};
     const std::vector<WrapLandmark> found =
         find_landmarks(shape, propose_landmarks(shape), scan,
@@ -59,9 +61,10 @@ TEST(FoundLandmarks, OfACoarseTemplateAsItsOwnScanLieWithinHalfAnEdgeOfItsVertic
                         .front = place.rotation * Eigen::Vector3d::UnitZ()});
     EXPECT_GE(found.size(), 12U);
     for (const WrapLandmark& landmark : found) {
-      if (landmark.name == "chin") continue;  // no shape tells the height of the foremost point
+      // The front of the chin is flat, so its foremost point may lie anywhere on it.
+      if (landmark.name == "chin") continue;
       const Eigen::Vector3d off = row3(scan.positions, landmark.vertex) - landmark.scan_position;
-      EXPECT_LT(off.norm() / place.scale, 3.5) << landmark.name << " of head " << h;
+      EXPECT_LT(off.norm() / place.scale, 4) << landmark.name << " of head " << h;
     }
   }
 }
