@@ -15,7 +15,7 @@ namespace {
 
 /// Largest error with which span_basis may approximate smoothing displacements and coordinate
 /// functions: root mean square over the face, in millimetres.
-constexpr double kFieldTolerance = 0.004;
+constexpr double kFieldTolerance = 0.02;
 /// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
 /// How far a training face may lie outside the span of the principal directions, in millimetres.
@@ -45,14 +45,15 @@ bool is_extrapolated(const Recipe& recipe) {
 
 }  // namespace
 
-/// The order of the coordinate functions in the rows of a matrix: the mean head, then the deviation
-/// of each head from the mean head, then the displacement fields. The fields are sorted by region;
-/// those of a region by head; those of a head by mode.
-struct FaceSpace::FunctionRowOrder {
+/// The order of the coordinate functions: the mean head, then the deviation of each head from the
+/// mean head, then the displacement fields. The fields are sorted by region; those of a region by
+/// head; those of a head by mode. Each function has three rows in a matrix: x, y and z.
+struct FaceSpace::FunctionOrder {
   Index heads, modes;
-  static Index of_head(Index head) { return 3 + 3 * head; }
+  static constexpr Index kMean = 0;
+  static Index of_head(Index head) { return 1 + head; }
   Index of_field(Index region_and_head, Index mode) const {
-    return 3 + 3 * heads + 3 * (region_and_head * modes + mode);
+    return 1 + heads + region_and_head * modes + mode;
   }
   Index count(Index regions) const { return of_field(regions * heads, 0); }
 };
@@ -61,7 +62,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
     : heads_(std::move(heads)) {
   choose_nonzero_weight_samples(weights);
   const FloatRows basis = compute_basis_functions();
-  compute_head_shapes_and_fields();
+  mean_shape_ = tables_.basis_coefficients.topRows<3>();
   find_principal_directions(bands);
   transpose_directions();
   if (heads_.region_weights.cols() == 1) return;
@@ -73,18 +74,18 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, Fac
     : heads_(std::move(heads)), tables_(std::move(tables)) {
   require(have_matching_sizes(tables_, heads_), "face space: tables of other heads");
   choose_nonzero_weight_samples(weights);
-  compute_head_shapes_and_fields();
+  mean_shape_ = tables_.basis_coefficients.topRows<3>();
   transpose_directions();
   if (heads_.region_weights.cols() > 1) compute_region_area_fractions();
 }
 
 bool FaceSpace::have_matching_sizes(const FaceSpaceTables& tables, const SampledHeads& heads) {
   const std::size_t mirror_variant_count = heads.mirror_images == nullptr ? 1 : 2;
-  const FunctionRowOrder rows{static_cast<Index>(mirror_variant_count * heads.heads.size()),
-                              tables.level_coefficients.cols()};
+  const FunctionOrder order{static_cast<Index>(mirror_variant_count * heads.heads.size()),
+                            tables.level_coefficients.cols()};
   const Index regions = heads.region_weights.cols(), rank = tables.principal_directions.rows();
   return tables.level_coefficients.rows() == static_cast<Index>(heads.levels.size()) &&
-         tables.basis_coefficients.rows() == rows.count(regions) &&
+         tables.basis_coefficients.rows() == 3 * order.count(regions) &&
          tables.principal_directions.cols() == 3 * tables.basis_coefficients.cols() &&
          static_cast<Index>(tables.region_metrics.size()) == (regions > 1 ? regions : 0) &&
          std::ranges::all_of(tables.region_metrics, [&](const FloatRows& metric) {
@@ -140,34 +141,32 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
     row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
-/// Computes the coordinate functions, in the order of FunctionRowOrder. Each of the following has
-/// three rows (x, y, z): the mean head, each head's deviation from the mean head, and each
-/// displacement field. A displacement field is the part of a mode that belongs to one head,
-/// multiplied by the weights of one region.
+/// Computes the coordinate functions, in the order of FunctionOrder. A displacement field is the
+/// part of a mode that belongs to one head, multiplied by the weights of one region.
 ///
 /// \param max_coefficients  #modes: the largest absolute coefficient of each mode over all levels.
 ///                          Modes have unit length, so each mode's rows are multiplied by this
 ///                          coefficient.
 FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
                                           const std::vector<float>& max_coefficients,
-                                          const FunctionRowOrder& rows) const {
+                                          const FunctionOrder& order) const {
   const Index size = weight_square_roots_.size(), regions = heads_.region_weights.cols();
-  FloatRows functions(rows.count(regions), size);
+  FloatRows functions(3 * order.count(regions), size);
   for (Index c = 0; c < 3; ++c) {
     write_centred_values([&](Index i) { return heads_.mean(sample_at(i), c); },
-                         functions.row(c).data());
-    for (Index h = 0; h < rows.heads; ++h) {
+                         functions.row(3 * FunctionOrder::kMean + c).data());
+    for (Index h = 0; h < order.heads; ++h) {
       const Positions& head = sampled_heads_containing(h).heads[unmirrored_index(h)];
       write_centred_values(
           [&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
-          functions.row(rows.of_head(h) + c).data());
+          functions.row(3 * order.of_head(h) + c).data());
     }
   }
-  parallel_for_each(regions * rows.heads, [&](Index kh) {
-    const Index k = kh / rows.heads, h = kh % rows.heads;
+  parallel_for_each(regions * order.heads, [&](Index kh) {
+    const Index k = kh / order.heads, h = kh % order.heads;
     const Columns& alpha = sampled_heads_containing(h).region_weights;
-    for (Index r = 0; r < rows.modes; ++r) {
-      float* const first = functions.row(rows.of_field(kh, r)).data();
+    for (Index r = 0; r < order.modes; ++r) {
+      float* const first = functions.row(3 * order.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {
         const float* mode = modes.directions.row(r).data() + (h * 3 + c) * size;
         write_centred_values(
@@ -185,7 +184,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
 }
 
 /// Finds P orthonormal scalar functions on the samples such that each coordinate (x, y, z) of each
-/// face is a linear combination of these functions. A #P by 3 matrix of coefficients then
+/// face is a linear combination of these functions. A 3 by #P matrix of coefficients then
 /// represents a face. The distance between two such matrices is the distance between the samples of
 /// the two faces, and rotating a matrix rotates the face.
 ///
@@ -203,125 +202,107 @@ FloatRows FaceSpace::compute_basis_functions() {
     for (Index l = 0; l < tables_.level_coefficients.rows(); ++l)
       tables_.level_coefficients(l, r) /= max_coefficients.back();
   }
-  const FunctionRowOrder rows{head_point_count(), modes.directions.rows()};
-  SpanBasis basis = span_basis(coordinate_functions(modes, max_coefficients, rows), kFieldTolerance,
-                               mirror_variant_count() * kMaxBasisFunctions);
+  const FunctionOrder order{head_point_count(), modes.directions.rows()};
+  SpanBasis basis = span_basis(coordinate_functions(modes, max_coefficients, order),
+                               kFieldTolerance, mirror_variant_count() * kMaxBasisFunctions);
   tables_.basis_coefficients = std::move(basis.coordinates);
   return std::move(basis.directions);
 }
 
-void FaceSpace::compute_head_shapes_and_fields() {
-  const FunctionRowOrder rows{head_point_count(), tables_.level_coefficients.cols()};
-  const auto shape_at = [&](Index row) -> Shape {
-    return tables_.basis_coefficients.middleRows<3>(row).transpose();
+/// Adds the coefficients of a face with respect to the coordinate functions, times a factor.
+///
+/// \param extrapolation  whether to use the recipe's extrapolation factors, or 1.
+/// \param orientation    0: the unmirrored face; 1: its mirror image.
+/// \param to             #functions, in the order of FunctionOrder.
+void FaceSpace::add_coefficients(const Recipe& recipe, Extrapolation extrapolation,
+                                 Index orientation, double factor, float* to) const {
+  const FunctionOrder order{head_point_count(), tables_.level_coefficients.cols()};
+  const Index first = orientation * head_count();
+  const auto add_head = [&](Index head, double weight) {
+    to[order.of_head(first + head)] += static_cast<float>(factor * weight);
   };
-  mean_shape_ = shape_at(0);
-  for (Index h = 0; h < rows.heads; ++h) {
-    head_shapes_.push_back(mean_shape_ + shape_at(rows.of_head(h)));
-  }
-  const auto levels = static_cast<Index>(heads_.levels.size());
-  const Index fields = heads_.region_weights.cols() * rows.heads, size = mean_shape_.size();
-  displacement_fields_.assign(static_cast<std::size_t>(fields * levels * size), 0.F);
-  parallel_for_each(fields, [&](Index kh) {
-    for (Index r = 0; r < rows.modes; ++r) {
-      const Shape mode = shape_at(rows.of_field(kh, r));
-      for (Index l = 0; l < levels; ++l) {
-        const float factor = tables_.level_coefficients(l, r);
-        float* out = displacement_fields_.data() + (kh * levels + l) * size;
-        for (Index i = 0; i < size; ++i) out[i] += factor * mode.data()[i];
+  to[FunctionOrder::kMean] += static_cast<float>(factor);
+  if (recipe.mixture.empty()) add_head(recipe.target, 1);
+  for (const SourceWeight& part : recipe.mixture) add_head(part.head, part.weight);
+  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
+    for (const LevelWeights& level : weights_by_level(recipe, k, extrapolation)) {
+      Eigen::RowVectorXf modes = Eigen::RowVectorXf::Zero(order.modes);
+      for (const WeightedTrajectoryRow& row : interpolation_rows(heads_.levels, level.level))
+        modes += static_cast<float>(row.weight) * tables_.level_coefficients.row(row.row);
+      for (const SourceWeight& part : level.weights) {
+        const Index head = static_cast<Index>(k) * order.heads + first + part.head;
+        add_scaled(static_cast<float>(factor * part.weight), modes.data(),
+                   static_cast<std::size_t>(order.modes), to + order.of_field(head, 0));
       }
     }
-  });
+  }
 }
 
-const float* FaceSpace::displacement_field(std::size_t region, Index head, Index row) const {
-  const auto rows = static_cast<Index>(heads_.levels.size());
-  const Index at = (static_cast<Index>(region) * head_point_count() + head) * rows + row;
-  return displacement_fields_.data() + at * mean_shape_.size();
-}
-
-/// Returns the shape of a recipe's face with the recipe's extrapolation factors. If any factor is
-/// not 1, also returns the face's shape with all factors 1.
-std::vector<FaceSpace::Shape> FaceSpace::shapes_of(const Recipe& recipe) const {
+/// Returns the coefficients of a face with respect to the coordinate functions, mirrored like the
+/// face.
+std::vector<float> FaceSpace::coefficients(const Recipe& recipe,
+                                           Extrapolation extrapolation) const {
   const double w = mirror_image_weight(recipe);
   require(w == 0 || mirror_variant_count() == 2, "a mirrored face, and no mirror images of heads");
-  std::vector<Shape> shapes = shapes_of_mirror_variant(recipe, w == 1 ? 1 : 0);
-  if (w == 0 || w == 1) return shapes;
-  const std::vector<Shape> mirrored = shapes_of_mirror_variant(recipe, 1);
-  for (std::size_t i = 0; i < shapes.size(); ++i)
-    shapes[i] = static_cast<float>(1 - w) * shapes[i] + static_cast<float>(w) * mirrored[i];
-  return shapes;
+  std::vector<float> sum(static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3), 0.F);
+  if (w != 1) add_coefficients(recipe, extrapolation, 0, 1 - w, sum.data());
+  if (w != 0) add_coefficients(recipe, extrapolation, 1, w, sum.data());
+  return sum;
 }
 
-/// Returns the shapes of a recipe's face: of the unmirrored face (orientation 0) or of its mirror
-/// image (orientation 1).
-std::vector<FaceSpace::Shape> FaceSpace::shapes_of_mirror_variant(const Recipe& recipe,
-                                                                  Index orientation) const {
-  const Index first = orientation * head_count();
-  std::vector<Shape> shapes(is_extrapolated(recipe) ? 2 : 1,
-                            target_matrix<Shape>(recipe, [&](Index head) -> const Shape& {
-                              return head_shapes_[static_cast<std::size_t>(first + head)];
-                            }));
-  const auto size = static_cast<std::size_t>(mean_shape_.size());
-  for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
-    const std::vector<LevelWeights> as_given = weights_by_level(recipe, k),
-                                    none = weights_by_level(recipe, k, Extrapolation::kNone);
-    for (std::size_t l = 0; l < as_given.size(); ++l) {
-      for (const WeightedTrajectoryRow& level :
-           interpolation_rows(heads_.levels, as_given[l].level)) {
-        for (std::size_t i = 0; i < as_given[l].weights.size(); ++i) {
-          const float* from = displacement_field(k, first + as_given[l].weights[i].head, level.row);
-          const auto add_to = [&](Shape& shape, double weight) {
-            add_scaled(static_cast<float>(weight * level.weight), from, size, shape.data());
-          };
-          add_to(shapes.front(), as_given[l].weights[i].weight);
-          if (shapes.size() > 1) add_to(shapes.back(), none[l].weights[i].weight);
-        }
-      }
-    }
-  }
+std::vector<float> FaceSpace::head_coefficients(Index head) const {
+  std::vector<float> sum(static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3), 0.F);
+  sum[static_cast<std::size_t>(FunctionOrder::kMean)] = 1;
+  sum[static_cast<std::size_t>(FunctionOrder::of_head(head))] = 1;
+  return sum;
+}
+
+/// Returns for each face its aligned deviation from the mean head, #faces by 3·#P.
+///
+/// \param coefficients  the coefficients of all faces, one face after the other.
+FloatRows FaceSpace::aligned_deviations(const std::vector<float>& coefficients) const {
+  const auto functions = static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3);
+  const std::size_t faces = coefficients.size() / functions;
+  FloatRows shapes = FloatRows::Zero(static_cast<Index>(faces), mean_shape_.size());
+  add_product(coefficients.data(), faces, functions, tables_.basis_coefficients.data(),
+              static_cast<std::size_t>(mean_shape_.size()), shapes.data());
+  for (Index n = 0; n < shapes.rows(); ++n)
+    align_and_subtract_mean(Eigen::Map<Shape>(shapes.row(n).data(), 3, mean_shape_.cols()));
   return shapes;
 }
 
 /// Rotates a shape to the best fit with the mean head, and subtracts the mean head.
-std::vector<float> FaceSpace::aligned_deviation(const Shape& shape) const {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (Index p = 0; p < shape.rows(); ++p) {
-    for (Index a = 0; a < 3; ++a) {
-      for (Index b = 0; b < 3; ++b) {
-        covariance(a, b) +=
-            static_cast<double>(mean_shape_(p, a)) * static_cast<double>(shape(p, b));
-      }
-    }
+void FaceSpace::align_and_subtract_mean(Eigen::Map<Shape> shape) const {
+  const auto size = static_cast<std::size_t>(shape.cols());
+  Eigen::Matrix3d covariance;
+  for (Index a = 0; a < 3; ++a) {
+    for (Index b = 0; b < 3; ++b)
+      covariance(a, b) = fixed_order_dot(mean_shape_.row(a).data(), shape.row(b).data(), size);
   }
   const Eigen::Matrix3d rotation = best_rotation(covariance);
-  std::vector<float> turned(static_cast<std::size_t>(shape.size()));
-  for (Index p = 0; p < shape.rows(); ++p) {
+  for (Index p = 0; p < shape.cols(); ++p) {
+    const Eigen::Vector3d at = shape.col(p).cast<double>(),
+                          mean = mean_shape_.col(p).cast<double>();
     for (Index a = 0; a < 3; ++a) {
-      double sum = 0;
-      for (Index b = 0; b < 3; ++b) sum += rotation(a, b) * static_cast<double>(shape(p, b));
-      turned[static_cast<std::size_t>(3 * p + a)] =
-          static_cast<float>(sum - static_cast<double>(mean_shape_(p, a)));
+      const double turned =
+          rotation(a, 0) * at(0) + rotation(a, 1) * at(1) + rotation(a, 2) * at(2);
+      shape(a, p) = static_cast<float>(turned - mean(a));
     }
   }
-  return turned;
 }
 
 void FaceSpace::find_principal_directions(std::size_t bands) {
   const Index heads = head_point_count();
   FloatRows rows(heads + static_cast<Index>(kTrainingFaces), mean_shape_.size());
   parallel_for_each(rows.rows(), [&](Index n) {
-    const std::vector<float> at =
-        n < heads
-            ? aligned_deviation(head_shapes_[static_cast<std::size_t>(n)])
-            : aligned_deviation(shapes_of(random_training_recipe(
-                                              heads_, bands, static_cast<std::uint64_t>(n - heads)))
-                                    .front());
-    std::copy(at.begin(), at.end(), rows.row(n).data());
+    rows.row(n) =
+        aligned_deviations(n < heads ? head_coefficients(n)
+                                     : coefficients(random_training_recipe(
+                                           heads_, bands, static_cast<std::uint64_t>(n - heads))));
   });
-  tables_.principal_directions =
-      span_basis(std::move(rows), kFaceTolerance, mirror_variant_count() * kMaxDirections)
-          .directions;
+  const SpanBasis span =
+      span_basis(std::move(rows), kFaceTolerance / 2, mirror_variant_count() * kMaxDirections);
+  tables_.principal_directions = principal_basis(span, kFaceTolerance).directions;
 }
 
 /// Transposes the principal directions, and pads them with zeros to whole SIMD vectors.
@@ -333,20 +314,20 @@ void FaceSpace::transpose_directions() {
   directions_transposed_.leftCols(rank) = tables_.principal_directions.transpose();
 }
 
-std::vector<Eigen::VectorXf> FaceSpace::coordinates(const std::vector<Shape>& shapes) const {
-  std::vector<float> deviations;
-  for (const Shape& shape : shapes) {
-    const std::vector<float> deviation = aligned_deviation(shape);
-    deviations.insert(deviations.end(), deviation.begin(), deviation.end());
-  }
-  const auto count = static_cast<Index>(shapes.size()), rank = tables_.principal_directions.rows();
-  const auto length = static_cast<std::size_t>(directions_transposed_.rows());
+/// Returns the coordinates of faces.
+///
+/// \param coefficients  the coefficients of all faces, one face after the other.
+std::vector<Eigen::VectorXf> FaceSpace::coordinates(const std::vector<float>& coefficients) const {
+  const FloatRows deviations = aligned_deviations(coefficients);
+  const Index count = deviations.rows(), rank = tables_.principal_directions.rows();
+  const auto length = static_cast<std::size_t>(deviations.cols());
   FloatRows products = FloatRows::Zero(count, directions_transposed_.cols());
-  add_product(deviations.data(), shapes.size(), length, directions_transposed_.data(),
-              static_cast<std::size_t>(products.cols()), products.data());
+  add_product(deviations.data(), static_cast<std::size_t>(count), length,
+              directions_transposed_.data(), static_cast<std::size_t>(products.cols()),
+              products.data());
   std::vector<Eigen::VectorXf> results;
   for (Index n = 0; n < count; ++n) {
-    const float* at = deviations.data() + static_cast<std::size_t>(n) * length;
+    const float* at = deviations.row(n).data();
     Eigen::VectorXf& result = results.emplace_back(rank + 1);
     result.head(rank) = products.row(n).head(rank);
     // The last coordinate is the distance of the face from the span of the directions. Each face
@@ -361,9 +342,13 @@ std::vector<Eigen::VectorXf> FaceSpace::coordinates(const std::vector<Shape>& sh
 }
 
 std::vector<FaceSpace::Point> FaceSpace::points(std::span<const Recipe* const> recipes) const {
-  std::vector<Shape> all;
+  std::vector<float> all;
+  const auto append = [&](const std::vector<float>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
   for (const Recipe* recipe : recipes) {
-    for (Shape& shape : shapes_of(*recipe)) all.push_back(std::move(shape));
+    append(coefficients(*recipe));
+    if (is_extrapolated(*recipe)) append(coefficients(*recipe, Extrapolation::kNone));
   }
   std::vector<Eigen::VectorXf> found = coordinates(all);
   std::vector<Point> points;
@@ -383,7 +368,7 @@ FaceSpace::Point FaceSpace::point(const Recipe& recipe) const {
 }
 
 FaceSpace::Point FaceSpace::head_point(Index head) const {
-  const Eigen::VectorXf at = coordinates({head_shapes_[static_cast<std::size_t>(head)]}).front();
+  const Eigen::VectorXf at = coordinates(head_coefficients(head)).front();
   return {at, at};
 }
 
@@ -432,13 +417,11 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     parallel_for_each(rank, [&](Index d) {
       // Multiply direction d by G_k, separately for each coordinate x, y, z. `add_product` reads
       // the rows of `gram` as columns, because G_k is symmetric.
-      std::vector<float> along(static_cast<std::size_t>(3 * functions));
-      for (Index c = 0; c < 3; ++c) {
-        Eigen::VectorXf of_direction(functions), sums = Eigen::VectorXf::Zero(functions);
-        for (Index q = 0; q < functions; ++q) of_direction[q] = directions(d, 3 * q + c);
-        add_product(of_direction.data(), 1, static_cast<std::size_t>(functions), gram.data(),
-                    static_cast<std::size_t>(functions), sums.data());
-        for (Index p = 0; p < functions; ++p) along[static_cast<std::size_t>(3 * p + c)] = sums[p];
+      const auto count = static_cast<std::size_t>(functions);
+      std::vector<float> along(3 * count, 0.F);
+      for (std::size_t c = 0; c < 3; ++c) {
+        add_product(directions.row(d).data() + c * count, 1, count, gram.data(), count,
+                    along.data() + c * count);
       }
       for (Index e = 0; e < rank; ++e) {
         metric(e, d) = static_cast<float>(

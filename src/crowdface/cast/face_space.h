@@ -12,9 +12,9 @@ namespace crowdface {
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
   FloatRows level_coefficients;  ///< #levels by #modes: coefficient of each mode at each level
-  /// #functions by #P: each row holds the coefficients of one coordinate function in an orthonormal
-  /// basis of P functions. A coordinate function is a scalar function on the skin. Each coordinate
-  /// of a face (x, y or z) is a linear combination of the coordinate functions.
+  /// 3·#functions by #P: the coefficients of the coordinate functions in an orthonormal basis of P
+  /// scalar functions on the skin. A coordinate function has three rows, for its x, y and z. Each
+  /// face is a linear combination of the coordinate functions.
   FloatRows basis_coefficients;
   FloatRows principal_directions;  ///< #D by 3·#P: principal directions of the aligned faces
   /// the metric of each region, #D by #D; empty if there is only one region
@@ -91,10 +91,10 @@ class FaceSpace {
   Eigen::MatrixXd head_distances() const;
 
  private:
-  /// The coefficients of a face before alignment: a row per basis function (#P), a column per axis.
-  using Shape = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+  /// The coefficients of a face in the basis of P functions, 3 by #P: a row for each of x, y and z.
+  using Shape = Eigen::Matrix<float, 3, Eigen::Dynamic, Eigen::RowMajor>;
 
-  struct FunctionRowOrder;
+  struct FunctionOrder;
 
   /// Returns 2 if each head has a mirror image (the mirror images are the heads from number
   /// head_count() on), otherwise 1.
@@ -113,33 +113,32 @@ class FaceSpace {
   SpanBasis smoothing_displacement_modes() const;
   template <class Value>
   void write_centred_values(const Value& value, float* row) const;
-  /// Returns the coordinate functions at the samples, one function per row; see FaceSpaceTables.
+  /// Returns the coordinate functions at the samples, 3·#functions by #S; see FaceSpaceTables.
   ///
   /// \param modes  orthonormal basis of the detail that smoothing removes from the heads
   FloatRows coordinate_functions(const SpanBasis& modes, const std::vector<float>& max_coefficients,
-                                 const FunctionRowOrder& rows) const;
+                                 const FunctionOrder& order) const;
   FloatRows compute_basis_functions();
-  void compute_head_shapes_and_fields();
   void find_principal_directions(std::size_t bands);
   void find_region_metrics(const FloatRows& basis);
   void compute_region_area_fractions();
   void transpose_directions();
-  std::vector<Shape> shapes_of(const Recipe& recipe) const;
-  std::vector<Shape> shapes_of_mirror_variant(const Recipe& recipe, Index orientation) const;
-  std::vector<float> aligned_deviation(const Shape& shape) const;
-  std::vector<Eigen::VectorXf> coordinates(const std::vector<Shape>& shapes) const;
-  const float* displacement_field(std::size_t region, Index head, Index row) const;
+  void add_coefficients(const Recipe& recipe, Extrapolation extrapolation, Index orientation,
+                        double factor, float* to) const;
+  std::vector<float> coefficients(const Recipe& recipe,
+                                  Extrapolation extrapolation = Extrapolation::kAsGiven) const;
+  /// Returns the coefficients of a head, or of its mirror image, with respect to the coordinate
+  /// functions.
+  std::vector<float> head_coefficients(Index head) const;
+  FloatRows aligned_deviations(const std::vector<float>& coefficients) const;
+  void align_and_subtract_mean(Eigen::Map<Shape> shape) const;
+  std::vector<Eigen::VectorXf> coordinates(const std::vector<float>& coefficients) const;
 
   SampledHeads heads_;
   std::vector<Index> nonzero_weight_samples_;  ///< indices of the samples with nonzero weight
   Eigen::VectorXf weight_square_roots_;        ///< √w of each sample in `nonzero_weight_samples_`
   FaceSpaceTables tables_;
-  Shape mean_shape_;                ///< shape of the mean head, #P by 3
-  std::vector<Shape> head_shapes_;  ///< shapes of all heads, including mirror images
-  /// The displacement fields α_k (S_L x_h − x_h): the displacement of head x_h by smoothing to
-  /// level L, multiplied by the weights α_k of region k. One #P by 3 matrix for each region, head
-  /// (including mirror images) and row of `level_coefficients`.
-  std::vector<float> displacement_fields_;
+  Shape mean_shape_;                 ///< shape of the mean head
   FloatRows directions_transposed_;  ///< 3·#P by #D, padded with zeros to a multiple of 16 columns
   /// the region's fraction of the face's surface area; empty if there is one region
   std::vector<double> region_area_fractions_;
