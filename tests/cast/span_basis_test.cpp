@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/span_basis.h"
 
+#include <Eigen/SVD>
 #include <gtest/gtest.h>
 
 #include "crowdface/core/parallel.h"
@@ -44,6 +45,26 @@ TEST(SpanBasis, StopsAtTheToleranceOrTheCount) {
   EXPECT_LE((coarse.coordinates * coarse.directions - rows).rowwise().norm().maxCoeff(), 20.01);
   EXPECT_EQ(span_basis(FloatRows::Zero(5, 7), 1e-3, 4).directions.rows(), 0);
   EXPECT_EQ(span_basis(FloatRows(0, 7), 1e-3, 4).directions.rows(), 0);
+}
+
+TEST(SpanBasis, PrincipalDirectionsHoldMostWithFewCoordinates) {
+  const FloatRows rows = low_rank_rows();
+  const SpanBasis span = span_basis(rows, 1e-3, 50);
+  const SpanBasis all = principal_basis(span, 1e-3);
+  ASSERT_EQ(all.directions.rows(), 6);
+  const Eigen::MatrixXf gram = all.directions * all.directions.transpose();
+  EXPECT_LT((gram - Eigen::MatrixXf::Identity(6, 6)).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((all.coordinates * all.directions - rows).rowwise().norm().maxCoeff(), 2e-3);
+  // the singular values of the rows are the lengths of the columns of coordinates
+  const Eigen::VectorXf singular = Eigen::JacobiSVD<Eigen::MatrixXf>(rows).singularValues();
+  for (Index p = 0; p < 6; ++p)
+    EXPECT_NEAR(all.coordinates.col(p).norm(), singular[p], 1e-4F * singular[0]);
+
+  // without the last direction, the longest remainder is the largest last coordinate
+  const float last = all.coordinates.col(5).cwiseAbs().maxCoeff();
+  EXPECT_EQ(principal_basis(span, 1.01 * static_cast<double>(last)).directions.rows(), 5);
+  EXPECT_EQ(principal_basis(span, 0.99 * static_cast<double>(last)).directions.rows(), 6);
+  EXPECT_EQ(principal_basis(span_basis(FloatRows::Zero(5, 7), 1e-3, 4), 1).directions.rows(), 0);
 }
 
 TEST(SpanBasis, SameBitsOnOneThread) {

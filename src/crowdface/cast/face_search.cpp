@@ -38,14 +38,16 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
   return true;
 }
 
-/// Returns whether to generate another candidate. A face with limits on measurements may need many
-/// more attempts than other faces. So after the usual number of attempts, one acceptable candidate
-/// is enough.
+/// Returns whether the current round needs another candidate. Candidates that are too near to the
+/// crowd count, because they would not be the farthest candidate anyway. A face with limits on
+/// measurements may need many more attempts than other faces. So after the usual number of
+/// attempts, one acceptable candidate is enough.
 ///
 /// \param unchecked_count  number of generated candidates that are not checked yet
 bool FaceSearch::needs_candidates(std::size_t unchecked_count) const {
   const std::size_t count = candidates_.size() + unchecked_count;
-  if (count >= wanted_candidate_count_ || next_attempt_ >= attempts_end_) return false;
+  if (count + too_near_count_ >= wanted_candidate_count_ || next_attempt_ >= attempts_end_)
+    return false;
   return count == 0 || next_attempt_ < initial_attempts_end_;
 }
 
@@ -65,33 +67,40 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
   return false;
 }
 
-/// Generates candidates until there are enough candidates or no attempts are left. Computes the
-/// points of several candidates in one call, which is faster than separate calls.
+/// Generates a round of candidates, and further rounds until a candidate passes all checks or no
+/// attempts are left. Computes the points of several candidates in one call, which is faster than
+/// separate calls.
 void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
-  while (needs_candidates(0)) {
-    std::vector<Candidate> unchecked;
-    std::vector<const Recipe*> recipes;
-    while (needs_candidates(unchecked.size())) {
-      Candidate candidate{generate_candidate_(next_attempt_++)};
-      if (meets_limits(candidate)) unchecked.push_back(std::move(candidate));
-    }
-    for (const Candidate& candidate : unchecked) recipes.push_back(&candidate.face.recipe);
-    std::vector<FaceSpace::Point> points = judge_.space().points(recipes);
-    for (std::size_t i = 0; i < unchecked.size(); ++i) {
-      Candidate& candidate = unchecked[i];
-      candidate.point = std::move(points[i]);
-      if (const auto reason =
-              judge_.check_candidate(candidate.face.recipe, candidate.point,
-                                     candidate.face.notes.attempt - first_attempt_)) {
-        rejections_.add(*reason);
-      } else if (!is_far_from_crowd(candidate, crowd)) {
-        rejections_.add(RejectionReason::kMinDistance);
-      } else {
-        candidates_.push_back(std::move(candidate));
-      }
+  compared_face_count_ = crowd.size();
+  while (candidates_.empty() && next_attempt_ < attempts_end_) {
+    too_near_count_ = 0;
+    while (needs_candidates(0)) check_new_candidates(crowd);
+  }
+}
+
+/// Generates as many candidates as the current round needs, and keeps those that pass all checks.
+void FaceSearch::check_new_candidates(const CrowdSoFar& crowd) {
+  std::vector<Candidate> unchecked;
+  std::vector<const Recipe*> recipes;
+  while (needs_candidates(unchecked.size())) {
+    Candidate candidate{generate_candidate_(next_attempt_++)};
+    if (meets_limits(candidate)) unchecked.push_back(std::move(candidate));
+  }
+  for (const Candidate& candidate : unchecked) recipes.push_back(&candidate.face.recipe);
+  std::vector<FaceSpace::Point> points = judge_.space().points(recipes);
+  for (std::size_t i = 0; i < unchecked.size(); ++i) {
+    Candidate& candidate = unchecked[i];
+    candidate.point = std::move(points[i]);
+    if (const auto reason = judge_.check_candidate(candidate.face.recipe, candidate.point,
+                                                   candidate.face.notes.attempt - first_attempt_)) {
+      rejections_.add(*reason);
+    } else if (!is_far_from_crowd(candidate, crowd)) {
+      rejections_.add(RejectionReason::kMinDistance);
+      ++too_near_count_;
+    } else {
+      candidates_.push_back(std::move(candidate));
     }
   }
-  compared_face_count_ = crowd.size();
 }
 
 /// Compares the candidates with the faces that have joined the crowd since the last comparison.

@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <vector>
 
 #include "crowdface/cast/float_kernels.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/smooth/symmetric_eigen.h"
 
 namespace crowdface {
 namespace {
@@ -17,36 +16,12 @@ using Eigen::Index;
 
 constexpr Index kNumbersAtATime = 1 << 16;
 
-/// Diagonalizes a symmetric matrix A with the cyclic Jacobi method (Golub & Van Loan, Matrix
-/// Computations, section 8.5).
-///
-/// \return  the eigenvectors of A, one per column, sorted by eigenvalue, largest first.
-Eigen::MatrixXd eigenvectors_of_symmetric(Eigen::MatrixXd matrix) {
-  constexpr int kMaxSweeps = 30;
-  constexpr double kNegligible = 1e-12;  // of the trace
-  const Index size = matrix.rows();
-  Eigen::MatrixXd vectors = Eigen::MatrixXd::Identity(size, size);
-  double trace = 0;
-  for (Index i = 0; i < size; ++i) trace += matrix(i, i);
-  bool is_diagonal = false;
-  for (int sweep = 0; sweep < kMaxSweeps && !is_diagonal; ++sweep) {
-    is_diagonal = true;
-    for (Index p = 0; p < size; ++p) {
-      for (Index q = p + 1; q < size; ++q) {
-        if (std::abs(matrix(p, q)) <= kNegligible * trace) continue;
-        is_diagonal = false;
-        Eigen::JacobiRotation<double> rotation;
-        rotation.makeJacobi(matrix, p, q);
-        matrix.applyOnTheLeft(p, q, rotation.adjoint());
-        matrix.applyOnTheRight(p, q, rotation);
-        vectors.applyOnTheRight(p, q, rotation);
-      }
-    }
-  }
-  std::vector<Index> order(static_cast<std::size_t>(size));
-  std::iota(order.begin(), order.end(), Index{0});
-  std::ranges::stable_sort(order, std::greater<>(), [&](Index i) { return matrix(i, i); });
-  return vectors(Eigen::all, order);
+/// Returns a·b, computed in a fixed order.
+FloatRows product(const FloatRows& a, const FloatRows& b) {
+  FloatRows result = FloatRows::Zero(a.rows(), b.cols());
+  add_product(a.data(), static_cast<std::size_t>(a.rows()), static_cast<std::size_t>(a.cols()),
+              b.data(), static_cast<std::size_t>(b.cols()), result.data());
+  return result;
 }
 
 }  // namespace
@@ -94,39 +69,27 @@ SpanBasis span_basis(FloatRows rows, double tolerance, Index max_directions) {
 
 SpanBasis principal_basis(const SpanBasis& basis, double tolerance) {
   const Index count = basis.coordinates.rows(), size = basis.coordinates.cols();
-  const Eigen::MatrixXd coordinates = basis.coordinates.cast<double>();
-  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(size, size);
+  if (size == 0) return basis;
+  const FloatRows columns = basis.coordinates.transpose();
+  Eigen::MatrixXd products(size, size);
   for (Index i = 0; i < size; ++i) {
     for (Index j = 0; j <= i; ++j) {
-      double sum = 0;
-      for (Index n = 0; n < count; ++n) sum += coordinates(n, i) * coordinates(n, j);
-      products(i, j) = products(j, i) = sum;
+      products(i, j) = products(j, i) = fixed_order_dot(
+          columns.row(i).data(), columns.row(j).data(), static_cast<std::size_t>(count));
     }
   }
-  const Eigen::MatrixXd axes = eigenvectors_of_symmetric(std::move(products));
-  Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(count, size);
-  for (Index p = 0; p < size; ++p) {
-    for (Index i = 0; i < size; ++i) {
-      for (Index n = 0; n < count; ++n) turned(n, p) += axes(i, p) * coordinates(n, i);
+  const FloatRows axes = symmetric_eigen(std::move(products)).eigenvectors.cast<float>();
+  FloatRows coordinates = product(basis.coordinates, axes);
+  Index kept = size;
+  Eigen::VectorXd squared_remainders = Eigen::VectorXd::Zero(count);
+  for (; kept > 0; --kept) {
+    for (Index n = 0; n < count; ++n) {
+      const auto last = static_cast<double>(coordinates(n, kept - 1));
+      squared_remainders[n] += last * last;
     }
+    if (squared_remainders.maxCoeff() > tolerance * tolerance) break;
   }
-  Index rank = size;
-  Eigen::VectorXd squared_rest = Eigen::VectorXd::Zero(count);
-  for (; rank > 0; --rank) {
-    for (Index n = 0; n < count; ++n) squared_rest[n] += turned(n, rank - 1) * turned(n, rank - 1);
-    if (count > 0 && squared_rest.maxCoeff() > tolerance * tolerance) break;
-  }
-  SpanBasis result;
-  result.coordinates = turned.leftCols(rank).cast<float>();
-  result.directions = FloatRows::Zero(rank, basis.directions.cols());
-  for (Index p = 0; p < rank; ++p) {
-    for (Index i = 0; i < size; ++i) {
-      const auto factor = static_cast<float>(axes(i, p));
-      for (Index s = 0; s < basis.directions.cols(); ++s)
-        result.directions(p, s) += factor * basis.directions(i, s);
-    }
-  }
-  return result;
+  return {product(axes.leftCols(kept).transpose(), basis.directions), coordinates.leftCols(kept)};
 }
 
 }  // namespace crowdface

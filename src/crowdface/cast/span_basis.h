@@ -20,10 +20,9 @@ struct SpanBasis {
 /// plain loops, so that it computes the same bits everywhere.
 SpanBasis span_basis(FloatRows rows, double tolerance, Eigen::Index max_directions);
 
-/// Rotates the directions of a basis to the principal axes of its rows (the eigenvectors of the sum
-/// of coordinatesᵀ·coordinates), longest axis first. Keeps the first axes only: as many as are
-/// needed so that every row lies at most `tolerance` from their span. The code uses plain loops,
-/// so that it computes the same bits everywhere.
+/// Rotates the directions of a basis to the principal directions of its rows (the eigenvectors of
+/// coordinatesᵀ·coordinates), the largest eigenvalue first. Keeps only the first directions: as many
+/// as are needed so that every row is at most `tolerance` from their span.
 SpanBasis principal_basis(const SpanBasis& basis, double tolerance);
 
 }  // namespace crowdface

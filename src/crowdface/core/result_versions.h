@@ -20,9 +20,9 @@ inline constexpr int kPrepareVersion = 6;
 inline constexpr int kPatchVersion = 1;
 /// Version of the coordinates of faces in the space that casting samples, and of the plans made
 /// from these coordinates.
-inline constexpr int kFaceSpaceVersion = 1;
+inline constexpr int kFaceSpaceVersion = 2;
 /// Version of crowd plans; raised if the same config and heads give another plan.
-inline constexpr int kPlanVersion = 2;
+inline constexpr int kPlanVersion = 3;
 /// Version of the cache entries that all heads share: neighbours, masks at vertices, samples and
 /// their cells, mirror vertices.
 inline constexpr int kSharedCacheVersion = 1;
