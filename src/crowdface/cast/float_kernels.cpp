@@ -129,6 +129,9 @@ void add_product_at_columns(const float* factors, std::size_t stride, std::size_
       sums[v][c] = hn::LoadU(lanes, to + v * width + c * one);
   }
   for (std::size_t i = 0; i < count; ++i) {
+    bool is_zero = true;
+    for (std::size_t v = 0; v < kVectors; ++v) is_zero = is_zero && factors[v * stride + i] == 0;
+    if (is_zero) continue;
     const float* row = rows + i * width;
     for (std::size_t v = 0; v < kVectors; ++v) {
       const auto factor = hn::Set(lanes, factors[v * stride + i]);

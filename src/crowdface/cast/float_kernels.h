@@ -20,7 +20,7 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to);
 double add_scaled_and_sum_squares(float factor, const float* from, std::size_t count, float* to);
 
 /// Adds the product of two matrices: to[v][d] += factors[v][i]·rows[i][d], for all i in ascending
-/// order.
+/// order. Rows whose factors are zero cost little.
 ///
 /// \param factors  #vectors by #count.
 /// \param rows     #count by #width.
