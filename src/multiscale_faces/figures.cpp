@@ -117,7 +117,7 @@ std::vector<double> everywhere(int base, double weight) {
 struct FittedFace {
   Positions face;
   int base = 0;
-  /// the weight w of each level above `base`, in the order base + 1, base + 2, …
+  /// the weight w of the lender's detail at each level above `base`: base + 1, base + 2, …
   std::vector<double> lender_weight_of_level;
 };
 /// Finds the face by Yoon, Lewis and Rhee's method that is nearest to `ours`, a face of crowdface.

@@ -18,8 +18,8 @@ namespace {
 
 using Point = std::vector<double>;
 
-/// Points dropped into a cube, dense in its middle, each from as many draws as are wanted that keep
-/// the distance; ends where a point fails a thousand times.
+/// Points dropped into a cube, dense in its middle. Each point is the last that keeps the distance
+/// in a round of draws; ends where a thousand draws in a row are too near.
 struct FirstFit {
   std::vector<Point> placed;
   std::uint64_t draws = 0;
@@ -46,21 +46,26 @@ struct FirstFit {
     return point;
   }
 
-  /// How many draws were too near; nothing left to place if a thousand were.
-  std::uint64_t place(std::uint64_t wanted) {
-    std::uint64_t too_near = 0;
+  struct Draws {
+    std::uint64_t too_near = 0, far_enough = 0;
+  };
+  /// Draws rounds until a draw keeps the distance, and places it.
+  Draws place(std::uint64_t round) {
+    Draws counts;
     Point last;
-    for (std::uint64_t found = 0; found < wanted && too_near < 1000;) {
-      Point point = draw();
-      if (near_another(point)) {
-        ++too_near;
-      } else {
-        ++found;
-        last = std::move(point);
+    while (counts.far_enough == 0 && counts.too_near < 1000) {
+      for (std::uint64_t i = 0; i < round; ++i) {
+        Point point = draw();
+        if (near_another(point)) {
+          ++counts.too_near;
+        } else {
+          ++counts.far_enough;
+          last = std::move(point);
+        }
       }
     }
-    if (too_near < 1000) placed.push_back(std::move(last));
-    return too_near;
+    if (counts.far_enough > 0) placed.push_back(std::move(last));
+    return counts;
   }
 };
 
@@ -71,15 +76,15 @@ TEST(CapacityForecast, TellsEarlyHowManyPointsWillFit) {
   };
   for (const Case& c : {Case{2, 0.02}, Case{3, 0.07}, Case{5, 0.24}}) {
     SCOPED_TRACE(std::to_string(c.dimensions) + " dimensions");
-    constexpr std::uint64_t kWanted = 4;
+    constexpr std::uint64_t kRound = 4;
     FirstFit fit{{}, 0, c.dimensions, c.distance};
     CapacityForecast forecast;
     double early = 0;
     std::size_t told_at = 0;
     for (;;) {
-      const std::uint64_t too_near = fit.place(kWanted);
-      if (too_near >= 1000) break;
-      forecast.add(too_near, kWanted);
+      const FirstFit::Draws draws = fit.place(kRound);
+      if (draws.far_enough == 0) break;
+      forecast.add(draws.too_near, draws.far_enough);
       if (early == 0 && forecast.estimated_face_count()) {
         early = *forecast.estimated_face_count();
         told_at = fit.placed.size();

@@ -26,14 +26,14 @@ TEST(ScarcityWarning, TellsOnceThatFacesAreGettingScarce) {
   RejectionCounts few, many;
   few.add(RejectionReason::kMinDistance, 3);
   many.add(RejectionReason::kMinDistance,
-           static_cast<std::uint64_t>(casting.diversity.max_attempts) / 5);
+           static_cast<std::uint64_t>(casting.diversity.max_attempts) / 20);
   add_log_file(path);
   warning.on_face_accepted(few);
   warning.on_face_accepted(many);
   warning.on_face_accepted(many);
   close_log_file();
   const std::string log = read_text(path);
-  const auto first = log.find("candidates are getting scarce: face 2 of 10 took 200 candidates");
+  const auto first = log.find("candidates are getting scarce: face 2 of 10 took 50 candidates");
   EXPECT_NE(first, std::string::npos) << log;
   EXPECT_EQ(log.find("getting scarce", first + 20), std::string::npos) << log;
 }

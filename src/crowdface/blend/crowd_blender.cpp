@@ -146,7 +146,7 @@ class CrowdBlender::FaceBatch {
   bool uses(std::size_t region, std::size_t field) const {
     return used_by_any_face_[region][field] != 0;
   }
-  /// The heads that are the target, or part of the target's mixture, of at least one face.
+  /// The heads that at least one face uses as its target, alone or in a mixture.
   const std::set<Index>& targets() const { return targets_; }
 
  private:

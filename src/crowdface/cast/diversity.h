@@ -41,9 +41,10 @@ struct DiversityOptions {
   /// kSpread: number of candidates in the pool, in multiples of the crowd's size
   static constexpr std::uint64_t kPoolSizeFactor = 10;
 
-  /// Number of candidates that kFirstFit generates for one face. All of these candidates are far
-  /// enough from the crowd; kFirstFit keeps the farthest one. The number must not depend on the
-  /// size of the crowd, because the first faces stay the same if the crowd is made larger.
+  /// Number of candidates in a round of kFirstFit. Of the candidates that are far enough from the
+  /// crowd, kFirstFit keeps the farthest one; if there is none, another round follows. The number
+  /// must not depend on the size of the crowd, because the first faces stay the same if the crowd
+  /// is made larger.
   ///
   /// \param index  Index of the face, from 1.
   static int candidate_count(std::uint64_t index) { return index <= 1000 ? 32 : 8; }

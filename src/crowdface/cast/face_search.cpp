@@ -39,7 +39,7 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
 }
 
 /// Returns whether the current round needs another candidate. Candidates that are too near to the
-/// crowd count, because they would not be the farthest candidate anyway. A face with limits on
+/// crowd count, so that a nearly full crowd does not need many more candidates. A face with limits on
 /// measurements may need many more attempts than other faces. So after the usual number of
 /// attempts, one acceptable candidate is enough.
 ///
@@ -68,8 +68,7 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
 }
 
 /// Generates a round of candidates, and further rounds until a candidate passes all checks or no
-/// attempts are left. Computes the points of several candidates in one call, which is faster than
-/// separate calls.
+/// attempts are left.
 void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   compared_face_count_ = crowd.size();
   while (candidates_.empty() && next_attempt_ < attempts_end_) {
@@ -79,6 +78,7 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
 }
 
 /// Generates as many candidates as the current round needs, and keeps those that pass all checks.
+/// Computes the points of the candidates in one call, which is faster than separate calls.
 void FaceSearch::check_new_candidates(const CrowdSoFar& crowd) {
   std::vector<Candidate> unchecked;
   std::vector<const Recipe*> recipes;

@@ -18,10 +18,12 @@ namespace {
 constexpr double kFieldTolerance = 0.02;
 /// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
-/// How far a training face may lie outside the span of the principal directions, in millimetres.
-/// The distance from the span is stored as an additional coordinate.
+/// Principal directions are left out if no training face extends farther along them, all taken
+/// together, than this distance in millimetres. The distance of a face from the span of the other
+/// directions is stored as an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
-/// largest number of directions for each orientation (unmirrored and mirrored)
+/// largest number of directions for each orientation (unmirrored and mirrored), before directions
+/// are left out
 constexpr Index kMaxDirections = 192;
 constexpr std::uint64_t kTrainingFaces = 1024;
 
@@ -244,14 +246,14 @@ std::vector<float> FaceSpace::coefficients(const Recipe& recipe,
                                            Extrapolation extrapolation) const {
   const double w = mirror_image_weight(recipe);
   require(w == 0 || mirror_variant_count() == 2, "a mirrored face, and no mirror images of heads");
-  std::vector<float> sum(static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3), 0.F);
+  std::vector<float> sum(function_count(), 0.F);
   if (w != 1) add_coefficients(recipe, extrapolation, 0, 1 - w, sum.data());
   if (w != 0) add_coefficients(recipe, extrapolation, 1, w, sum.data());
   return sum;
 }
 
 std::vector<float> FaceSpace::head_coefficients(Index head) const {
-  std::vector<float> sum(static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3), 0.F);
+  std::vector<float> sum(function_count(), 0.F);
   sum[static_cast<std::size_t>(FunctionOrder::kMean)] = 1;
   sum[static_cast<std::size_t>(FunctionOrder::of_head(head))] = 1;
   return sum;
@@ -259,9 +261,10 @@ std::vector<float> FaceSpace::head_coefficients(Index head) const {
 
 /// Returns for each face its aligned deviation from the mean head, #faces by 3·#P.
 ///
-/// \param coefficients  the coefficients of all faces, one face after the other.
+/// \param coefficients  the coefficients of all faces with respect to the coordinate functions, one
+///                      face after the other.
 FloatRows FaceSpace::aligned_deviations(const std::vector<float>& coefficients) const {
-  const auto functions = static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3);
+  const auto functions = function_count();
   const std::size_t faces = coefficients.size() / functions;
   FloatRows shapes = FloatRows::Zero(static_cast<Index>(faces), mean_shape_.size());
   add_product(coefficients.data(), faces, functions, tables_.basis_coefficients.data(),
@@ -314,9 +317,10 @@ void FaceSpace::transpose_directions() {
   directions_transposed_.leftCols(rank) = tables_.principal_directions.transpose();
 }
 
-/// Returns the coordinates of faces.
+/// Returns the coordinates of faces along the principal directions.
 ///
-/// \param coefficients  the coefficients of all faces, one face after the other.
+/// \param coefficients  the coefficients of all faces with respect to the coordinate functions, one
+///                      face after the other.
 std::vector<Eigen::VectorXf> FaceSpace::coordinates(const std::vector<float>& coefficients) const {
   const FloatRows deviations = aligned_deviations(coefficients);
   const Index count = deviations.rows(), rank = tables_.principal_directions.rows();

@@ -104,6 +104,10 @@ class FaceSpace {
   const SampledHeads& sampled_heads_containing(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
   }
+  /// Returns the number of coordinate functions.
+  std::size_t function_count() const {
+    return static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3);
+  }
   std::size_t unmirrored_index(Index head) const {
     return static_cast<std::size_t>(head % head_count());
   }

@@ -125,7 +125,7 @@ class FamilySampler {
   /// For each band, the heads of the family's group that substitute for the parents' sources
   /// outside the group. Empty: the family has no group, or no parents.
   std::vector<SubstituteHeads> source_substitutes_;
-  /// names of the parents' families, and of the other families that have one of these parents
+  /// names of the families of which the parents are members or parents
   std::vector<std::string> relative_family_names_;
   /// points of relatives (kin) and of all other faces (strangers)
   NearestFaceSearch relative_points_, stranger_points_;

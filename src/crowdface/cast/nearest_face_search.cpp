@@ -12,7 +12,7 @@ namespace {
 
 /// up to this number of points, a linear search is as fast as a tree
 constexpr Index kMaxNewestPoints = 2048;
-constexpr std::uint32_t kLeafSize = 4 * PointBlocks::kLanes;
+constexpr std::uint32_t kLeafSize = 2 * PointBlocks::kLanes;
 
 }  // namespace
 
@@ -75,7 +75,7 @@ void PointTrees::add(const Eigen::VectorXf& point) {
   std::vector<const PointBlocks*> joined = {&newest_points_};
   Index count = newest_points_.size();
   std::size_t kept = trees_.size();
-  while (kept > 0 && trees_[kept - 1].points().size() <= 4 * count) {
+  while (kept > 0 && trees_[kept - 1].points().size() <= count) {
     joined.push_back(&trees_[--kept].points());
     count += joined.back()->size();
   }

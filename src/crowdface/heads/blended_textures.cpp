@@ -128,7 +128,7 @@ void read_maps(LoadedMaps& maps, const fs::path& scratch) {
                     [&](std::size_t i) { all[i]->second = read_map(all[i]->first, scratch); });
 }
 
-/// Merges several maps, each of which covers some of the image's polygons.
+/// Merges several maps, each of which covers some of the polygons that use the image.
 std::shared_ptr<const TextureMap> compose(
     const HeadSet& heads, const TextureLayout& layout, std::uint32_t picture,
     const std::vector<std::uint32_t>& file_of_face,

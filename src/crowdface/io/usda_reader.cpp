@@ -101,7 +101,7 @@ class UsdaReader {
   FileMesh read() {
     for (UsdaToken token = tokens_.next(); token.kind != UsdaToken::Kind::kEnd;
          token = tokens_.next()) {
-      if (token.is('(')) tokens_.skip_group();
+      if (token.is('(')) tokens_.consume_group();
       if (is_prim(token)) read_prim(token, Eigen::Matrix4d::Identity(), 0, nullptr);
     }
     if (mesh_.positions.rows() == 0 && points_.empty()) {
@@ -131,12 +131,12 @@ class UsdaReader {
     prim.name = token.text;
     token = tokens_.next();
     if (token.is('(')) {
-      tokens_.skip_group();
+      tokens_.consume_group();
       token = tokens_.next();
     }
     if (!token.is('{')) fail(concat("expected the body of ", quoted(std::string(prim.name))));
     if (!keyword.is_word("def")) {  // `over` and `class` define no prim
-      tokens_.skip_group();
+      tokens_.consume_group();
       return;
     }
     std::optional<Eigen::Matrix4d> place;
@@ -154,7 +154,7 @@ class UsdaReader {
         read_property(words, prim);
         words.clear();
       } else if (token.is('(') || token.is('{') || token.is('[')) {
-        tokens_.skip_group();
+        tokens_.consume_group();
         words.clear();
       } else if (token.kind == UsdaToken::Kind::kWord) {
         if (words.size() == kLongestStatement) words.erase(words.begin());
@@ -202,10 +202,10 @@ class UsdaReader {
           if (item.kind == UsdaToken::Kind::kQuoted) property.texts.emplace_back(item.text);
         }
       } else if (token.is('(') || token.is('[') || token.is('{')) {
-        tokens_.skip_group();
+        tokens_.consume_group();
       }
     }
-    if (tokens_.consume('(')) property.interpolation = tokens_.skip_group();
+    if (tokens_.consume('(')) property.interpolation = tokens_.consume_group();
     const bool are_uvs = type.starts_with("texCoord2") || type.starts_with("float2");
     if (is_primvar && are_uvs && prim.uvs.empty()) prim.uvs = name;
     if (name == "primvars:displayColor") prim.colours = name;

@@ -87,7 +87,7 @@ bool UsdaTokens::consume(char sign) {
   return true;
 }
 
-std::string UsdaTokens::skip_group() {
+std::string UsdaTokens::consume_group() {
   std::string interpolation;
   bool is_next = false;
   for (int open = 1; open > 0;) {

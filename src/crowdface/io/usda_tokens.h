@@ -30,7 +30,7 @@ class UsdaTokens {
   /// Consumes everything up to the closing bracket of a group whose opening bracket is already
   /// consumed.
   /// \return the value of `interpolation` in the group; empty if the group does not set it.
-  std::string skip_group();
+  std::string consume_group();
   /// Consumes a value, which may have brackets, and returns all numbers in it.
   std::vector<double> read_numbers();
   /// Throws InvalidInput with the file's name and `what`.

@@ -156,15 +156,15 @@ CameraHit attachment_hit(const HeadScene& scene, const RayHit& hit, const Vector
 }
 
 void prefetch_hits(const HeadScene& scene, std::span<const std::optional<RayHit>> hits,
-                   std::size_t here) {
+                   std::size_t current) {
   constexpr std::size_t kQuads = 24, kCorners = 12;
-  if (here + kQuads < hits.size() && hits[here + kQuads]) {
-    const std::uint32_t primitive = hits[here + kQuads]->primitive;
+  if (current + kQuads < hits.size() && hits[current + kQuads]) {
+    const std::uint32_t primitive = hits[current + kQuads]->primitive;
     __builtin_prefetch(&scene.quads[primitive]);
     __builtin_prefetch(&scene.kinds[primitive]);
   }
-  if (here + kCorners < hits.size() && hits[here + kCorners]) {
-    for (const std::uint32_t vertex : scene.quads[hits[here + kCorners]->primitive]) {
+  if (current + kCorners < hits.size() && hits[current + kCorners]) {
+    for (const std::uint32_t vertex : scene.quads[hits[current + kCorners]->primitive]) {
       __builtin_prefetch(&scene.normals[vertex]);
       __builtin_prefetch(scene.points.data() + std::size_t{3} * vertex);
     }

@@ -100,8 +100,10 @@ std::string few_heads(const Config& config, const Group& group) {
 void ScarcityWarning::on_face_accepted(const RejectionCounts& rejected) {
   ++cast_face_count_;
   if (has_warned_ || casting_.diversity.mode != DiversityOptions::Mode::kFirstFit) return;
-  forecast_.add(rejected.of(RejectionReason::kMinDistance),
-                static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_face_count_)));
+  const std::uint64_t too_near = rejected.of(RejectionReason::kMinDistance);
+  const auto round =
+      static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_face_count_));
+  forecast_.add(too_near, round - too_near % round);  // only the last round had far faces
   const auto faces = forecast_.estimated_face_count();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
   if (faces && *faces < static_cast<double>(casting_.count)) {
@@ -111,7 +113,7 @@ void ScarcityWarning::on_face_accepted(const RejectionCounts& rejected) {
                        " mm (estimate, to a factor of three), but ", casting_.count,
                        " were requested: choose a smaller min_distance (crowdface plan --estimate "
                        "shows how many faces fit)"));
-  } else if (!has_logged_scarcity_ && rejected.total() >= attempts / 5) {
+  } else if (!has_logged_scarcity_ && rejected.total() >= attempts / 20) {
     has_logged_scarcity_ = true;
     log_info(concat("candidates are getting scarce: face ", cast_face_count_, " of ",
                     casting_.count, " took ", rejected.total(),

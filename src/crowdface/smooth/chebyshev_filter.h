@@ -26,7 +26,7 @@ struct FilterInput {
 /// probes at any level are linear combinations of the terms, so they need no further filter pass.
 struct RecordedTerms {
   std::vector<std::uint32_t> vertices;
-  Columns terms;  ///< #terms by 3·#vertices: T_k(W) x at the vertices; the filter writes them
+  Columns terms;  ///< #terms by 3·#vertices: row k receives T_k(W) x at the vertices
 };
 
 /// Evaluates polynomials of the matrix W (the mean over a vertex's edge-neighbours) of one topology

@@ -39,7 +39,7 @@ struct PrincipalDirections {
   /// #levels by #nodes + 1: largest error over the sampled vertices if only the first 0, 1, …
   /// directions are used.
   Eigen::MatrixXd max_errors;
-  Index rank = 0;  ///< number of leading directions that meet the tolerance
+  Index rank = 0;  ///< smallest number of leading directions that together meet the tolerance
 };
 
 /// Principal components of the sample's trajectories over the tested levels (proper orthogonal

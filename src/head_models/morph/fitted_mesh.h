@@ -36,7 +36,7 @@ struct FittedMesh {
   Topology topology;
   TextureCoordinates uvs;                             ///< #T by 2
   std::vector<std::array<std::uint32_t, 3>> anchors;  ///< three base-mesh vertices per vertex
-  Positions weights;                                  ///< #V by 3, a weight for each anchor
+  Positions weights;                                  ///< #V by 3: the weights of a vertex's three anchors
   Positions offsets;                                  ///< #V by 3, decimetres
   std::vector<Picture> pictures;                      ///< one for each alternative material
   AssetLicence licence;

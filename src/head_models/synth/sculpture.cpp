@@ -81,8 +81,8 @@ double lower_lip(const Vector3d& p) {
 }
 
 double neck(const Vector3d& p) {
-  // Neck: an elliptic tube that widens towards the shoulders and ends inside the head. Its back is
-  // vertical, its front slopes down and back from the chin.
+  // Neck: an elliptic tube that becomes wider towards the shoulders and ends inside the head. Its
+  // rear is vertical, its front recedes from the chin downwards.
   const double down = std::max(0.0, -10 - p.y());
   const double z = p.z() + 2.3 + 0.1 * (-10 - p.y());
   const double wide = 4.9 + 0.04 * down * down, deep = 5.15 + 0.014 * down * down;
