@@ -36,9 +36,9 @@ struct FittedMesh {
   Topology topology;
   TextureCoordinates uvs;                             ///< #T by 2
   std::vector<std::array<std::uint32_t, 3>> anchors;  ///< three base-mesh vertices per vertex
-  Positions weights;                                  ///< #V by 3: the weights of a vertex's three anchors
-  Positions offsets;                                  ///< #V by 3, decimetres
-  std::vector<Picture> pictures;                      ///< one for each alternative material
+  Positions weights;              ///< #V by 3, one weight for each anchor of a vertex
+  Positions offsets;              ///< #V by 3, decimetres
+  std::vector<Picture> pictures;  ///< one for each alternative material
   AssetLicence licence;
 
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
