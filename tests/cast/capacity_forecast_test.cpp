@@ -18,8 +18,8 @@ namespace {
 
 using Point = std::vector<double>;
 
-/// Points dropped into a cube, dense in its middle. Each point is the last that keeps the distance
-/// in a round of draws; ends where a thousand draws in a row are too near.
+/// Places random points in a cube, densest in its middle. Points are drawn in rounds; of the points
+/// of a round that are far enough from all placed points, the last is placed.
 struct FirstFit {
   std::vector<Point> placed;
   std::uint64_t draws = 0;
@@ -49,7 +49,8 @@ struct FirstFit {
   struct Draws {
     std::uint64_t too_near = 0, far_enough = 0;
   };
-  /// Draws rounds until a draw keeps the distance, and places it.
+  /// Draws rounds until a point is far enough, and places it. Gives up after 1,000 points that are
+  /// too near.
   Draws place(std::uint64_t round) {
     Draws counts;
     Point last;

@@ -12,6 +12,7 @@
 #include "crowdface/blend/blend.h"
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/face_area.h"
+#include "crowdface/cast/face_search.h"
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/alignment.h"
@@ -325,6 +326,41 @@ TEST_F(FaceSpaceTest, NearestIsTheNearestOfAll) {
   }
   EXPECT_EQ(faces[20].notes.nearest->earlier_face, faces[7].id);
   EXPECT_LT(faces[20].notes.nearest->earlier_face_distance_mm, 1e-3);
+}
+
+TEST_F(FaceSpaceTest, CandidatesTooNearToTheCrowdCountInARound) {
+  const std::vector<Recipe> recipes = crowd(3);
+  CrowdSoFar so_far(space_->dimensions());
+  so_far.begin_sampled_faces();
+  so_far.add({}, space_->point(recipes[0]));
+  DiversityOptions diversity;
+  diversity.min_distance_mm = 0.01;
+  BelievabilityOptions limits;
+  limits.max_deviation = 1e6;
+  const FaceJudge judge(*space_, diversity, limits);
+  // Searches in rounds of four. `drawn[a]` is the recipe of attempt a.
+  const auto search = [&](const std::vector<std::size_t>& drawn, std::uint64_t too_near) {
+    std::size_t count = 0;
+    FaceSearch faces(
+        [&](std::uint32_t attempt) {
+          count = std::max<std::size_t>(count, attempt + 1);
+          FacePlan face;
+          face.recipe = recipes[drawn.at(attempt)];
+          face.notes.attempt = attempt;
+          return face;
+        },
+        judge, diversity, 4);
+    const auto found = faces.choose_face(so_far);
+    EXPECT_EQ(count, drawn.size());
+    EXPECT_EQ(faces.rejections().of(RejectionReason::kMinDistance), too_near);
+    return found ? found->face.notes.attempt : 0;
+  };
+  EXPECT_EQ(search({0, 0, 1, 0}, 3), 2);
+  EXPECT_EQ(search({0, 0, 0, 0, 0, 2, 0, 0}, 7), 5) << "none in the first round";
+  const bool second_is_farther =
+      FaceSpace::distance(space_->point(recipes[1]), space_->point(recipes[0])) <
+      FaceSpace::distance(space_->point(recipes[2]), space_->point(recipes[0]));
+  EXPECT_EQ(search({1, 0, 2, 0}, 2), second_is_farther ? 2 : 0);
 }
 
 TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {

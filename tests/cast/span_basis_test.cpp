@@ -55,7 +55,7 @@ TEST(SpanBasis, PrincipalDirectionsHoldMostWithFewCoordinates) {
   const Eigen::MatrixXf gram = all.directions * all.directions.transpose();
   EXPECT_LT((gram - Eigen::MatrixXf::Identity(6, 6)).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT((all.coordinates * all.directions - rows).rowwise().norm().maxCoeff(), 2e-3);
-  // the singular values of the rows are the lengths of the columns of coordinates
+  // The lengths of the columns of coordinates are the singular values of the rows.
   const Eigen::VectorXf singular = Eigen::JacobiSVD<Eigen::MatrixXf>(rows).singularValues();
   for (Index p = 0; p < 6; ++p)
     EXPECT_NEAR(all.coordinates.col(p).norm(), singular[p], 1e-4F * singular[0]);

@@ -38,15 +38,16 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
   return true;
 }
 
-/// Returns whether the current round needs another candidate. Candidates that are too near to the
-/// crowd count, so that a nearly full crowd does not need many more candidates. A face with limits on
+/// Returns whether a round needs another candidate. Candidates that are too near to the crowd count,
+/// so that a nearly full crowd does not need many more candidates. A face with limits on
 /// measurements may need many more attempts than other faces. So after the usual number of
 /// attempts, one acceptable candidate is enough.
 ///
 /// \param unchecked_count  number of generated candidates that are not checked yet
-bool FaceSearch::needs_candidates(std::size_t unchecked_count) const {
+/// \param too_near_count   number of candidates of this round that were too near to the crowd
+bool FaceSearch::needs_candidates(std::size_t unchecked_count, std::size_t too_near_count) const {
   const std::size_t count = candidates_.size() + unchecked_count;
-  if (count + too_near_count_ >= wanted_candidate_count_ || next_attempt_ >= attempts_end_)
+  if (count + too_near_count >= wanted_candidate_count_ || next_attempt_ >= attempts_end_)
     return false;
   return count == 0 || next_attempt_ < initial_attempts_end_;
 }
@@ -72,17 +73,20 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
 void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   compared_face_count_ = crowd.size();
   while (candidates_.empty() && next_attempt_ < attempts_end_) {
-    too_near_count_ = 0;
-    while (needs_candidates(0)) check_new_candidates(crowd);
+    std::size_t too_near_count = 0;
+    while (needs_candidates(0, too_near_count)) add_candidates(crowd, too_near_count);
   }
 }
 
-/// Generates as many candidates as the current round needs, and keeps those that pass all checks.
+/// Generates as many candidates as a round still needs, and keeps those that pass all checks.
 /// Computes the points of the candidates in one call, which is faster than separate calls.
-void FaceSearch::check_new_candidates(const CrowdSoFar& crowd) {
+///
+/// \param too_near_count  number of candidates of this round that were too near to the crowd;
+///                        increased by the new ones
+void FaceSearch::add_candidates(const CrowdSoFar& crowd, std::size_t& too_near_count) {
   std::vector<Candidate> unchecked;
   std::vector<const Recipe*> recipes;
-  while (needs_candidates(unchecked.size())) {
+  while (needs_candidates(unchecked.size(), too_near_count)) {
     Candidate candidate{generate_candidate_(next_attempt_++)};
     if (meets_limits(candidate)) unchecked.push_back(std::move(candidate));
   }
@@ -96,7 +100,7 @@ void FaceSearch::check_new_candidates(const CrowdSoFar& crowd) {
       rejections_.add(*reason);
     } else if (!is_far_from_crowd(candidate, crowd)) {
       rejections_.add(RejectionReason::kMinDistance);
-      ++too_near_count_;
+      ++too_near_count;
     } else {
       candidates_.push_back(std::move(candidate));
     }

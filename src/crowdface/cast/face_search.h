@@ -67,10 +67,10 @@ class FaceSearch {
     std::optional<RejectionReason> violated_constraint = std::nullopt;
   };
 
-  bool needs_candidates(std::size_t unchecked_count) const;
+  bool needs_candidates(std::size_t unchecked_count, std::size_t too_near_count) const;
   bool meets_limits(Candidate& candidate);
   void find_candidates(const CrowdSoFar& crowd);
-  void check_new_candidates(const CrowdSoFar& crowd);
+  void add_candidates(const CrowdSoFar& crowd, std::size_t& too_near_count);
   bool is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
   void compare_with_added_faces(const CrowdSoFar& crowd);
   Candidate& farthest_candidate(const CrowdSoFar& crowd);
@@ -86,8 +86,6 @@ class FaceSearch {
   /// measurements raises `attempts_end_` by one, up to a bound.
   std::uint32_t attempts_end_;
   std::uint32_t initial_attempts_end_;  ///< initial value of `attempts_end_`
-  /// number of candidates of the current round that were too near to the crowd
-  std::size_t too_near_count_ = 0;
   /// number of faces of the crowd with which the candidates have been compared
   Index compared_face_count_ = 0;
   std::vector<Candidate> candidates_;

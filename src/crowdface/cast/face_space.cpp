@@ -18,9 +18,8 @@ namespace {
 constexpr double kFieldTolerance = 0.02;
 /// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
-/// Principal directions are left out if no training face extends farther along them, all taken
-/// together, than this distance in millimetres. The distance of a face from the span of the other
-/// directions is stored as an additional coordinate.
+/// How far the principal directions that are left out may move a training face, in millimetres. The
+/// distance of a face from the span of the other directions is stored as an additional coordinate.
 constexpr double kFaceTolerance = 0.05;
 /// largest number of directions for each orientation (unmirrored and mirrored), before directions
 /// are left out
@@ -325,10 +324,7 @@ std::vector<Eigen::VectorXf> FaceSpace::coordinates(const std::vector<float>& co
   const FloatRows deviations = aligned_deviations(coefficients);
   const Index count = deviations.rows(), rank = tables_.principal_directions.rows();
   const auto length = static_cast<std::size_t>(deviations.cols());
-  FloatRows products = FloatRows::Zero(count, directions_transposed_.cols());
-  add_product(deviations.data(), static_cast<std::size_t>(count), length,
-              directions_transposed_.data(), static_cast<std::size_t>(products.cols()),
-              products.data());
+  const FloatRows products = fixed_order_product(deviations, directions_transposed_);
   std::vector<Eigen::VectorXf> results;
   for (Index n = 0; n < count; ++n) {
     const float* at = deviations.row(n).data();

@@ -16,15 +16,14 @@ using Eigen::Index;
 
 constexpr Index kNumbersAtATime = 1 << 16;
 
-/// Returns a·b, computed in a fixed order.
-FloatRows product(const FloatRows& a, const FloatRows& b) {
+}  // namespace
+
+FloatRows fixed_order_product(const FloatRows& a, const FloatRows& b) {
   FloatRows result = FloatRows::Zero(a.rows(), b.cols());
   add_product(a.data(), static_cast<std::size_t>(a.rows()), static_cast<std::size_t>(a.cols()),
               b.data(), static_cast<std::size_t>(b.cols()), result.data());
   return result;
 }
-
-}  // namespace
 
 SpanBasis span_basis(FloatRows rows, double tolerance, Index max_directions) {
   const Index count = rows.rows(), size = rows.cols();
@@ -79,7 +78,7 @@ SpanBasis principal_basis(const SpanBasis& basis, double tolerance) {
     }
   }
   const FloatRows axes = symmetric_eigen(std::move(products)).eigenvectors.cast<float>();
-  FloatRows coordinates = product(basis.coordinates, axes);
+  FloatRows coordinates = fixed_order_product(basis.coordinates, axes);
   Index kept = size;
   Eigen::VectorXd squared_remainders = Eigen::VectorXd::Zero(count);
   for (; kept > 0; --kept) {
@@ -89,7 +88,8 @@ SpanBasis principal_basis(const SpanBasis& basis, double tolerance) {
     }
     if (squared_remainders.maxCoeff() > tolerance * tolerance) break;
   }
-  return {product(axes.leftCols(kept).transpose(), basis.directions), coordinates.leftCols(kept)};
+  return {fixed_order_product(axes.leftCols(kept).transpose(), basis.directions),
+          coordinates.leftCols(kept)};
 }
 
 }  // namespace crowdface

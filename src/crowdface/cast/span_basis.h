@@ -7,6 +7,9 @@ namespace crowdface {
 
 using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// Returns a·b. Sums are computed in a fixed order, so the result is bit-identical everywhere.
+FloatRows fixed_order_product(const FloatRows& a, const FloatRows& b);
+
 /// An orthonormal basis of the linear span of given rows, and the coordinates of these rows in the
 /// basis.
 struct SpanBasis {
@@ -20,9 +23,9 @@ struct SpanBasis {
 /// plain loops, so that it computes the same bits everywhere.
 SpanBasis span_basis(FloatRows rows, double tolerance, Eigen::Index max_directions);
 
-/// Rotates the directions of a basis to the principal directions of its rows (the eigenvectors of
-/// coordinatesᵀ·coordinates), the largest eigenvalue first. Keeps only the first directions: as many
-/// as are needed so that every row is at most `tolerance` from their span.
+/// Rotates the directions of a basis to the principal directions of its rows: the eigenvectors of
+/// coordinatesᵀ·coordinates, the largest eigenvalue first. Leaves out the last directions as long as
+/// this moves no row by more than `tolerance`.
 SpanBasis principal_basis(const SpanBasis& basis, double tolerance);
 
 }  // namespace crowdface

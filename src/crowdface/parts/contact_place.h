@@ -27,7 +27,7 @@ struct GapSection {
   /// `middle`: position on the mean head. `up`: unit vector from the low side to the high side.
   Eigen::Vector3d middle, up;
   Eigen::Vector3d plane_normal;  ///< unit normal of the cutting plane
-  /// The points of the two profiles, along `up`: below the gap and above the gap.
+  /// The points of the profile on the low side of the gap, and of the profile on the high side.
   std::vector<EdgePoint> low_profile, high_profile;
 
   /// Returns the height of the lowest point of the high profile above the highest point of the low

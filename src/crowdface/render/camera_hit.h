@@ -38,8 +38,8 @@ CameraHit camera_hit(const HeadScene& scene, const RayHit& hit, const Eigen::Vec
 CameraHit attachment_hit(const HeadScene& scene, const RayHit& hit,
                          const Eigen::Vector3f& direction);
 
-/// Prefetches the data that shading needs for the next hits after `current`; large meshes do not fit
-/// into the CPU caches.
+/// Prefetches the data that shading needs for the hits after hit number `current`; large meshes do
+/// not fit into the CPU caches.
 void prefetch_hits(const HeadScene& scene, std::span<const std::optional<RayHit>> hits,
                    std::size_t current);
 

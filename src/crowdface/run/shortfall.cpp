@@ -103,7 +103,8 @@ void ScarcityWarning::on_face_accepted(const RejectionCounts& rejected) {
   const std::uint64_t too_near = rejected.of(RejectionReason::kMinDistance);
   const auto round =
       static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_face_count_));
-  forecast_.add(too_near, round - too_near % round);  // only the last round had far faces
+  // in all rounds before the last one, every candidate was too near
+  forecast_.add(too_near, round - too_near % round);
   const auto faces = forecast_.estimated_face_count();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);
   if (faces && *faces < static_cast<double>(casting_.count)) {

@@ -13,7 +13,7 @@ struct SymmetricEigen {
 
 /// Eigendecomposition of a small symmetric matrix by Jacobi rotations (Golub & Van Loan 2013,
 /// §8.5). Slower than a library routine, but the result is bit-identical on every machine. The bits
-/// of generated meshes and of plans depend on this result.
+/// of generated meshes and plans depend on this result.
 SymmetricEigen symmetric_eigen(Eigen::MatrixXd matrix);
 
 }  // namespace crowdface
