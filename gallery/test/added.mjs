@@ -10,15 +10,8 @@ import { openPage } from './open_page.mjs';
 const [address, folder, pictures] = process.argv.slice(2);
 if (!folder) throw new Error('usage: node added.mjs ADDRESS HEADS_FOLDER [PICTURES]');
 
-const { browser, page, problems, take, rested } = await openPage({ width: 1440, height: 900, pictures, own: address });
+const { browser, page, problems, take, settled, kept } = await openPage({ width: 1440, height: 900, pictures, own: address });
 
-const settled = async () => {
-  await page.waitForFunction(() => {
-    const it = window.crowdface?.editor;
-    return it?.ready && it.light && !it.pending && it.exactOf === it.document && !it.skin.running;
-  });
-  await rested();
-};
 const message = () => page.locator('.message').innerText();
 const heads = () => page.locator('.head').evaluateAll((nodes) => nodes.map((node) => node.dataset.head));
 /// What the view shows, as a PNG in base64, without what lies over it.
@@ -107,7 +100,7 @@ await page.getByLabel('Format of the mesh').selectOption('obj');
 await page.keyboard.press('Escape');
 await page.keyboard.press('Control+s');
 await page.waitForFunction(() => /^Saved: .*without the expression/.test(document.querySelector('.message').textContent));
-await page.waitForTimeout(600);
+await kept();
 await page.reload();
 await settled();
 assert.equal(await brow.inputValue(), '1');

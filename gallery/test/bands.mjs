@@ -12,7 +12,7 @@ import { openPage } from './open_page.mjs';
 const [gallery, address, resultFile] = process.argv.slice(2);
 if (!resultFile) throw new Error('usage: node bands.mjs GALLERY_FOLDER ADDRESS RESULT_JSON');
 
-const { browser, page, problems } = await openPage();
+const { browser, page, problems, settled } = await openPage();
 
 // The gallery: each region's numbers stand there band by band, and a mirrored face says so.
 await page.goto(pathToFileURL(join(resolve(gallery), 'index.html')).href);
@@ -39,10 +39,6 @@ assert.equal(await page.locator('.panels figure').count(), 2 * regions.length, '
 // The editor: what is moved in one band leaves the other, in one region alone.
 const editor = (ask) => page.evaluate((text) => new Function('editor', `return ${text}`)(window.crowdface.editor), ask);
 const recipe = () => editor('editor.document.recipe');
-const settled = () => page.waitForFunction(() => {
-  const { editor: it } = window.crowdface;
-  return it.ready && !it.pending && it.exactOf === it.document;
-});
 await page.goto(address);
 await page.waitForSelector('.board');
 await settled();

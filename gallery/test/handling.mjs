@@ -10,13 +10,9 @@ import { openPage } from './open_page.mjs';
 const [address, photo, pictures] = process.argv.slice(2);
 if (!photo) throw new Error('usage: node handling.mjs ADDRESS PHOTO [PICTURES]');
 
-const { browser, page, problems, take, colourAt, rested, stillPicture, alike } = await openPage({ width: 1440, height: 900, pictures, own: address });
+const { browser, page, problems, take, colourAt, settled, kept, rested, stillPicture, alike } = await openPage({ width: 1440, height: 900, pictures, own: address });
 
 const shown = () => page.waitForFunction(() => !window.crowdface.editor.pending);
-const settled = () => page.waitForFunction(() => {
-  const it = window.crowdface?.editor;
-  return it?.ready && !it.pending && it.exactOf === it.document;
-});
 const message = () => page.locator('.message').innerText();
 const button = (name) => page.getByRole('button', { name, exact: true });
 const undoTitle = () => button('Undo').getAttribute('title');
@@ -194,7 +190,7 @@ await page.getByLabel('Face beside', { exact: true }).selectOption(heads[0]);
 await isStill();
 assert.ok(!(await alike(await stillPicture(other), front)), 'another head looks otherwise');
 assert.ok(await alike(await stillPicture(canvas), left), 'the edited face stays');
-await page.waitForTimeout(600);
+await kept();
 await page.reload();
 await other.waitFor();
 await settled();

@@ -41,6 +41,8 @@ function auditPage() {
 /// \param own       what begins a request that the page may make.
 /// \return          problems: what went wrong on the page so far, a sentence each; colourAt(x, y): [red, green, blue]
 ///                  that is seen there;
+///                  settled(): waits until the editor shows the program's own face, in its skin and light, at rest;
+///                  kept(): waits until the program has the editor's last step;
 ///                  rested(): waits until all 3D views are drawn in full; stillPicture(locator), alike(one, other), audit().
 export async function openPage({ width = 1280, height = 720, pictures, own = null } = {}) {
   const browser = await chromium.launch({
@@ -72,6 +74,14 @@ export async function openPage({ width = 1280, height = 720, pictures, own = nul
     }, shot.toString('base64'));
   };
   const rested = () => page.waitForFunction(() => !document.querySelector('canvas[aria-busy=true]'));
+  const settled = async () => {
+    await page.waitForFunction(() => {
+      const it = window.crowdface?.editor;
+      return it?.ready && it.light && !it.pending && !it.skin.running && it.exactOf === it.document;
+    });
+    await rested();
+  };
+  const kept = (of = page) => of.waitForFunction(() => !window.crowdface.editor.keeping);
   /// What is seen of an element once it no longer changes, as PNG.
   const stillPicture = async (locator) => {
     await rested();
@@ -104,5 +114,5 @@ export async function openPage({ width = 1280, height = 720, pictures, own = nul
     }
     return found;
   };
-  return { browser, context, rested, stillPicture, alike, page, problems, take, colourAt, audit };
+  return { browser, context, settled, kept, rested, stillPicture, alike, page, problems, take, colourAt, audit };
 }

@@ -9,13 +9,9 @@ import { openPage } from './open_page.mjs';
 const [address, part, pictures] = process.argv.slice(2);
 if (!part) throw new Error('usage: node regions.mjs ADDRESS use|again [PICTURES]');
 
-const { browser, page, problems, take } = await openPage({ pictures, own: address });
+const { browser, page, problems, take, settled } = await openPage({ pictures, own: address });
 
 const editor = (ask) => page.evaluate((text) => new Function('editor', `return ${text}`)(window.crowdface.editor), ask);
-const settled = () => page.waitForFunction(() => {
-  const it = window.crowdface?.editor;
-  return it?.ready && !it.pending && it.exactOf === it.document;
-});
 const names = () => editor('editor.job.regions.map((region) => region.name)');
 /// How much of the preview each region has.
 const shares = () => page.evaluate(() => {

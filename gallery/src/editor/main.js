@@ -718,9 +718,9 @@ class Editor extends ProgramPage {
   }
 
   async keepNow(leaving) {
-    clearTimeout(this.keeping);
+    const { keeping, kept, look } = this;
+    clearTimeout(keeping);
     if (this.isAside) return;
-    const { kept, look } = this;
     const state = {
       page,
       history: this.history.toJson(mostKept), kept,
@@ -733,6 +733,7 @@ class Editor extends ProgramPage {
       if (error.status === 409) this.setAside();
       else if (!leaving) this.say(error.message, true);
     }
+    if (this.keeping === keeping) this.keeping = null; // all steps are kept
   }
 
   // -- heads --
