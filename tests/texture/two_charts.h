@@ -60,7 +60,9 @@ class TwoCharts {
     options.uses_target_colours_only = of_target;
     const ChebyshevFilter filter(SmoothingOperator(adjacency, Boundary::kFree, OperatorKind::kLazy),
                                  Positions::Zero(faces.topology.vertex_count, 3));
-    return {faces.topology, faces.uvs, filter, alpha, textures, options};
+    return {faces.topology, rasterize_layout(faces.topology, faces.uvs, textures.layout),
+            filter,         alpha,
+            textures,       options};
   }
   SurfaceTexels texels() const { return {faces.topology, faces.uvs, textures.layout, 0}; }
 

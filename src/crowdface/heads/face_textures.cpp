@@ -76,6 +76,12 @@ void FaceTextures::make_blenders(const Config& config) {
       inputs.head_set.heads.front().positions);
   const Digest rows =
       Hasher().add(inputs.topology_digest).add(inputs.head_digests.front()).digest();
+  const auto texels_of = [&](const TextureLayout& layout) {
+    for (const auto& blender : blenders_) {
+      if (blender->layout() == layout) return blender->texels();
+    }
+    return rasterize_layout(topology, inputs.head_set.uvs, layout);
+  };
   const auto add = [&](const HeadTextures& textures) {
     const auto find = [&](const std::function<SurfaceStatistics()>& make) {
       if (inputs.cache.empty()) return make();
@@ -85,8 +91,9 @@ void FaceTextures::make_blenders(const Config& config) {
                                static_cast<std::size_t>(topology.vertex_count),
                                inputs.head_set.heads.size(), make);
     };
-    blenders_.push_back(std::make_unique<TextureBlender>(
-        topology, inputs.head_set.uvs, filter, inputs.regions, textures.blended, options, find));
+    blenders_.push_back(
+        std::make_unique<TextureBlender>(topology, texels_of(textures.blended.layout), filter,
+                                         inputs.regions, textures.blended, options, find));
     for (std::size_t p = 0; p < textures.names.size(); ++p) {
       pictures_.push_back({blenders_.back().get(), p});
     }
@@ -128,7 +135,12 @@ std::optional<Eigen::Array3d> FaceTextures::seam_colour(const Recipe& recipe) co
 
 std::uint64_t FaceTextures::memory_bytes() const {
   std::uint64_t bytes = 0;
-  for (const auto& blender : blenders_) bytes += blender->memory_bytes();
+  std::set<const LayoutTexels*> layouts;  // blenders share texels
+  for (const auto& blender : blenders_) {
+    bytes += blender->memory_bytes();
+    if (!layouts.insert(blender->texels().get()).second) continue;
+    for (const SurfaceTexels& texels : *blender->texels()) bytes += texels.memory_bytes();
+  }
   return bytes;
 }
 

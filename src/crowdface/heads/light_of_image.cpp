@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <type_traits>
+#include <variant>
 
 #include "crowdface/render/shading.h"
 #include "crowdface/texture/optical_density.h"
@@ -47,17 +50,33 @@ void write_densities(const Image& image, const std::vector<Number>& numbers, std
   }
 }
 
+/// Reads the first three channels of a row, as `Image::at` does; a grey image's first channel three
+/// times.
+void read_channels(const Image& image, int y, std::span<Eigen::Array3f> texels) {
+  const auto channels = static_cast<std::size_t>(image.channels);
+  const auto read = [&](const auto& numbers) {
+    using Number = std::decay_t<decltype(numbers[0])>;
+    constexpr float kOne = std::is_integral_v<Number> ? std::numeric_limits<Number>::max() : 1;
+    const Number* at = numbers.data() + static_cast<std::size_t>(y) * texels.size() * channels;
+    for (Eigen::Array3f& texel : texels) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        texel[static_cast<Index>(c)] = static_cast<float>(at[channels < 3 ? 0 : c]) / kOne;
+      }
+      at += channels;
+    }
+  };
+  std::visit(read, image.pixels);
+}
+
 }  // namespace
 
 ImageRows linear_light_of(const Image& image) {
   const auto row = [&image, &table = light_of_srgb16()](int y, std::span<Eigen::Array3f> texels) {
-    const bool grey = image.channels < 3;
-    for (int x = 0; x < image.width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        const float value = image.at(x, y, grey ? 0 : c);
-        texels[static_cast<std::size_t>(x)][c] =
-            image.has_floats() ? std::max(value, 0.0F)
-                               : table[static_cast<std::size_t>(std::lround(65535.0F * value))];
+    read_channels(image, y, texels);
+    for (Eigen::Array3f& texel : texels) {
+      for (float& value : texel) {
+        value = image.has_floats() ? std::max(value, 0.0F)
+                                   : table[static_cast<std::size_t>(std::lround(65535.0F * value))];
       }
     }
   };
@@ -77,11 +96,11 @@ ImageRows linear_light_of(const Image& image) {
 ImageRows normal_slopes_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
     constexpr float kMinUp = 1.0F / 8;  // steepest slope that MapCoding::slope_coding() can store
-    for (int x = 0; x < image.width; ++x) {
-      Eigen::Array3f normal;
-      for (int c = 0; c < 3; ++c) normal[c] = 2 * image.at(x, y, c) - 1;
+    read_channels(image, y, texels);
+    for (Eigen::Array3f& texel : texels) {
+      const Eigen::Array3f normal = 2 * texel - 1;
       const float up = std::max(normal[2], kMinUp);
-      texels[static_cast<std::size_t>(x)] = {normal[0] / up, normal[1] / up, 0};
+      texel = {normal[0] / up, normal[1] / up, 0};
     }
   };
   return {image.width, image.height, row};
@@ -89,12 +108,7 @@ ImageRows normal_slopes_of(const Image& image) {
 
 ImageRows channel_values_of(const Image& image) {
   const auto row = [&image](int y, std::span<Eigen::Array3f> texels) {
-    const bool grey = image.channels < 3;
-    for (int x = 0; x < image.width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        texels[static_cast<std::size_t>(x)][c] = image.at(x, y, grey ? 0 : c);
-      }
-    }
+    read_channels(image, y, texels);
   };
   return {image.width, image.height, row};
 }

@@ -34,7 +34,9 @@ ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
   constexpr std::size_t kFirst = 4, kMinWords = 7;  // "v", x y z, r g b
   std::vector<std::array<double, 3>> found;
   double most = 1;
-  for (const std::string_view line : split_lines(text)) {
+  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+    end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
     if (!is_vertex(line)) continue;
     const std::vector<std::string> words = words_of(line);
     if (words.size() < kMinWords) return ColourRows(0, 3);

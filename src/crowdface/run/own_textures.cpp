@@ -50,12 +50,11 @@ std::string encode_words(const BlendedPicture& picture, bool as_bytes) {
   if (!as_bytes) {
     return encode_png16(picture.width, picture.height, picture.channels, picture.values_16_bit);
   }
-  constexpr int kWordsPerByte = 257;
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(picture.values_16_bit.size());
-  for (const int word : picture.values_16_bit) {
-    bytes.push_back(static_cast<std::uint8_t>((word + kWordsPerByte / 2) / kWordsPerByte));
-  }
+  constexpr std::uint32_t kWordsPerByte = 257;
+  std::vector<std::uint8_t> bytes(picture.values_16_bit.size());
+  std::ranges::transform(picture.values_16_bit, bytes.begin(), [](std::uint32_t word) {
+    return static_cast<std::uint8_t>((word + kWordsPerByte / 2) / kWordsPerByte);
+  });
   return encode_png(picture.width, picture.height, picture.channels, bytes);
 }
 

@@ -92,13 +92,13 @@ RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<floa
 RowSums write_normals(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
                       std::uint16_t* out) {
   RowSums total = {};
-  for (const SurfaceTexels::Span& span : spans) {
-    for (std::size_t x = span.begin; x < span.end; ++x) {
-      const Eigen::Vector3f normal = Eigen::Vector3f(sums[0][x], sums[1][x], 1).normalized();
-      for (std::size_t c = 0; c < 3; ++c) {
-        total[c] += out[3 * x + c] = word_of((normal[static_cast<Index>(c)] + 1) / 2);
-      }
-    }
+  for (std::size_t i = 0; i < spans.size();) {
+    const std::size_t begin = spans[i].begin;
+    std::size_t end = begin;
+    while (i < spans.size() && spans[i].begin == end) end = spans[i++].end;
+    const RowSums of_run =
+        write_unit_normals({sums[0] + begin, sums[1] + begin}, end - begin, out + 3 * begin);
+    for (std::size_t c = 0; c < 3; ++c) total[c] += of_run[c];
   }
   return total;
 }

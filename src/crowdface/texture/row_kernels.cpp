@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/texture/row_kernels.h"
 
+#include <algorithm>
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/texture/row_kernels.cpp"
 #include "hwy/foreach_target.h"
@@ -73,6 +76,50 @@ void add_products(const HeadTextureRow* heads, std::size_t count, std::size_t be
   if (channels == 3) add_products_of<3>(heads, count, begin, end, sums);
 }
 
+void write_unit_normals(const float* u, const float* v, std::size_t count, std::uint16_t* out,
+                        std::uint64_t* sums) {
+  const Lanes lanes;
+  const hn::Rebind<std::int32_t, Lanes> integers;
+  const hn::Rebind<std::uint16_t, Lanes> words;
+  const std::size_t width = hn::Lanes(lanes);
+  const auto one = hn::Set(lanes, 1.0F), half = hn::Set(lanes, 0.5F);
+  const auto most = hn::Set(lanes, 65535.0F);
+  const auto encoded = [&](auto component) {
+    const auto share = hn::Mul(hn::Add(component, one), half);
+    const auto scaled = hn::Add(hn::Mul(most, share), half);
+    return hn::ConvertTo(integers, hn::Min(hn::Max(scaled, hn::Zero(lanes)), most));
+  };
+  auto first = hn::Zero(integers), second = first, third = first;
+  std::size_t x = 0;
+  for (; x + width <= count; x += width) {
+    const auto along_u = hn::LoadU(lanes, u + x), along_v = hn::LoadU(lanes, v + x);
+    const auto square = hn::Add(hn::Mul(along_u, along_u), hn::Add(hn::Mul(along_v, along_v), one));
+    const auto length = hn::Sqrt(square);
+    const auto a = encoded(hn::Div(along_u, length)), b = encoded(hn::Div(along_v, length)),
+               c = encoded(hn::Div(one, length));
+    first = hn::Add(first, a);
+    second = hn::Add(second, b);
+    third = hn::Add(third, c);
+    hn::StoreInterleaved3(hn::DemoteTo(words, a), hn::DemoteTo(words, b), hn::DemoteTo(words, c),
+                          words, out + 3 * x);
+  }
+  std::int32_t of_lanes[3][kRowSlack];
+  hn::StoreU(first, integers, of_lanes[0]);
+  hn::StoreU(second, integers, of_lanes[1]);
+  hn::StoreU(third, integers, of_lanes[2]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < width; ++i) sums[c] += static_cast<std::uint64_t>(of_lanes[c][i]);
+  }
+  for (; x < count; ++x) {
+    const float length = std::sqrt(u[x] * u[x] + (v[x] * v[x] + 1));
+    const float normal[3] = {u[x] / length, v[x] / length, 1 / length};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float scaled = 65535 * ((normal[c] + 1) / 2) + 0.5F;
+      sums[c] += out[3 * x + c] = static_cast<std::uint16_t>(std::clamp(scaled, 0.0F, 65535.0F));
+    }
+  }
+}
+
 }  // namespace crowdface::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -81,6 +128,7 @@ namespace crowdface {
 
 HWY_EXPORT(write_ramps);
 HWY_EXPORT(add_products);
+HWY_EXPORT(write_unit_normals);
 
 void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows) {
   HWY_DYNAMIC_DISPATCH(write_ramps)(ramps.data(), ramps.size(), count, rows);
@@ -90,6 +138,13 @@ void add_products(std::span<const HeadTextureRow> heads, std::size_t begin, std:
                   std::span<float* const> sums) {
   HWY_DYNAMIC_DISPATCH(add_products)
   (heads.data(), heads.size(), begin, end, sums.data(), sums.size());
+}
+
+std::array<std::uint64_t, 3> write_unit_normals(std::array<const float*, 2> slopes,
+                                                std::size_t count, std::uint16_t* out) {
+  std::array<std::uint64_t, 3> sums = {};
+  HWY_DYNAMIC_DISPATCH(write_unit_normals)(slopes[0], slopes[1], count, out, sums.data());
+  return sums;
 }
 
 }  // namespace crowdface

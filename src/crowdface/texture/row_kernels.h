@@ -36,4 +36,12 @@ struct HeadTextureRow {
 void add_products(std::span<const HeadTextureRow> heads, std::size_t begin, std::size_t end,
                   std::span<float* const> sums);
 
+/// Converts slopes to unit normals, (slope, slope, 1) normalized, with components from −1 to 1
+/// encoded in 0 … 65,535.
+/// \param slopes  two rows of `count` slopes, at most 65,535.
+/// \param out     count by 3.
+/// \return the sum of each component's encoded values.
+std::array<std::uint64_t, 3> write_unit_normals(std::array<const float*, 2> slopes,
+                                                std::size_t count, std::uint16_t* out);
+
 }  // namespace crowdface

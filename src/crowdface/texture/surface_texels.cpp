@@ -134,4 +134,14 @@ std::size_t SurfaceTexels::memory_bytes() const {
          gutter_.size() * sizeof(GutterTexel);
 }
 
+std::shared_ptr<const LayoutTexels> rasterize_layout(const Topology& topology,
+                                                     const TextureCoordinates& uvs,
+                                                     const TextureLayout& layout) {
+  auto texels = std::make_shared<LayoutTexels>();
+  for (std::uint32_t p = 0; p < layout.pictures.size(); ++p) {
+    texels->emplace_back(topology, uvs, layout, p);
+  }
+  return texels;
+}
+
 }  // namespace crowdface

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -15,12 +16,14 @@ struct TextureLayout {
   struct Picture {
     int width = 0;   ///< texels
     int height = 0;  ///< texels
+    bool operator==(const Picture&) const = default;
   };
   std::vector<Picture> pictures;
   std::vector<std::uint32_t> picture_of_face;  ///< index of each polygon's picture, or kNoIndex
   /// For each polygon: the lower corner (u, v) of the unit square of texture space that contains
   /// the polygon.
   std::vector<std::array<std::int32_t, 2>> tile_of_face;
+  bool operator==(const TextureLayout&) const = default;
 };
 
 /// The mesh rasterized into one texture image: for each texel, the triangle that covers the texel's
@@ -74,5 +77,11 @@ class SurfaceTexels {
   std::vector<GutterTexel> gutter_;
   std::size_t covered_texel_count_ = 0;
 };
+
+/// The mesh rasterized into each image of a layout.
+using LayoutTexels = std::vector<SurfaceTexels>;
+std::shared_ptr<const LayoutTexels> rasterize_layout(const Topology& topology,
+                                                     const TextureCoordinates& uvs,
+                                                     const TextureLayout& layout);
 
 }  // namespace crowdface

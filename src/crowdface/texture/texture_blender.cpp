@@ -179,27 +179,31 @@ FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
   return {weights_of_whole(target, colour_weights(recipe, heads), region_area_fractions), target};
 }
 
-TextureBlender::TextureBlender(const Topology& topology, const TextureCoordinates& uvs,
+TextureBlender::TextureBlender(const Topology& topology, std::shared_ptr<const LayoutTexels> texels,
                                const ChebyshevFilter& filter, const RegionWeights& regions,
                                const CrowdTextures& textures, TextureBlendOptions options,
                                const FindStatistics& find_statistics)
-    : regions_(regions), textures_(textures), options_(std::move(options)) {
+    : regions_(regions),
+      textures_(textures),
+      options_(std::move(options)),
+      texels_(std::move(texels)) {
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
   require(
       textures.layout.picture_of_face.size() == static_cast<std::size_t>(topology.face_count()) &&
           textures.maps.size() == textures.layout.pictures.size() &&
+          texels_->size() == textures.layout.pictures.size() &&
           options_.vertex_areas.size() == vertices,
       "textures of another mesh");
-  for (std::uint32_t p = 0; p < textures.layout.pictures.size(); ++p) {
-    texels_.emplace_back(topology, uvs, textures.layout, p);
+  for (std::size_t p = 0; p < texels_->size(); ++p) {
+    const SurfaceTexels& of_picture = (*texels_)[p];
     for (const auto& map : textures.maps[p]) {
-      require(!map || (map->width == texels_[p].width() && map->height == texels_[p].height()),
+      require(!map || (map->width == of_picture.width() && map->height == of_picture.height()),
               "a texture of another size than the layout's");
     }
     codings_.push_back(common_coding(textures.maps[p]));
   }
   statistics_ = find_statistics([&] {
-    return surface_statistics(filter, texels_, textures.maps, options_.statistics_scale);
+    return surface_statistics(filter, *texels_, textures.maps, options_.statistics_scale);
   });
 
   region_area_fractions_ = region_area_fractions(regions, options_.vertex_areas);
@@ -217,7 +221,7 @@ VertexFactorsOfImage TextureBlender::vertex_factors_of_image(std::size_t picture
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
     if (most > 0) fields.heads.push_back(h);
   }
-  const std::vector<std::uint32_t>& vertices = texels_[picture].vertices();
+  const std::vector<std::uint32_t>& vertices = (*texels_)[picture].vertices();
   const std::size_t width = fields.values_per_vertex();
   fields.values.resize(vertices.size() * width);
   parallel_blocks(
@@ -268,7 +272,7 @@ VertexFactorsOfImage TextureBlender::vertex_factors_of_image(std::size_t picture
 }
 
 BlendedPicture TextureBlender::blend(const Recipe& recipe, std::size_t picture) const {
-  return paint_picture(texels_[picture], codings_[picture], textures_.maps[picture],
+  return paint_picture((*texels_)[picture], codings_[picture], textures_.maps[picture],
                        vertex_factors_of_image(picture, recipe));
 }
 
@@ -278,15 +282,14 @@ std::size_t TextureBlender::memory_bytes() const {
   for (const auto& colours : statistics_.coarse_values) {
     bytes += static_cast<std::size_t>(colours.size()) * sizeof(float);
   }
-  for (const SurfaceTexels& texels : texels_) bytes += texels.memory_bytes();
   return bytes;
 }
 
 std::size_t TextureBlender::blend_bytes() const {
   constexpr std::size_t kBytesPerTexel = 3, kBytesPerWord = 2;
   std::size_t most = 0;
-  for (std::size_t p = 0; p < texels_.size(); ++p) {
-    const SurfaceTexels& texels = texels_[p];
+  for (std::size_t p = 0; p < texels_->size(); ++p) {
+    const SurfaceTexels& texels = (*texels_)[p];
     const bool is_colour = codings_[p].content == MapContent::kColours;
     const std::size_t bytes =
         kBytesPerTexel * (is_colour ? 1 : kBytesPerWord) *

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "crowdface/blend/recipe.h"
@@ -45,12 +46,14 @@ class TextureBlender {
   /// A function that returns the result of its argument `make`, or the same result from a cache.
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
+  /// \param texels             the mesh rasterized into the layout of `textures`.
   /// \param filter             a filter of the mesh, with the umbrella or the lazy operator.
   /// \param regions, textures  these objects and the textures' maps must outlive the blender.
   /// \param find_statistics    a function that may look up the statistics in a cache.
   TextureBlender(
-      const Topology& topology, const TextureCoordinates& uvs, const ChebyshevFilter& filter,
-      const RegionWeights& regions, const CrowdTextures& textures, TextureBlendOptions options,
+      const Topology& topology, std::shared_ptr<const LayoutTexels> texels,
+      const ChebyshevFilter& filter, const RegionWeights& regions, const CrowdTextures& textures,
+      TextureBlendOptions options,
       const FindStatistics& find_statistics = [](const auto& make) { return make(); });
 
   /// Blends one texture image of a face. Thread-safe.
@@ -59,7 +62,10 @@ class TextureBlender {
 
   const SurfaceStatistics& statistics() const { return statistics_; }
 
-  /// Number of bytes of memory that this object uses.
+  const TextureLayout& layout() const { return textures_.layout; }
+  const std::shared_ptr<const LayoutTexels>& texels() const { return texels_; }
+
+  /// Number of bytes of memory that this object uses, without the texels, which blenders share.
   std::size_t memory_bytes() const;
   /// Additional memory in bytes that `blend` needs for the largest texture image.
   std::size_t blend_bytes() const;
@@ -72,8 +78,8 @@ class TextureBlender {
   const RegionWeights& regions_;
   const CrowdTextures& textures_;
   TextureBlendOptions options_;
-  std::vector<SurfaceTexels> texels_;  ///< for each picture: the rasterized surface
-  std::vector<MapCoding> codings_;     ///< for each picture: the coding of the blended picture
+  std::shared_ptr<const LayoutTexels> texels_;
+  std::vector<MapCoding> codings_;  ///< for each picture: the coding of the blended picture
   SurfaceStatistics statistics_;
   std::vector<double>
       region_area_fractions_;  ///< #regions: fraction of the face that each region covers

@@ -47,11 +47,6 @@ void add_row(const TexelRow& row, float weight, TexelRow& sum) {
 
 }  // namespace
 
-StoredValue MapCoding::encode(float number) const {
-  return static_cast<StoredValue>(
-      std::clamp(std::floor((number - low) / step + 0.5F), 0.0F, 65535.0F));
-}
-
 TextureMap make_texture_map(int width, int height, const ImageRows& picture,
                             const MapCoding& coding) {
   require(width > 0 && height > 0 && picture.width > 0 && picture.height > 0, "a texture of ",

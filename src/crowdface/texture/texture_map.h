@@ -38,7 +38,9 @@ struct MapCoding {
   /// Decodes a stored value.
   float decode(StoredValue stored) const { return low + step * static_cast<float>(stored); }
   /// Encodes a number: the nearest stored value, clamped to 0 … 65,535.
-  StoredValue encode(float number) const;
+  StoredValue encode(float number) const {
+    return static_cast<StoredValue>(std::clamp((number - low) / step + 0.5F, 0.0F, 65535.0F));
+  }
 
   /// Slopes from −8 to 8, which are angles up to 83° in steps below 0.02°; slope 0 is exactly
   /// representable.
