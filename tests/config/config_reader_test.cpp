@@ -121,7 +121,7 @@ TEST_F(ReadConfig, ARegionMayBeCalledFace) {
 TEST_F(ReadConfig, TargetsAndSourcesByNameTagAndWeight) {
   const std::string faces =
       "schema: 1\ncrowd: {name: a, count: 1}\n"
-      "faces: {directory: heads, units: m, tags: {ann: [old, thin], cyd: [old]}}\n";
+      "faces: {directory: heads/, units: m, tags: {ann: [old, thin], cyd: [old]}}\n";
   auto config = read(faces + "sampling: {targets: [old], sources: [bob, thin]}\n");
   ASSERT_TRUE(config) << told();
   ASSERT_EQ(config->sampling.targets.size(), 2u);

@@ -53,6 +53,8 @@ TEST(LeadsBelow, LinksAreSeenThrough) {
   EXPECT_TRUE(is_inside_folder(in / "self/a", in));
   EXPECT_FALSE(is_inside_folder(in / "link/d", in));
   EXPECT_FALSE(is_inside_folder(in / "../out/d", in));
+  EXPECT_TRUE(is_inside_folder("a", "")) << "the working directory";
+  EXPECT_FALSE(is_inside_folder(in / "a", ""));
 }
 
 TEST(DirectoryHandle, ASecondFolderOfItsNameIsAnother) {

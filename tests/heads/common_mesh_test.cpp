@@ -4,10 +4,12 @@
 
 #include <functional>
 #include <map>
+#include <regex>
 #include <set>
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_checks.h"
 #include "crowdface/mesh/all_columns.h"
@@ -146,6 +148,22 @@ TEST_F(CommonMesh, HasThePolygonsOfMostHeads) {
     write(1, whole);
     write(2, whole);
     expect_common_mesh(used_);
+  }
+}
+
+TEST_F(CommonMesh, HasTextureCoordinatesIfAnyHeadHasThem) {
+  for (std::size_t h = 0; h < 3; ++h) write(h, whole);
+  for (const std::size_t bare : {0U, 2U}) {
+    const std::string text = read_file(folder_.head(folder_.names()[bare]));
+    folder_.folder().write(
+        "heads/" + folder_.names()[bare] + ".obj",
+        std::regex_replace(text, std::regex("vt [^\n]*\n|/[0-9]+"), std::string()));
+    const std::vector<HeadFile> heads = read();
+    for (const HeadFile& head : heads) {
+      EXPECT_EQ(head.mesh, heads[1].mesh);
+      EXPECT_GT(head.mesh->uvs.rows(), 0);
+    }
+    write(bare, whole);
   }
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/material_files.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/tile_files.h"
 
 #include "support/temporary_folder.h"
@@ -207,6 +210,54 @@ TEST(MaterialFiles, NeverLeaveTheFolder) {
       find_material_files(folder / "heads/head.obj", {"../secret.mtl", "a.mtl", "/etc/passwd"});
   EXPECT_EQ(names(found), (std::vector<std::string>{"a.mtl"}));
   EXPECT_EQ(found.warnings.size(), 4U);
+}
+
+TEST(MaterialFiles, ImagesOutsideTheFolderAreTakenUnderTheirNames) {
+  const testing::TemporaryFolder folder;
+  const std::vector<std::uint8_t> pixels(3, 7);
+  folder.write("textures/skin.png", encode_png(1, 1, 3, pixels));
+  folder.write("textures/eye.1001.png", encode_png(1, 1, 3, pixels));
+  folder.write("textures/notes.png", "no image");
+  folder.write("heads/a.mtl", concat("newmtl a\nmap_Kd ../textures/skin.png\nnewmtl b\nmap_Kd ",
+                                     (folder / "textures/eye.<UDIM>.png").string(),
+                                     "\nnorm ../textures/notes.png\nbump link.png\n"));
+  std::filesystem::create_symlink(folder / "textures/skin.png", folder / "heads/link.png");
+  const auto mesh = folder / "heads/head.obj";
+  const MaterialFiles found = find_material_files(mesh, {"a.mtl"});
+  EXPECT_EQ(names(found),
+            (std::vector<std::string>{"a.mtl", "skin.png", "eye.1001.png", "link.png"}));
+  EXPECT_EQ(found.files[1].source, folder / "textures/skin.png");
+  ASSERT_EQ(found.warnings.size(), 1U);
+  EXPECT_THAT(found.warnings[0], HasSubstr("\"../textures/notes.png\" lies outside"));
+  const auto colours = find_textures(mesh, {"a.mtl"}).paths_by_kind.at(TextureKind::kColour);
+  EXPECT_EQ(colours.at("a"), folder / "textures/skin.png");
+  EXPECT_EQ(udim_tile_path(colours.at("b"), 1001), folder / "textures/eye.1001.png");
+}
+
+TEST(MaterialFiles, AreReadAsProgramsWriteThem) {
+  const std::string plain = "newmtl skin\nmap_Kd skin.png\nnewmtl eye\nmap_Kd eye.png\n";
+  std::string with_cr = plain;
+  std::ranges::replace(with_cr, '\n', '\r');
+  for (const std::string& text :
+       {"\xef\xbb\xbf" + plain, with_cr,
+        std::string("NEWMTL skin\nmap_kd skin.png\nnewmtl eye\nMAP_KD eye.png\n"),
+        std::string("newmtl skin\nmap_Kd \"skin.png\"\nnewmtl eye\nmap_Kd eye.png # brown\n")}) {
+    const testing::TemporaryFolder folder;
+    folder.write("mats/a.mtl", text);
+    folder.write("mats/skin.png", "x");
+    folder.write("eye.png", "x");
+    for (const char* library : {"mats/a.mtl", "\"mats/A.MTL\""}) {
+      const auto of_kind = find_textures(folder / "head.obj", {library}).paths_by_kind;
+      ASSERT_TRUE(of_kind.contains(TextureKind::kColour)) << text;
+      EXPECT_EQ(of_kind.at(TextureKind::kColour).at("skin"), folder / "mats/skin.png") << text;
+      EXPECT_EQ(of_kind.at(TextureKind::kColour).at("eye"), folder / "eye.png") << text;
+    }
+  }
+  const testing::TemporaryFolder folder;
+  folder.write("a.mtl", std::string("\xff\xfen\0e\0w\0", 8));
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  ASSERT_EQ(found.warnings.size(), 1U);
+  EXPECT_THAT(found.warnings[0], HasSubstr("save it as UTF-8"));
 }
 
 TEST(MaterialFiles, LibrariesOfOtherMachinesAreFoundBesideTheMesh) {

@@ -19,8 +19,11 @@ TEST(ObjColours, AreSharesOrBytes) {
   EXPECT_EQ(obj_colours("v 1 2 3 1 0.2 0\nvt 0 0\n v 1 2 3 0 0 0.4\r\n", 2),
             rows({{255, 51, 0}, {0, 0, 102}}));
   EXPECT_EQ(obj_colours("v 1 2 3 255 51 1\n", 1), rows({{255, 51, 1}}));
+  EXPECT_EQ(obj_colours("v 1 2 3 1.001 0.2 0\n", 1), rows({{255, 51, 0}})) << "not quite 1";
   EXPECT_EQ(obj_colours("v 1 2 3\n", 1).rows(), 0);
-  EXPECT_EQ(obj_colours("v 1 2 3 1 1 1\nv 1 2 3\n", 2).rows(), 0) << "not at all vertices";
+  EXPECT_EQ(obj_colours("v 1 2 3\nv 1 2 3 0 0.2 1\nv 1 2 3 1\n", 3),
+            rows({{255, 255, 255}, {0, 51, 255}, {255, 255, 255}}))
+      << "vertices of objects without colours are white";
   EXPECT_EQ(obj_colours("v 1 2 3 1 1 nan\n", 1).rows(), 0);
 }
 

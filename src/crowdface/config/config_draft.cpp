@@ -17,7 +17,10 @@ std::filesystem::path resolve(const std::filesystem::path& folder, const std::st
 
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what) {
-  if (node.text.ends_with('/')) {
+  // The node may also be the folder in which the file was found.
+  const bool names_file =
+      std::filesystem::path(node.text).parent_path().filename() == file.filename();
+  if (node.text.ends_with('/') && names_file) {
     draft.complaints.add_mismatch(node, "a file name without '/' at its end");
     return false;
   }

@@ -72,7 +72,8 @@ std::vector<fs::path> folder_tree(const fs::path& root) {
 bool is_inside_folder(const fs::path& path, const fs::path& folder) {
   std::error_code of_path, of_folder;
   const fs::path way = fs::weakly_canonical(path, of_path)
-                           .lexically_relative(fs::weakly_canonical(folder, of_folder));
+                           .lexically_relative(
+                               fs::weakly_canonical(folder.empty() ? "." : folder, of_folder));
   throw_if_system_error(path, of_path);
   throw_if_system_error(folder, of_folder);
   return !of_path && !of_folder && !way.empty() && *way.begin() != "..";

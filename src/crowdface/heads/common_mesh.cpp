@@ -260,7 +260,8 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
 }
 
 /// Returns the largest set of heads whose polygons have the same numbers of corners in the same
-/// order. If several sets are equally large, returns the set with the lowest-numbered head.
+/// order. If several sets are equally large, returns the set with the lowest-numbered head. If some
+/// of these heads have texture coordinates, the others are left out.
 std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads) {
   std::vector<std::vector<const HeadFile*>> kinds;
   for (const HeadFile& head : heads) {
@@ -273,7 +274,11 @@ std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads)
       same->push_back(&head);
     }
   }
-  return *std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.size(); });
+  std::vector<const HeadFile*> most =
+      *std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.size(); });
+  const auto has_no_uvs = [](const HeadFile* head) { return head->mesh->uvs.rows() == 0; };
+  if (!std::ranges::all_of(most, has_no_uvs)) std::erase_if(most, has_no_uvs);
+  return most;
 }
 
 /// Finds the common mesh that `convert_to_common_mesh` gives to the heads.

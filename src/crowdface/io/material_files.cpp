@@ -2,17 +2,21 @@
 #include "crowdface/io/material_files.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "crowdface/core/contains.h"
 #include "crowdface/core/descriptor.h"
+#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/image.h"
 #include "crowdface/io/legacy_text.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/texture_search.h"
@@ -24,12 +28,17 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kBlanks = " \t\r";
+constexpr std::string_view kTexture = "texture";  // in warnings
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
-/// Whether a relative path stays inside the folder from which it starts. (A NUL is rejected because
-/// the operating system would truncate the name there.)
+/// The operating system would truncate such a name at the NUL.
+bool holds_nul(const fs::path& path) {
+  return path.native().find('\0') != std::string::npos;
+}
+
+/// Whether a relative path stays inside the folder from which it starts.
 bool stays_inside(const fs::path& relative) {
-  if (relative.native().find('\0') != std::string::npos) return false;
+  if (holds_nul(relative)) return false;
   const fs::path normal = relative.lexically_normal();
   return !normal.empty() && normal.is_relative() && *normal.begin() != "..";
 }
@@ -52,7 +61,7 @@ bool is_own_output_name(const fs::path& relative) {
 
 /// The reason why a file with this name is not copied; empty if it is copied.
 std::string_view reason_not_copied(const fs::path& relative) {
-  if (!stays_inside(relative)) return "lies outside the head's folder";
+  if (!stays_inside(relative)) return "has a name that cannot be copied";
   if (is_own_output_name(relative)) return "has a name that belongs to crowdface's own files";
   // The ledger and the report of a run are UTF-8, so they cannot contain other names.
   if (!is_utf8(relative.native())) return "has a name that is not UTF-8";
@@ -123,14 +132,37 @@ class Collector {
     return NameStatus::kTooMany;
   }
 
-  bool exists(const fs::path& relative) const { return is_file(folder_ / relative); }
+  bool exists(const fs::path& relative) const {
+    return !holds_nul(relative) && is_file(folder_ / relative);
+  }
+  bool exists_as_texture(const fs::path& relative) const {
+    return exists(relative) || exists(udim_tile_path(relative, kFirstTile));
+  }
+
+  /// Whether the file lies outside the mesh's folder, by its path or because of a link.
+  bool is_outside(const fs::path& relative) const {
+    return !stays_inside(relative) || !is_inside_folder(folder_ / relative, folder_);
+  }
+
+  /// A file outside the mesh's folder is copied only if it is an image, so that no material file
+  /// can publish other files of this machine.
+  bool is_image(const fs::path& relative) const {
+    try {
+      read_image_size(folder_ / relative, {.allows_jpeg = true});
+      return true;
+    } catch (const InvalidInput&) {
+      return false;
+    }
+  }
 
   bool take_file(const fs::path& relative, std::string_view what) {
     const auto refuse = [&](std::string_view why) {
       files_.warnings.push_back(concat(what, " ", quoted(relative.string()), " ", why));
       return false;
     };
-    if (const std::string_view objection = reason_not_copied(relative); !objection.empty()) {
+    const fs::path destination =
+        (stays_inside(relative) ? relative : relative.filename()).lexically_normal();
+    if (const std::string_view objection = reason_not_copied(destination); !objection.empty()) {
       return refuse(concat(objection, " and is not copied"));
     }
     if (!exists(relative)) {
@@ -140,23 +172,24 @@ class Collector {
       throw_if_system_error(folder_ / relative, {errno, std::generic_category()});
       return refuse("cannot be read and is not copied");
     }
-    if (!is_inside_folder(folder_ / relative, folder_)) {
-      return refuse("is a link that leads out of the head's folder and is not copied");
+    if (is_outside(relative) && (what != kTexture || !is_image(relative))) {
+      return refuse("lies outside the head's folder and is not copied");
     }
-    const fs::path normal = relative.lexically_normal();
-    if (!destinations_.insert(normal).second) return false;
-    files_.files.push_back({folder_ / normal, normal});
+    if (!destinations_.insert(destination).second) return false;
+    files_.files.push_back({(folder_ / relative).lexically_normal(), destination});
     return true;
   }
 
-  /// Finds the file for a path that has backslashes or comes from another machine. Tries the path
-  /// with forward slashes, then the path's file name in the mesh's folder.
-  std::optional<fs::path> library_beside(std::string_view text) const {
+  /// Finds the file for a path that has backslashes, differs in case, or comes from another machine.
+  /// Tries the path with forward slashes, then the path's file name in the mesh's folder.
+  std::optional<fs::path> library_beside(std::string_view text) {
     for (const std::string& name : possible_names(text)) {
       const fs::path path = with_forward_slashes(name);
       for (const fs::path& relative : {path, path.filename()}) {
         if (stays_inside(relative) && exists(relative)) return relative;
       }
+      if (holds_nul(path) || ++searches_ > kMaxSearches) continue;
+      if (auto found = search_texture(folder_, path, mesh_.stem())) return found;
     }
     return std::nullopt;
   }
@@ -176,7 +209,13 @@ class Collector {
     if (is_too_large || error) return;
     textures_of_.clear();
     std::string material;
-    const std::string text = read_file(file);
+    const std::string text = read_material_text(file);
+    if (text.find('\0') != text.npos) {
+      files_.warnings.push_back(concat("material file ", quoted(name.string()),
+                                       " is not UTF-8 text, so its textures are not used: save it "
+                                       "as UTF-8"));
+      return;
+    }
     for (const std::string_view line : split_lines(text)) {
       const auto [word, rest] = material_statement(line);
       throw_if_interrupted();
@@ -186,11 +225,10 @@ class Collector {
       }
       if (!is_texture_statement(word)) continue;
       const fs::path relative = texture_of(rest, name.parent_path());
-      const NameStatus status = add_name(relative, "texture", file, textures_);
+      const NameStatus status = add_name(relative, kTexture, file, textures_);
       if (status == NameStatus::kTooMany) continue;
       const std::optional<TextureKind> kind = texture_kind_of(word);
-      if (kind && stays_inside(relative) &&
-          is_inside_folder(folder_ / udim_tile_path(relative, kFirstTile), folder_)) {
+      if (kind && (stays_inside(relative) || exists_as_texture(relative))) {
         of_kind_[*kind].emplace(material, (folder_ / relative).lexically_normal());
       }
       texture_uses_[relative].kinds.insert(kind);
@@ -210,8 +248,7 @@ class Collector {
     if (textures_.full) return known->second;
     for (const std::string_view suffix : suffixes) {
       fs::path relative = folder / with_forward_slashes(suffix);
-      if (!stays_inside(relative)) continue;
-      if (!exists(relative) && !exists(udim_tile_path(relative, kFirstTile))) continue;
+      if (!exists_as_texture(relative)) continue;
       return known->second = std::move(relative);
     }
     // The path may come from another machine or have another encoding. First look for the file name
@@ -221,34 +258,43 @@ class Collector {
         const fs::path beside = folder / fs::path(with_forward_slashes(name)).filename();
         if (beside.filename().empty() || beside.filename() == "." || beside.filename() == "..")
           continue;
-        if (!exists(beside) && !exists(udim_tile_path(beside, kFirstTile))) continue;
+        if (!exists_as_texture(beside)) continue;
         return known->second = beside;
       }
     }
     for (const std::string& name : possible_names(has_options ? suffixes.back() : rest)) {
       if (name.find('\0') != name.npos || ++searches_ > kMaxSearches) break;
-      const auto found = search_texture(folder_ / folder, with_forward_slashes(name), mesh_.stem());
-      if (found) return known->second = folder / *found;
+      const fs::path path = with_forward_slashes(name);
+      if (const auto found = search_texture(folder_ / folder, path, mesh_.stem()))
+        return known->second = folder / *found;
+      if (folder.empty()) continue;
+      if (const auto found = search_texture(folder_, path, mesh_.stem()))
+        return known->second = *found;
     }
     return known->second;
   }
 
-  /// All names that the text may mean: first the text decoded from each possible encoding, then the
-  /// unchanged text.
+  /// All names that the text may mean: the text decoded from each possible encoding, the unchanged
+  /// text, and the text without a comment at its end and without quotation marks.
   static std::vector<std::string> possible_names(std::string_view text) {
     std::vector<std::string> names = legacy_decodings(text);
     names.emplace_back(text);
+    std::string_view bare = text.substr(0, text.find(" #"));
+    bare = bare.substr(0, bare.find_last_not_of(kBlanks) + 1);
+    if (bare.size() > 2 && bare.front() == '"' && bare.back() == '"')
+      bare = bare.substr(1, bare.size() - 2);
+    if (bare != text && !bare.empty()) names.emplace_back(bare);
     return names;
   }
 
   void take_texture(const fs::path& relative) {
     std::vector<fs::path> tiles;
-    if (stays_inside(relative)) tiles = find_tiles(folder_ / relative);
+    if (!holds_nul(relative)) tiles = find_tiles(folder_ / relative);
     const std::size_t before = files_.files.size();
     for (const fs::path& tile : tiles) {
-      take_file(relative.parent_path() / tile.filename(), "texture");
+      take_file(relative.parent_path() / tile.filename(), kTexture);
     }
-    if (tiles.empty()) take_file(relative, "texture");
+    if (tiles.empty()) take_file(relative, kTexture);
     for (std::size_t i = before; i < files_.files.size(); ++i) {
       texture_uses_[relative].files.push_back(i);
     }
@@ -274,6 +320,19 @@ class Collector {
   std::map<fs::path, TextureUses> texture_uses_;
 };
 
+/// The keyword in the case in which this program compares it; some programs write `map_kd`.
+std::string_view usual_spelling(std::string_view word) {
+  constexpr std::array<std::string_view, 13> kKeywords = {
+      "newmtl", "Kd",   "d",        "Tr",       "map_Kd", "map_d", "norm",
+      "map_Pr", "disp", "map_Bump", "map_bump", "bump",   "map_Ks"};
+  if (contains(kKeywords, word)) return word;
+  const auto is_same = [&](std::string_view known) {
+    return known.size() == word.size() && lower_case(known) == lower_case(word);
+  };
+  const auto* const found = std::ranges::find_if(kKeywords, is_same);
+  return found == kKeywords.end() ? word : *found;
+}
+
 Collector collect(const fs::path& mesh, const std::vector<std::string>& libraries) {
   Collector collector(mesh);
   for (const std::string& library : libraries) collector.add_library(library);
@@ -287,7 +346,16 @@ MaterialStatement material_statement(std::string_view line) {
   line = line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
   const std::size_t blank = line.find_first_of(kBlanks);
   if (blank == line.npos) return {};
-  return {line.substr(0, blank), line.substr(line.find_first_not_of(kBlanks, blank))};
+  return {usual_spelling(line.substr(0, blank)),
+          line.substr(line.find_first_not_of(kBlanks, blank))};
+}
+
+std::string read_material_text(const fs::path& file) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::string text = read_file(file);
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  if (text.find('\n') == text.npos) std::ranges::replace(text, '\r', '\n');
+  return text;
 }
 
 std::vector<std::string_view> suffixes_starting_at_words(std::string_view text) {

@@ -42,7 +42,10 @@ inline constexpr std::string_view kBlendedFolder = "blended";
 struct MaterialStatement {
   std::string_view keyword, arguments;
 };
+/// The keyword of a known statement has its usual case, whatever the case in the line.
 MaterialStatement material_statement(std::string_view line);
+/// Reads a material file. Removes a byte-order mark, and turns CR line ends into LF.
+std::string read_material_text(const std::filesystem::path& file);
 /// Whether a statement with this first word names a texture.
 bool is_texture_statement(std::string_view word);
 /// All suffixes of a statement's arguments that begin at one of the last 32 words, longest first.
@@ -53,8 +56,9 @@ std::vector<std::string_view> suffixes_starting_at_words(std::string_view text);
 /// Finds the material files that a mesh names, and the textures that these files name. A name with
 /// the placeholder `<UDIM>` stands for all existing tiles. Warns about files that are missing or
 /// unreadable, and about more names than `input_limits().textures`. Also warns about files that
-/// crowdface does not copy: files outside the mesh's folder, and files whose names crowdface uses
-/// for its own files (mesh files, and everything in the folders `topology` and `blended`).
+/// crowdface does not copy: files outside the mesh's folder that are no images, and files whose
+/// names crowdface uses for its own files (mesh files, and everything in the folders `topology` and
+/// `blended`). An image outside the mesh's folder is copied under its file name.
 /// \param mesh  path of the OBJ file.
 /// \param libraries  arguments of the `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,

@@ -49,6 +49,12 @@ ObjFile convert_to_obj(FileMesh mesh, const std::filesystem::path& path,
 
 FileMesh read_joined_mesh(const std::filesystem::path& path) {
   FileMesh mesh = read_mesh(path);
+  for (Index v = 0; v < mesh.positions.rows(); ++v) {
+    if (mesh.positions.row(v).allFinite()) continue;
+    refuse_file(path, concat("expected finite positions, found ", mesh.positions(v, 0), ' ',
+                             mesh.positions(v, 1), ' ', mesh.positions(v, 2), " at vertex ", v + 1,
+                             ": remove this vertex from all heads"));
+  }
   join_split_vertices(mesh);
   return mesh;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "crowdface/core/text.h"
@@ -32,16 +33,22 @@ Positions colour_fractions(const ColourRows& colours) {
 
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
   constexpr std::size_t kFirst = 4, kMinWords = 7;  // "v", x y z, r g b
+  constexpr double kNone = std::numeric_limits<double>::lowest();
+  constexpr std::ptrdiff_t kMinBlanks = 6;
   std::vector<std::array<double, 3>> found;
+  bool has_some = false;
   double most = 1;
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
     end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
     if (!is_vertex(line)) continue;
-    const std::vector<std::string> words = words_of(line);
-    if (words.size() < kMinWords) return ColourRows(0, 3);
     if (found.empty()) found.reserve(static_cast<std::size_t>(vertices));
     std::array<double, 3>& colour = found.emplace_back();
+    colour.fill(kNone);
+    if (std::ranges::count_if(line, is_blank) < kMinBlanks) continue;
+    const std::vector<std::string> words = words_of(line);
+    if (words.size() < kMinWords) continue;
+    has_some = true;
     for (std::size_t c = 0; c < 3; ++c) {
       const auto number = parse_double(words[kFirst + c]);
       if (!number || !std::isfinite(*number)) return ColourRows(0, 3);
@@ -49,12 +56,14 @@ ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
       most = std::max(most, *number);
     }
   }
-  if (static_cast<Eigen::Index>(found.size()) != vertices) return ColourRows(0, 3);
+  if (!has_some || static_cast<Eigen::Index>(found.size()) != vertices) return ColourRows(0, 3);
   ColourRows colours(vertices, 3);
-  const double scale = most > 1 ? 1 : kMaxByte;
+  const double scale = most > kLargestFraction ? 1 : kMaxByte;
   for (Eigen::Index v = 0; v < vertices; ++v) {
+    const std::array<double, 3>& of_vertex = found[static_cast<std::size_t>(v)];
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const double value = scale * found[static_cast<std::size_t>(v)][static_cast<std::size_t>(c)];
+      const double number = of_vertex[static_cast<std::size_t>(c)];
+      const double value = of_vertex[0] == kNone ? kMaxByte : scale * number;
       colours(v, c) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, kMaxByte)));
     }
   }

@@ -17,8 +17,12 @@ ColourRows byte_colours(const Positions& fractions);
 /// Converts sRGB colours from bytes to fractions (0 to 1).
 Positions colour_fractions(const ColourRows& colours);
 
-/// The colours of the `v` lines; no rows if any line lacks a colour. If a value exceeds 1, all
-/// values count as bytes from 0 to 255.
+/// If no colour value of a mesh exceeds this number, the values are fractions, and values above 1
+/// are clamped to 1; otherwise they are bytes from 0 to 255.
+inline constexpr double kLargestFraction = 2;
+
+/// The colours of the `v` lines. Vertices without a colour are white; no rows if no vertex has a
+/// colour.
 /// \param vertices  number of vertices in the text.
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 

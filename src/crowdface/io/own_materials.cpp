@@ -38,7 +38,7 @@ MergedMaterials::MergedMaterials(const std::filesystem::path& mesh,
     if (!file.is_material_file) continue;
     std::string folder = file.destination.parent_path().generic_string();
     if (!shared.empty()) folder = concat(shared, folder.empty() ? "" : "/", folder);
-    const std::string text = read_file(file.source);
+    const std::string text = read_material_text(file.source);
     std::string material;
     for (const std::string_view as_it_stands : split_lines(text)) {
       Line line{std::string(as_it_stands), {}, {}, {}};

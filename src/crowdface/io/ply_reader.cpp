@@ -11,6 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/io/foreign_file.h"
+#include "crowdface/io/obj_colours.h"
 
 namespace crowdface {
 namespace {
@@ -219,11 +220,15 @@ class PlyReader {
         if (has_colours) {
           const double full = element.properties[colour[c]].type.full;
           const double share = values[colour[c]] / full;
-          mesh_.colours(v, column) = std::isnan(share) ? 0 : std::clamp(share, 0.0, 1.0);
+          mesh_.colours(v, column) = std::isnan(share) ? 0 : share;
         }
         if (has_vertex_uvs_ && c < 2) mesh_.uvs(v, column) = values[uv[c]];
       }
     }
+    if (mesh_.colours.rows() == 0) return;
+    constexpr double kMaxByte = 255;
+    if (mesh_.colours.maxCoeff() > kLargestFraction) mesh_.colours /= kMaxByte;
+    mesh_.colours = mesh_.colours.cwiseMax(0).cwiseMin(1);
   }
 
   std::uint64_t list_count(const Property& property) {

@@ -107,7 +107,11 @@ FileMesh mesh_of_npy(std::string_view bytes, const fs::path& path) {
   }
   const std::size_t width = array.shape.empty() ? 0 : array.shape.back();
   if (width != 3 || array.shape.size() < 2) {
-    refuse_file(path, "expected positions (n by 3), found an array of another shape");
+    std::string shape;
+    for (const std::size_t size : array.shape) shape += concat(shape.empty() ? "" : " by ", size);
+    refuse_file(
+        path, concat("expected positions (n by 3), found an array of ", shape,
+                     array.shape.size() == 2 && array.shape[0] == 3 ? ": save its transpose" : ""));
   }
   FileMesh mesh;
   const auto rows = static_cast<Index>(array.values.size() / 3);

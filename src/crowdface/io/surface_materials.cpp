@@ -29,8 +29,10 @@ std::filesystem::path texture_at_end(std::string_view rest, const std::filesyste
     std::string name(suffix);
     std::replace(name.begin(), name.end(), '\\', '/');
     const std::filesystem::path relative = (folder / name).lexically_normal();
+    const bool is_outside = relative.is_absolute() || *relative.begin() == "..";
+    const std::filesystem::path copied = is_outside ? relative.filename() : relative;
     for (const MaterialFile& file : files.files) {
-      if (!file.is_material_file && file.destination == relative) return file.source;
+      if (!file.is_material_file && file.destination == copied) return file.source;
     }
   }
   return {};
@@ -62,7 +64,7 @@ std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files) 
   std::vector<SurfaceMaterial> materials;
   for (const MaterialFile& file : files.files) {
     if (!file.is_material_file) continue;
-    const std::string text = read_file(file.source);
+    const std::string text = read_material_text(file.source);
     for (const std::string_view line : split_lines(text)) {
       throw_if_interrupted();
       const MaterialStatement statement = material_statement(line);
