@@ -46,6 +46,62 @@ TEST(LandmarkLists, AreReadAsOtherProgramsWriteThem) {
       {"id": "2", "label": "nose tip", "position": [4, 5, 6]}]}]})");
 }
 
+// The first of four numbers was dropped, so that x, y, z were y, z and the error.
+TEST(LandmarkLists, NumbersAfterThePointAreIgnored) {
+  expect_chin_and_nose("metashape.csv",
+                       "# CoordinateSystem: LOCAL\n#Label,X/Easting,Y/Northing,Z/Altitude,Error\n"
+                       "chin,1,-2.5,3,0.1\nnose tip,4,5,6,0.2,7,8\n");
+  expect_chin_and_nose("rows.csv", "1,chin,1,-2.5,3,0.1\n2,nose tip,4,5,6,0.2\n");
+  expect_chin_and_nose("rows.csv", "1,1,-2.5,3,chin\n2,4,5,6,nose tip\n");
+  expect_chin_and_nose("colours.csv", "1,-2.5,3,chin,255,0,0\n4,5,6,nose tip,255,0,0\n");
+}
+
+TEST(LandmarkLists, HeadersNameTheColumns) {
+  expect_chin_and_nose("a.csv",
+                       "\n# c\nError,Name,Z (m),Y (m),X (m)\n1,chin,3,-2.5,1\n"
+                       "2,nose tip,6,5,4\n");
+  expect_chin_and_nose("b.csv", "id,label,x,y,z,note\n7,chin,1,-2.5,3,\n8,nose tip,4,5,6,good\n");
+  expect_chin_and_nose("r.txt", "x\ty\tz\nchin\t1\t-2.5\t3\nnose tip\t4\t5\t6\n");
+}
+
+TEST(LandmarkLists, NamesMayBeNumbersOrHoldANumberSign) {
+  const TemporaryFolder folder;
+  for (const char* text : {"0,1,-2.5,3\n12,4,5,6\n", "id;x;y;z\n0;1;-2,5;3\n12;4;5;6\n",
+                           "x y z name\n1 -2.5 3 0\n4 5 6 12\n"}) {
+    const auto places = read_landmarks(folder.write("numbers.txt", text)).scan_places;
+    ASSERT_EQ(places.size(), 2U) << text;
+    EXPECT_EQ(places.at("0").point, Eigen::Vector3d(1, -2.5, 3)) << text;
+    EXPECT_EQ(places.at("12").point, Eigen::Vector3d(4, 5, 6)) << text;
+  }
+  const auto labels =
+      read_landmarks(folder.write("l.txt", " # c\nPoint #0,1,2,3\nPoint #1,4,5,6\n")).scan_places;
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_EQ(labels.at("Point #1").point, Eigen::Vector3d(4, 5, 6));
+}
+
+TEST(LandmarkLists, TextMayHaveAnotherEncodingAndOtherLineEnds) {
+  expect_chin_and_nose(
+      "declared.pp",
+      "\xEF\xBB\xBF<?xml version=\"1.0\"?>\n<!DOCTYPE PickedPoints>\n<PickedPoints>"
+      "<point x=\"1\" y=\"-2.5\" z=\"3\" name=\"chin\"/>"
+      "<point x=\"4\" y=\"5\" z=\"6\" name=\"nose tip\"/></PickedPoints>");
+  expect_chin_and_nose("mark.csv",
+                       "\xEF\xBB\xBF"
+                       "chin,1,-2.5,3\nnose tip,4,5,6\n");
+  const std::string lines = "chin\t1\t-2,5\t3\rnose tip\t4\t5\t6\r";
+  expect_chin_and_nose("lone_cr.txt", lines);
+  std::string little = "\xFF\xFE", big = "\xFE\xFF";
+  for (const char c : lines) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  expect_chin_and_nose("little.txt", little);
+  expect_chin_and_nose("big.txt", big);
+  const TemporaryFolder folder;
+  const auto places = read_landmarks(folder.write("w.csv", "Nasenfl\xFCgel,1,2,3\n")).scan_places;
+  EXPECT_TRUE(places.contains("Nasenfl\xC3\xBCgel"));
+}
+
 TEST(LandmarkLists, VerticesAndNamelessPointsAreTaken) {
   const TemporaryFolder folder;
   const LandmarkFile vertices =
@@ -88,6 +144,18 @@ TEST(LandmarkLists, WhatIsWrongIsNamedWithItsPlace) {
   refuse("f.json", "{}", "found none");
   refuse("g.pts", "version: 1\nn_points: 1\n{\n1 2 3\n}\n", "expected landmarks as .yaml, .pp");
   refuse("h.fcsv", "a,1,2\n", ":1: expected id, x, y, z");
+  refuse("i.txt", "nose tip 1 2 3\n",
+         ":1: expected a name and x, y, z, or a name and a vertex; if "
+         "names contain blanks, separate the columns by commas");
+  refuse("j.txt", "tip 0 1 2 3\n", "if names contain blanks");
+  refuse("k.csv", "name,x,y,z\nchin,1,,3\n", ":2: expected a name and x, y, z");
+  refuse("l.csv", "name,x,y,z\nchin,1,2,3,4\n", "in the columns of the header");
+  refuse("m.csv", "1.5,2,3,0.1\n", "found 4 numbers");
+  refuse("n.pp", "<html></html>", "expected an element PickedPoints");
+  refuse("o.txt",
+         "\xFF\xFE"
+         "a",
+         "expected text in UTF-8 or UTF-16");
 }
 
 }  // namespace

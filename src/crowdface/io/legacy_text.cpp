@@ -38,4 +38,11 @@ std::vector<std::string> legacy_decodings(std::string_view bytes) {
   return readings;
 }
 
+std::string without_byte_order_mark(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+    return converted(bytes, "UTF-16");
+  }
+  return std::string(bytes.substr(bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0));
+}
+
 }  // namespace crowdface

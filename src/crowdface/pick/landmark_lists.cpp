@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/legacy_text.h"
 #include "crowdface/io/npy_array.h"
 #include "crowdface/io/shallow_json.h"
 
@@ -28,6 +30,8 @@ class LandmarkList {
     if (places_.size() >= kMaxListed)
       fail(where, concat("expected at most ", kMaxListed, " landmarks"));
     if (name.empty()) name = std::to_string(places_.size() + 1);
+    // The last decoding is Windows-1252, which spreadsheets of western systems write.
+    if (const auto decodings = legacy_decodings(name); !decodings.empty()) name = decodings.back();
     LandmarkPlace place;
     place.file_location = concat(path_, where);
     place.is_vertex = numbers.size() == 1;
@@ -112,44 +116,153 @@ void read_fcsv(std::string_view text, LandmarkList& list) {
   }
 }
 
+/// Parses a number with a decimal point or, as some systems write it, a decimal comma.
+std::optional<double> number_in(std::string_view field) {
+  std::string with_point(field);
+  std::ranges::replace(with_point, ',', '.');
+  return parse_double(with_point);
+}
+
+bool is_number(std::string_view field) {
+  return number_in(field).has_value();
+}
+
+char separator_of(std::string_view line) {
+  for (const char separator : {'\t', ';', ','}) {
+    if (line.find(separator) != line.npos) return separator;
+  }
+  return ' ';
+}
+
+/// The fields of a line, without quotes, and without empty fields at the end.
+std::vector<std::string_view> fields_of(std::string_view line, char separator) {
+  std::vector<std::string_view> fields;
+  for (std::string_view field : split(line, separator)) {
+    constexpr std::string_view kAround = " \t\r\"'";
+    field.remove_prefix(std::min(field.find_first_not_of(kAround), field.size()));
+    field = field.substr(0, field.find_last_not_of(kAround) + 1);
+    if (!field.empty() || separator != ' ') fields.push_back(field);
+  }
+  while (!fields.empty() && fields.back().empty()) fields.pop_back();
+  return fields;
+}
+
+/// The columns of a table whose header names the columns x, y and z, or the column vertex.
+struct TableColumns {
+  std::size_t count = 0;             ///< number of columns; 0 if there is no such header
+  std::vector<std::size_t> numbers;  ///< columns of x, y and z, or the column of the vertex
+  std::optional<std::size_t> name;
+};
+
+TableColumns columns_of(const std::vector<std::string_view>& header) {
+  // Compares only the first word of a column's name: "X (mm)" and "X/Easting" are x.
+  const auto find = [&](std::string_view word) -> std::optional<std::size_t> {
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      if (lower_case(header[i].substr(0, header[i].find_first_of(" _/(["))) == word) return i;
+    }
+    return std::nullopt;
+  };
+  TableColumns columns;
+  const auto x = find("x"), y = find("y"), z = find("z"), vertex = find("vertex");
+  if (x && y && z) {
+    columns.numbers = {*x, *y, *z};
+  } else if (vertex) {
+    columns.numbers = {*vertex};
+  } else {
+    return columns;
+  }
+  columns.count = header.size();
+  for (const char* word : {"name", "label", "landmark", "marker", "point", "id", "index"}) {
+    if (!columns.name) columns.name = find(word);
+  }
+  if (!columns.name && columns.numbers[0] > 0) columns.name = 0;
+  return columns;
+}
+
+/// A row of a table.
+struct TableRow {
+  std::string name;             ///< empty if the row has no name
+  std::vector<double> numbers;  ///< a vertex or x, y, z; another count if the row is wrong
+};
+
+/// Reads a row by the header of its table. Returns nothing if a number is missing.
+std::optional<TableRow> row_by_header(const std::vector<std::string_view>& fields,
+                                      const TableColumns& columns) {
+  // R writes names of rows in front of the columns, and no header for the names.
+  const std::size_t shift = columns.numbers[0] == 0 && fields.size() == columns.count + 1 ? 1 : 0;
+  if (fields.size() > columns.count + shift) return std::nullopt;
+  TableRow row;
+  const std::optional<std::size_t> name = shift == 1 ? 0 : columns.name;
+  if (name && *name < fields.size()) row.name = fields[*name];
+  for (const std::size_t column : columns.numbers) {
+    if (column + shift >= fields.size()) return std::nullopt;
+    const auto number = number_in(fields[column + shift]);
+    if (!number) return std::nullopt;
+    row.numbers.push_back(*number);
+  }
+  return row;
+}
+
+/// Reads a row of a table without a header that names the columns. Returns nothing if the row has
+/// several words.
+std::optional<TableRow> row_by_order(const std::vector<std::string_view>& fields) {
+  TableRow row;
+  std::vector<double> before;  // the numbers in front of the name
+  for (const std::string_view field : fields) {
+    if (const auto number = number_in(field)) {
+      row.numbers.push_back(*number);
+    } else if (!field.empty() && !row.name.empty()) {
+      return std::nullopt;
+    } else if (!field.empty()) {
+      row.name = field;
+      before.swap(row.numbers);
+    }
+  }
+  if (row.name.empty()) {
+    // A whole number in front of x, y, z is the name of the point.
+    if (row.numbers.size() != 4 || !parse_unsigned(fields[0])) return row;
+    row.name = fields[0];
+    row.numbers.erase(row.numbers.begin());
+  } else if (row.numbers.empty() || before.size() >= 3) {
+    row.numbers = std::move(before);  // the name follows x, y, z, or the vertex
+    // A number that precedes x, y, z is a row number.
+    if (row.numbers.size() == 4) row.numbers.erase(row.numbers.begin());
+  } else if (before.size() > 1) {
+    return std::nullopt;
+  } else if (row.numbers.size() > 3) {
+    row.numbers.resize(3);  // errors or colours follow x, y, z
+  }
+  return row;
+}
+
 /// Reads a name and numbers per line, separated by tabs, semicolons, commas or blanks. The first
 /// line may be a header.
 void read_table(std::string_view text, LandmarkList& list) {
   std::size_t line_number = 0;
-  for (std::string_view line : split_lines(text)) {
+  bool is_first = true;
+  TableColumns columns;
+  for (const std::string_view line : split_lines(text)) {
     ++line_number;
-    line = line.substr(0, line.find('#'));
-    const char separator = line.find('\t') != line.npos  ? '\t'
-                           : line.find(';') != line.npos ? ';'
-                           : line.find(',') != line.npos ? ','
-                                                         : ' ';
-    std::string name;
-    std::vector<double> numbers;
-    bool has_other_words = false;
-    for (std::string_view word : split(line, separator)) {
-      constexpr std::string_view kAround = " \t\r\"'";
-      word.remove_prefix(std::min(word.find_first_not_of(kAround), word.size()));
-      word = word.substr(0, word.find_last_not_of(kAround) + 1);
-      if (word.empty()) continue;
-      std::string with_point(word);  // some systems write a decimal comma
-      std::ranges::replace(with_point, ',', '.');
-      if (const auto number = parse_double(with_point)) {
-        numbers.push_back(*number);
-      } else if (name.empty()) {
-        name = word;
-      } else {
-        has_other_words = true;
-      }
+    const char separator = separator_of(line);
+    const std::vector<std::string_view> fields = fields_of(line, separator);
+    if (fields.empty() || line[line.find_first_not_of(" \t")] == '#') continue;
+    if (std::exchange(is_first, false) && std::ranges::none_of(fields, is_number)) {
+      columns = columns_of(fields);
+      continue;
     }
-    const bool is_header = numbers.empty() && (line_number == 1 || name.empty());
-    if (is_header) continue;
-    // A number that precedes the name and the point's coordinates is a row number.
-    if (numbers.size() == 4 && !name.empty()) numbers.erase(numbers.begin());
     const std::string where = concat(':', line_number);
-    if (has_other_words || numbers.empty()) {
-      list.fail(where, "expected a name and x, y, z, or a name and a vertex");
+    const auto row = columns.count > 0 ? row_by_header(fields, columns) : row_by_order(fields);
+    // Without other separators, "tip 0 1 2 3" may be a name with blanks, or a point and its error.
+    const bool is_ambiguous = separator == ' ' && columns.count == 0 && row && !row->name.empty() &&
+                              !is_number(fields[0]) && fields.size() > 4;
+    if (!row || row->numbers.empty() || is_ambiguous) {
+      list.fail(where, concat("expected a name and x, y, z, or a name and a vertex",
+                              columns.count > 0 ? ", in the columns of the header" : "",
+                              separator == ' ' ? "; if names contain blanks, separate the columns "
+                                                 "by commas or tabs"
+                                               : ""));
     }
-    list.add(name, numbers, where);
+    list.add(row->name, row->numbers, where);
   }
 }
 
@@ -221,25 +334,41 @@ void read_array(std::string_view bytes, const std::string& name, LandmarkList& l
 
 }  // namespace
 
+const std::vector<std::string>& landmark_extensions() {
+  static const std::vector<std::string> extensions = {".yaml", ".pp",   ".csv",  ".tsv", ".txt",
+                                                      ".xyz",  ".json", ".fcsv", ".npy", ".yml"};
+  return extensions;
+}
+
 std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     std::string_view bytes, const std::filesystem::path& path) {
   LandmarkList list(path);
   const std::string ending = lower_case(path.extension().string());
-  std::string_view text = bytes;
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   if (bytes.starts_with("\x93NUMPY")) {
     read_array(bytes, path.string(), list);
-  } else if (text.starts_with("<!DOCTYPE PickedPoints") || text.starts_with("<PickedPoints")) {
+    return list.take();
+  }
+  std::string content = without_byte_order_mark(bytes);
+  if (content.empty() && !bytes.empty()) list.fail("", "expected text in UTF-8 or UTF-16");
+  // Some programs end lines with CR.
+  for (std::size_t i = 0; i < content.size(); ++i) {
+    const bool is_line_end = i + 1 == content.size() || content[i + 1] != '\n';
+    if (content[i] == '\r' && is_line_end) content[i] = '\n';
+  }
+  std::string_view text = content;
+  text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+  if (text.starts_with('<') && text.find("<PickedPoints") != text.npos) {
     read_picked_points(text, list);
   } else if (text.starts_with('{') || text.starts_with('[')) {
     if (!read_json(text, list)) return std::nullopt;
   } else if (ending == ".csv" || ending == ".tsv" || ending == ".txt" || ending == ".xyz") {
-    read_table(bytes, list);
+    read_table(content, list);
   } else if (ending == ".fcsv") {
-    read_fcsv(bytes, list);
+    read_fcsv(content, list);
+  } else if (ending == ".pp") {
+    list.fail("", "expected an element PickedPoints, as MeshLab writes it, found none");
   } else if (!ending.empty() && ending != ".yaml" && ending != ".yml" && ending != ".json") {
-    list.fail("", "expected landmarks as .yaml, .pp, .csv, .tsv, .txt, .xyz, .json, .fcsv or .npy");
+    list.fail("", concat("expected landmarks as ", join(landmark_extensions())));
   } else {
     return std::nullopt;
   }
