@@ -84,6 +84,27 @@ TEST_F(Wrap, ABatchGoesOnWhereItStoppedAndPastWhatIsNoScan) {
   EXPECT_TRUE(fs::exists(folder_ / "out/person_3.obj"));
 }
 
+TEST_F(Wrap, ABatchReadsLandmarksInEachFormatAndNoHiddenFiles) {
+  const std::string rows = "a,400\nb,900\nc,1500\nd,2100\ne,2700\nf,3300\ng,3900\n";
+  const std::string json =
+      "{\"a\":400,\"b\":900,\"c\":1500,\"d\":2100,\"e\":2700,\"f\":3300,\"g\":3900}";
+  fs::copy(head(2), scans_ / "table.obj");
+  fs::copy(head(2), scans_ / "list.obj");
+  fs::copy(head(2), scans_ / "short.obj");
+  folder_.write("scans/table.csv", rows);
+  folder_.write("scans/list.json", json);
+  folder_.write("scans/short.yml", concat("scan: ", kPlaces));
+  folder_.write("scans/._table.obj", std::string("\0\5\x16\7", 4));
+  const std::string said =
+      crowdface(0, {"wrap", "--batch", scans_.string(), "--template", head(1).string(),
+                    "--landmarks", landmarks_.string(), "-o", folder_ / "out", "--dry-run"})
+          .err;
+  for (const char* scan : {"table.obj", "list.obj", "short.obj"}) {
+    EXPECT_THAT(said, ::testing::ContainsRegex(concat(scan, ": [0-9]+ triangles, 7 landmarks")));
+  }
+  EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("._table")));
+}
+
 TEST_F(Wrap, ShardsShareABatchAndThePageShowsTheMostDoubtfulFirst) {
   for (int i = 2; i <= 3; ++i) {
     fs::copy(head(i), scans_ / concat("person_", i, ".obj"));

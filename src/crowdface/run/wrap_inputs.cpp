@@ -130,7 +130,8 @@ std::vector<fs::path> list_files_with_extensions(const fs::path& folder,
       folder,
       [&](const fs::path& path) {
         const std::string ending = lower_case(path.extension().string());
-        return std::ranges::find(endings, ending) != endings.end();
+        const bool is_hidden = path.filename().string().starts_with('.');
+        return !is_hidden && std::ranges::find(endings, ending) != endings.end();
       },
       &error);
   if (error)

@@ -61,7 +61,7 @@ WrapInputs read_wrap_inputs(const WrapOptions& options);
 /// Parses a length unit. \throws UsageError naming the option.
 LengthUnit parse_unit(const std::string& option, const std::string& text);
 
-/// Lists the files in a folder with one of these extensions, sorted by name.
+/// Lists the files in a folder with one of these extensions, sorted by name. Omits hidden files.
 /// \param endings  lower-case extensions, such as ".obj". \throws MissingInput.
 std::vector<std::filesystem::path> list_files_with_extensions(
     const std::filesystem::path& folder, const std::vector<std::string>& endings);

@@ -20,6 +20,7 @@
 #include "crowdface/io/read_mesh.h"
 #include "crowdface/paint/face_marks.h"
 #include "crowdface/pick/found_landmarks.h"
+#include "crowdface/pick/landmark_lists.h"
 #include "crowdface/pick/suggested_places.h"
 #include "crowdface/run/wrap_inputs.h"
 #include "crowdface/run/wrap_page.h"
@@ -45,9 +46,13 @@ Task make_task(const fs::path& scan, const fs::path& head, const fs::path& repor
   Task task{scan, scan, head, reports / concat(name, ".wrap.json"),
             reports / concat(name, ".wrap.png")};
   task.own_landmarks.clear();
-  for (const char* ending : {".yaml", ".pp", "_picked_points.pp"}) {
+  std::vector<std::string> endings = {".yaml", ".pp", "_picked_points.pp", ".mrk.json"};
+  endings.insert(endings.end(), landmark_extensions().begin(), landmark_extensions().end());
+  for (const std::string& ending : endings) {
     const fs::path beside = scan.parent_path() / concat(scan.stem().string(), ending);
-    if (task.own_landmarks.empty() && path_exists(beside)) task.own_landmarks = beside;
+    if (task.own_landmarks.empty() && beside != scan && path_exists(beside)) {
+      task.own_landmarks = beside;
+    }
   }
   return task;
 }
