@@ -162,18 +162,18 @@ std::string base64(const std::string& bytes) {
 
 struct GltfParts {
   std::string node = R"({"mesh":0})", primitive = R"({"attributes":{"POSITION":0},"indices":1})",
-              accessors, views, more;
+              accessors, views, more, weights;
   std::string data;
 };
 
-FileMesh mesh_of(const GltfParts& parts) {
+FileMesh mesh_of(const GltfParts& parts, const std::filesystem::path& path = "scene.gltf") {
   return parse_gltf(
       concat(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)",
-             parts.node, R"(],"meshes":[{"primitives":[)", parts.primitive, R"(]}],"accessors":[)",
-             parts.accessors, R"(],"bufferViews":[)", parts.views, R"(],)", parts.more,
-             R"("buffers":[{"uri":"data:application/octet-stream;base64,)", base64(parts.data),
-             R"(","byteLength":)", parts.data.size(), "}]}"),
-      "scene.gltf");
+             parts.node, R"(],"meshes":[{"primitives":[)", parts.primitive, "]", parts.weights,
+             R"(}],"accessors":[)", parts.accessors, R"(],"bufferViews":[)", parts.views, R"(],)",
+             parts.more, R"("buffers":[{"uri":"data:application/octet-stream;base64,)",
+             base64(parts.data), R"(","byteLength":)", parts.data.size(), "}]}"),
+      path);
 }
 
 const std::vector<float> kPlaces = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0.5F};

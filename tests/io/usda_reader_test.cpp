@@ -106,7 +106,8 @@ TEST(ParseUsda, RefusesWhatHasNoMeshOfItsOwnOrIsBroken) {
   };
   refuse("def Xform \"a\" (references = @b.usd@) { }", "--flatten");
   refuse("def Mesh \"a\" {", "ends within a prim");
-  refuse("def Mesh \"a\" { point3f[] points = [(1, x, 2)] }", "expected a list of numbers");
+  refuse("def Mesh \"a\" { point3f[] points = [(1, x, 2)] }",
+         "expected a list of numbers");
   refuse(
       "def Mesh \"a\" { point3f[] points = [(1, 2, 3)] int[] faceVertexCounts = [3] "
       "int[] faceVertexIndices = [0, 0, 1] }",
@@ -162,6 +163,44 @@ def Xform "root" {
   EXPECT_EQ(mesh.textures[1].kind, TextureKind::kNormal);
   EXPECT_EQ(mesh.textures[1].bytes, "normals");
   EXPECT_THAT(mesh.notes, ElementsAre(HasSubstr("\"rough.png\" is neither beside it")));
+}
+
+// Lightmaps and constant values are often alphabetically first.
+TEST(ParseUsda, ChoosesTheTextureCoordinatesOfTheMaterial) {
+  const auto uvs = [](const char* name, double u, const char* interpolation = "vertex") {
+    return concat("texCoord2f[] primvars:", name, " = [(", u, ", 0), (", u, ", 1), (", u, ", 2), (",
+                  u, ", 3)] (interpolation = \"", interpolation, "\")\n");
+  };
+  const auto first_u = [](const FileMesh& mesh) {
+    return mesh.uvs(mesh.topology.corner_uvs[0], 0);
+  };
+  const std::string all = uvs("Lightmap", 1) + uvs("UVMap", 2) + uvs("st", 3);
+  EXPECT_EQ(first_u(square_with(all)), 3);
+  EXPECT_EQ(first_u(square_with(uvs("Lightmap", 1) + uvs("map1", 2))), 2);
+  EXPECT_EQ(first_u(square_with(uvs("UVMap", 1) + uvs("st", 2, "constant"))), 1);
+  EXPECT_EQ(first_u(square_with(uvs("UVMap", 1) + "texCoord2f[] primvars:st = None")), 1);
+  EXPECT_EQ(first_u(square_with("float2[] primvars:a = [(1, 0), (1, 0), (1, 0), (1, 0)] ("
+                                "interpolation = \"vertex\")\n" +
+                                uvs("b", 2))),
+            2);
+  const auto material = [](const char* name, const char* varname) {
+    return concat("def Material \"", name, "\" {\n token inputs:uvs = \"UVMap\"\n",
+                  "def Shader \"surface\" { uniform token info:id = \"UsdPreviewSurface\"\n"
+                  "color3f inputs:diffuseColor.connect = </m/colour.outputs:rgb> }\n"
+                  "def Shader \"colour\" { uniform token info:id = \"UsdUVTexture\"\n"
+                  "float2 inputs:st.connect = </m/moved.outputs:result> }\n"
+                  "def Shader \"moved\" { uniform token info:id = \"UsdTransform2d\"\n"
+                  "float2 inputs:in.connect = </m/reader.outputs:result> }\n"
+                  "def Shader \"reader\" { uniform token info:id = \"UsdPrimvarReader_float2\"\n",
+                  varname, " }\n}\n");
+  };
+  const FileMesh mesh = mesh_of(concat(
+      "def Mesh \"skin\" {\n", kSquare, all, "rel material:binding = </m/eyes>\n",
+      "def GeomSubset \"face\" { int[] indices = [1]\n rel material:binding = </m/face> }\n}\n",
+      material("eyes", "string inputs:varname = \"Lightmap\""),
+      material("face", "string inputs:varname.connect = </m/face.inputs:uvs>")));
+  EXPECT_EQ(first_u(mesh), 1);
+  EXPECT_EQ(mesh.uvs(mesh.topology.corner_uvs[3], 0), 2);
 }
 
 }  // namespace

@@ -32,7 +32,9 @@ struct PrimProperty {
 struct Prim {
   std::string_view type, name;
   std::map<std::string, PrimProperty, std::less<>> properties;
-  std::string uvs, colours;  ///< names of the primvars
+  std::string colours;  ///< name of the primvar
+  /// names of the primvars of texture coordinates by their rank (see rank_of_uvs)
+  std::multimap<int, std::string> uvs;
   std::vector<Prim> subsets, shaders;
 
   const PrimProperty* find(std::string_view property) const {
@@ -40,6 +42,34 @@ struct Prim {
     return found == properties.end() ? nullptr : &found->second;
   }
 };
+
+/// A Mesh prim and the transform from its axes to the layer's axes.
+struct MeshPrim {
+  Eigen::Matrix4d place;
+  Prim prim;
+};
+
+/// Whether a primvar has a value for each corner or vertex.
+/// \param width  numbers per value
+bool varies(const PrimProperty& primvar, std::size_t width) {
+  return primvar.numbers.size() >= width &&
+         (primvar.interpolation == "faceVarying" || primvar.interpolation == "vertex" ||
+          primvar.interpolation == "varying");
+}
+
+/// Whether values of this type may be texture coordinates.
+bool is_uv_type(std::string_view type) {
+  return type.starts_with("texCoord2") || type.starts_with("float2");
+}
+
+/// How likely a primvar holds the texture coordinates of a mesh whose materials name no primvar:
+/// 0 for the name that USD recommends, 1 for the usual names of other programs.
+int rank_of_uvs(std::string_view type, std::string_view primvar) {
+  const std::string name = lower_case(primvar.substr(primvar.find(':') + 1));
+  if (name == "st") return 0;
+  if (name == "map1" || name.starts_with("uv")) return 1;
+  return type.starts_with("texCoord2") ? 2 : 3;
+}
 
 /// A rotation about axes by angles in degrees.
 /// \param order  order of the rotations; "XYZ" rotates about x first
@@ -104,7 +134,8 @@ class UsdaReader {
       if (token.is('(')) tokens_.consume_group();
       if (is_prim(token)) read_prim(token, Eigen::Matrix4d::Identity(), 0, nullptr);
     }
-    if (mesh_.positions.rows() == 0 && points_.empty()) {
+    for (const MeshPrim& mesh : meshes_) add_mesh(mesh.prim, mesh.place);
+    if (points_.empty()) {
       fail(
           "it defines no mesh itself; if it refers to other files or has variants, run usdcat "
           "--flatten -o flat.usda FILE and read flat.usda");
@@ -161,8 +192,11 @@ class UsdaReader {
         words.push_back(token.text);
       }
     }
-    if (prim.type == "Mesh") add_mesh(prim, placed());
     if (prim.type == "Material") add_textures(prim);
+    if (prim.type == "Mesh") {
+      meshes_.push_back({placed(), std::move(prim)});
+      return;
+    }
     if (parent != nullptr && prim.type == "NodeGraph") {
       std::ranges::move(prim.shaders, std::back_inserter(parent->shaders));
     }
@@ -183,13 +217,13 @@ class UsdaReader {
     const bool is_plain = name.find('.') == name.npos;  // "points.timeSamples"
     const bool is_primvar = name.starts_with("primvars:");
     const bool is_list = name == "xformOpOrder" || name == "material:binding";
-    const bool is_text = name == "orientation" || name == "visibility" || name == "purpose" ||
-                         name == "info:id" || name.ends_with(".connect") ||
-                         (name.starts_with("inputs:") && type == "asset");
+    const bool is_text =
+        name == "orientation" || name == "visibility" || name == "purpose" || name == "info:id" ||
+        name.ends_with(".connect") ||
+        (name.starts_with("inputs:") && (type == "asset" || type == "string" || type == "token"));
     if (is_plain &&
         (std::ranges::find(kNumbers, name) != kNumbers.end() || name.starts_with("xformOp:") ||
-         (is_primvar && (type.starts_with("texCoord2") || type.starts_with("color3") ||
-                         type.starts_with("float2") || type == "int[]")))) {
+         (is_primvar && (is_uv_type(type) || type.starts_with("color3") || type == "int[]")))) {
       property.numbers = tokens_.read_numbers();
     } else {
       const UsdaToken token = tokens_.next();
@@ -206,8 +240,7 @@ class UsdaReader {
       }
     }
     if (tokens_.consume('(')) property.interpolation = tokens_.consume_group();
-    const bool are_uvs = type.starts_with("texCoord2") || type.starts_with("float2");
-    if (is_primvar && are_uvs && prim.uvs.empty()) prim.uvs = name;
+    if (is_primvar && is_uv_type(type)) prim.uvs.emplace(rank_of_uvs(type, name), name);
     if (name == "primvars:displayColor") prim.colours = name;
     prim.properties[name] = std::move(property);
   }
@@ -225,11 +258,8 @@ class UsdaReader {
                                              std::size_t width,
                                              const std::vector<std::uint32_t>& vertices) const {
     const PrimProperty* values = primvar.empty() ? nullptr : prim.find(primvar);
-    if (values == nullptr || values->numbers.size() < width) return {};
+    if (values == nullptr || !varies(*values, width)) return {};
     const bool of_corners = values->interpolation == "faceVarying";
-    const bool of_vertices =
-        values->interpolation == "vertex" || values->interpolation == "varying";
-    if (!of_corners && !of_vertices) return {};
     const PrimProperty* indices = prim.find(primvar + ":indices");
     const std::size_t rows = values->numbers.size() / width;
     std::vector<std::uint32_t> result;
@@ -260,6 +290,23 @@ class UsdaReader {
     return path.empty() || found == material.shaders.end() ? nullptr : &*found;
   }
 
+  /// The text of a shader's input, which may be connected to an input of the material.
+  static std::string_view input_text(const Prim& material, const Prim& shader,
+                                     std::string_view input) {
+    const std::string_view own = text_of(shader, input);
+    const std::string_view from = text_of(shader, concat(input, ".connect"));
+    return own.empty() ? text_of(material, from.substr(from.rfind('.') + 1)) : own;
+  }
+
+  /// The primvar that a texture's UsdPrimvarReader names; empty if there is none.
+  static std::string uv_name(const Prim& material, const Prim& texture) {
+    const Prim* reader = connected(material, texture, "inputs:st");
+    if (reader != nullptr && text_of(*reader, "info:id") == "UsdTransform2d") {
+      reader = connected(material, *reader, "inputs:in");
+    }
+    return std::string(reader == nullptr ? "" : input_text(material, *reader, "inputs:varname"));
+  }
+
   /// Adds the image files that the preview surface of a material uses.
   void add_textures(const Prim& material) {
     for (const Prim& surface : material.shaders) {
@@ -269,10 +316,9 @@ class UsdaReader {
                                         std::pair("inputs:roughness", TextureKind::kRoughness)}) {
         const Prim* texture = connected(material, surface, input);
         if (texture == nullptr || text_of(*texture, "info:id") != "UsdUVTexture") continue;
-        std::string_view file = text_of(*texture, "inputs:file");
-        // The texture may get its file name from an input of the material.
-        const std::string_view from = text_of(*texture, "inputs:file.connect");
-        if (file.empty()) file = text_of(material, from.substr(from.rfind('.') + 1));
+        std::string& uvs = uvs_of_material_[std::string(material.name)];
+        if (uvs.empty()) uvs = uv_name(material, *texture);
+        const std::string_view file = input_text(material, *texture, "inputs:file");
         if (file.empty()) continue;
         mesh_.textures.push_back({std::string(material.name), kind, {}});
         files_.emplace_back(file);
@@ -281,24 +327,31 @@ class UsdaReader {
     }
   }
 
+  /// The primvar with the texture coordinates of a mesh's polygons that have this material; empty
+  /// if there is none.
+  std::string uvs_of(const Prim& prim, const std::string& material) const {
+    const auto wanted = uvs_of_material_.find(material);
+    std::string best;
+    for (const auto& [rank, name] : prim.uvs) {
+      if (!varies(*prim.find(name), 2)) continue;
+      if (wanted != uvs_of_material_.end() && name == "primvars:" + wanted->second) return name;
+      if (best.empty()) best = name;
+    }
+    return best;
+  }
+
   void add_mesh(const Prim& prim, const Eigen::Matrix4d& place) {
     const PrimProperty *points = prim.find("points"), *counts = prim.find("faceVertexCounts"),
                        *corners = prim.find("faceVertexIndices");
     if (points == nullptr || counts == nullptr || corners == nullptr) return;
     const std::size_t vertices = points->numbers.size() / 3, first = points_.size() / 3,
-                      first_uv = uvs_.size() / 2, faces = counts->numbers.size();
+                      faces = counts->numbers.size();
     for (std::size_t v = 0; v < vertices; ++v) {
       const Eigen::Vector3d point = transform_point(place, &points->numbers[3 * v]);
       points_.insert(points_.end(), point.data(), point.data() + 3);
     }
     std::vector<std::uint32_t> all;
     for (const double corner : corners->numbers) all.push_back(index_of(corner, vertices));
-    const auto uv_rows = rows_of_corners(prim, prim.uvs, 2, all);
-    if (!uv_rows.empty()) {
-      const auto& numbers = prim.find(prim.uvs)->numbers;
-      uvs_.insert(uvs_.end(), numbers.begin(),
-                  numbers.end() - static_cast<std::ptrdiff_t>(numbers.size() % 2));
-    }
     const auto colour_rows = rows_of_corners(prim, prim.colours, 3, all);
     any_colours_ = any_colours_ || !colour_rows.empty();
     colours_.resize(points_.size(), 1);
@@ -318,17 +371,38 @@ class UsdaReader {
     const bool is_left = orientation != nullptr && !orientation->texts.empty() &&
                          orientation->texts[0] == "leftHanded";
     const bool is_turned = is_left != (place.topLeftCorner<3, 3>().determinant() < 0);
+    std::map<std::string, std::vector<std::uint32_t>> uv_rows;  // by primvar
+    const std::vector<std::uint32_t>* rows = nullptr;
     std::size_t begin = 0;
     for (std::size_t f = 0; f < faces; ++f) {
       const std::size_t count = index_of(counts->numbers[f], all.size() - begin + 1);
-      add_face(begin, count, is_turned, all, uv_rows, first, first_uv, materials[f]);
+      if (f == 0 || materials[f] != materials[f - 1]) {
+        const std::string primvar = uvs_of(prim, materials[f]);
+        const auto [known, is_new] = uv_rows.try_emplace(primvar);
+        if (is_new) known->second = add_uvs(prim, primvar, all);
+        rows = &known->second;
+      }
+      add_face(begin, count, is_turned, all, *rows, first, materials[f]);
       begin += count;
     }
   }
 
+  /// Appends the values of a primvar to the texture coordinates, and returns the row of each
+  /// corner.
+  std::vector<std::uint32_t> add_uvs(const Prim& prim, const std::string& primvar,
+                                     const std::vector<std::uint32_t>& vertices) {
+    std::vector<std::uint32_t> rows = rows_of_corners(prim, primvar, 2, vertices);
+    if (rows.empty()) return rows;
+    for (std::uint32_t& row : rows) row += static_cast<std::uint32_t>(uvs_.size() / 2);
+    const auto& numbers = prim.find(primvar)->numbers;
+    uvs_.insert(uvs_.end(), numbers.begin(),
+                numbers.end() - static_cast<std::ptrdiff_t>(numbers.size() % 2));
+    return rows;
+  }
+
   void add_face(std::size_t begin, std::size_t count, bool is_turned,
                 const std::vector<std::uint32_t>& vertices,
-                const std::vector<std::uint32_t>& uv_rows, std::size_t first, std::size_t first_uv,
+                const std::vector<std::uint32_t>& uv_rows, std::size_t first,
                 const std::string& material) {
     if (count < 3) return;
     Topology& topology = mesh_.topology;
@@ -338,8 +412,7 @@ class UsdaReader {
     for (std::size_t c = 0; c < count; ++c) {
       const std::size_t corner = begin + (is_turned ? (count - c) % count : c);
       topology.corner_vertices.push_back(static_cast<std::uint32_t>(first) + vertices[corner]);
-      topology.corner_uvs.push_back(
-          uv_rows.empty() ? kNoIndex : static_cast<std::uint32_t>(first_uv) + uv_rows[corner]);
+      topology.corner_uvs.push_back(uv_rows.empty() ? kNoIndex : uv_rows[corner]);
     }
     topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
   }
@@ -359,6 +432,8 @@ class UsdaReader {
   const std::string& name_;
   UsdaTokens tokens_;
   FileMesh mesh_;
+  std::vector<MeshPrim> meshes_;  ///< added to `mesh_` when all materials are known
+  std::map<std::string, std::string> uvs_of_material_;  ///< names of primvars
   std::vector<double> points_, uvs_, colours_;
   std::vector<std::string> files_;  ///< the file name of each texture
   bool any_colours_ = false;
