@@ -437,6 +437,15 @@ TEST(ParseFbx, SaysThatShapesAreNotUsed) {
   EXPECT_TRUE(mesh.notes[0].starts_with("its 1 blend shapes are not used")) << mesh.notes[0];
 }
 
+TEST(ParseFbx, ReadsNoHiddenNodes) {
+  std::string text = square_fbx({});
+  text.insert(text.find("\"Mesh\" {\n}") + 9,
+              " Properties70:  {\n  P: \"Show\", \"bool\", \"\", \"\",0\n }\n");
+  expect_error(ExitCode::kBadData,
+               {"head.fbx: expected a mesh that is shown", "its hidden meshes are not used: head"},
+               [&] { parse_fbx(text, "head.fbx"); });
+}
+
 TEST(ParseFbx, SaysThatAFileHasNoMesh) {
   const TemporaryFolder folder;
   std::string text = square_fbx({});

@@ -203,5 +203,29 @@ TEST(ParseUsda, ChoosesTheTextureCoordinatesOfTheMaterial) {
   EXPECT_EQ(mesh.uvs(mesh.topology.corner_uvs[3], 0), 2);
 }
 
+TEST(ParseUsda, ReadsNoMeshThatUsdHides) {
+  const auto vertices = [](const char* metadata, const char* lines, const char* own = "") {
+    const FileMesh mesh =
+        mesh_of(concat("def Xform \"a\"", metadata, "{\n", lines, "\ndef Mesh \"extra\" {\n",
+                       kSquare, own, "}\n}\ndef Mesh \"head\" {\n", kSquare, "}\n"));
+    const bool is_noted = mesh.notes == std::vector<std::string>{
+                                            "its meshes that are inactive, invisible, guides or "
+                                            "proxies are not used: extra"};
+    EXPECT_EQ(is_noted, mesh.positions.rows() == 4) << metadata << lines << own;
+    return mesh.positions.rows();
+  };
+  EXPECT_EQ(vertices("(active = false)", ""), 4);
+  EXPECT_EQ(vertices("", "token visibility = \"invisible\""), 4);
+  EXPECT_EQ(vertices("", "", "token visibility = \"invisible\""), 4);
+  EXPECT_EQ(vertices("", "uniform token purpose = \"guide\""), 4);
+  EXPECT_EQ(vertices("", "", "uniform token purpose = \"proxy\""), 4);
+  EXPECT_EQ(vertices("", "token visibility = \"inherited\""), 8);
+  EXPECT_EQ(vertices("", "uniform token purpose = \"proxy\"", "uniform token purpose = \"render\""),
+            8);
+  EXPECT_EQ(vertices("(customData = { bool active = 0 })", ""), 8);
+  expect_error(ExitCode::kBadData, {"head.usda", "expected a mesh that is shown, found only: a"},
+               [] { mesh_of(concat("def Mesh \"a\" (active = 0) {\n", kSquare, "}")); });
+}
+
 }  // namespace
 }  // namespace crowdface::testing

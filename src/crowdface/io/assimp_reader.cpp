@@ -22,6 +22,7 @@ struct Collected {
   std::vector<double> points, uvs, colours;
   std::uint32_t piece = 0;
   bool any_colours = false;
+  std::string hidden;  ///< names of hidden nodes with meshes, separated by commas
 };
 
 void collect_mesh(const aiMesh& from, const aiMatrix4x4& world_transform,
@@ -59,12 +60,25 @@ void collect_mesh(const aiMesh& from, const aiMatrix4x4& world_transform,
   }
 }
 
-void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, int depth,
-                  Collected& all) {
+/// Whether the node's property `Show` is off or its property `Visibility` is zero.
+bool is_hidden(const aiNode& node) {
+  bool shown = true;
+  float visibility = 1;
+  if (node.mMetaData == nullptr) return false;
+  return (node.mMetaData->Get("Show", shown) && !shown) ||
+         (node.mMetaData->Get("Visibility", visibility) && visibility == 0);
+}
+
+/// \param hidden  whether a parent of the node is hidden
+void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, bool hidden,
+                  int depth, Collected& all) {
   constexpr int kDeepest = 256;
   if (depth > kDeepest) throw std::runtime_error("its nodes are nested too deeply");
   const aiMatrix4x4 world_transform = above * node.mTransformation;
-  for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+  hidden = hidden || is_hidden(node);
+  if (hidden && node.mNumMeshes > 0)
+    all.hidden += (all.hidden.empty() ? "" : ", ") + std::string(node.mName.C_Str());
+  for (unsigned m = 0; m < node.mNumMeshes && !hidden; ++m) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[m]];
     const aiString name = mesh.mMaterialIndex < scene.mNumMaterials
                               ? scene.mMaterials[mesh.mMaterialIndex]->GetName()
@@ -73,7 +87,7 @@ void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& a
   }
   if (node.mNumMeshes > 0) ++all.piece;
   for (unsigned c = 0; c < node.mNumChildren; ++c) {
-    collect_node(scene, *node.mChildren[c], world_transform, depth + 1, all);
+    collect_node(scene, *node.mChildren[c], world_transform, hidden, depth + 1, all);
   }
 }
 
@@ -183,8 +197,8 @@ void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& exte
   if (scene == nullptr || scene->mRootNode == nullptr) {
     throw std::runtime_error(importer.GetErrorString());
   }
-  Collected all{mesh, {}, {}, {}};
-  collect_node(*scene, *scene->mRootNode, aiMatrix4x4(), 0, all);
+  Collected all{mesh, {}, {}, {}, 0, false, {}};
+  collect_node(*scene, *scene->mRootNode, aiMatrix4x4(), false, 0, all);
   const auto rows = static_cast<Index>(mesh.mesh_of_vertex.size());
   mesh.topology.vertex_count = rows;
   mesh.positions = Eigen::Map<const Positions>(all.points.data(), rows, 3);
@@ -197,6 +211,9 @@ void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& exte
   }
   collect_textures(*scene, mesh, external_textures);
   note_shapes(*scene, mesh);
+  if (!all.hidden.empty()) {
+    mesh.notes.push_back("its hidden meshes are not used: " + all.hidden);
+  }
 }
 
 }  // namespace

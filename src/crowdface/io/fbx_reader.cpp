@@ -30,6 +30,10 @@ FileMesh parse_fbx(std::string_view bytes, const std::filesystem::path& path) {
         ": expected an FBX file that Assimp reads (FBX 2011 or later), found another: ", error,
         "; export it again, or as OBJ or GLB"));
   }
+  if (mesh.positions.rows() == 0 && !mesh.notes.empty()) {
+    refuse_file(path,
+                concat("expected a mesh that is shown, found none; ", join(mesh.notes, "; ")));
+  }
   read_texture_files(std::move(external_textures), path, mesh);
   return mesh;
 }

@@ -47,6 +47,7 @@ struct Prim {
 struct MeshPrim {
   Eigen::Matrix4d place;
   Prim prim;
+  bool is_hidden = false;  ///< whether the prim or a parent is inactive or invisible
 };
 
 /// Whether a primvar has a value for each corner or vertex.
@@ -134,7 +135,23 @@ class UsdaReader {
       if (token.is('(')) tokens_.consume_group();
       if (is_prim(token)) read_prim(token, Eigen::Matrix4d::Identity(), 0, nullptr);
     }
-    for (const MeshPrim& mesh : meshes_) add_mesh(mesh.prim, mesh.place);
+    std::vector<std::string> unused;
+    for (const MeshPrim& mesh : meshes_) {
+      const std::string_view purpose = text_of(mesh.prim, "purpose");
+      if (mesh.is_hidden || purpose == "guide" || purpose == "proxy") {
+        unused.emplace_back(mesh.prim.name);
+      } else {
+        add_mesh(mesh.prim, mesh.place);
+      }
+    }
+    if (points_.empty() && !unused.empty()) {
+      fail(concat("expected a mesh that is shown, found only: ", join(unused)));
+    }
+    if (!unused.empty()) {
+      mesh_.notes.push_back(
+          "its meshes that are inactive, invisible, guides or proxies are not used: " +
+          join(unused));
+    }
     if (points_.empty()) {
       fail(
           "it defines no mesh itself; if it refers to other files or has variants, run usdcat "
@@ -161,8 +178,10 @@ class UsdaReader {
     }
     prim.name = token.text;
     token = tokens_.next();
+    bool is_hidden = false;
     if (token.is('(')) {
-      tokens_.consume_group();
+      const std::string active = tokens_.consume_group("active");
+      is_hidden = active == "false" || active == "0";
       token = tokens_.next();
     }
     if (!token.is('{')) fail(concat("expected the body of ", quoted(std::string(prim.name))));
@@ -170,6 +189,7 @@ class UsdaReader {
       tokens_.consume_group();
       return;
     }
+    const std::size_t first_mesh = meshes_.size();
     std::optional<Eigen::Matrix4d> place;
     const auto placed = [&] {
       if (!place) place = matrix_product(above, place_of(prim));
@@ -193,8 +213,13 @@ class UsdaReader {
       }
     }
     if (prim.type == "Material") add_textures(prim);
+    is_hidden = is_hidden || text_of(prim, "visibility") == "invisible";
+    for (std::size_t m = first_mesh; m < meshes_.size(); ++m) {
+      meshes_[m].is_hidden = meshes_[m].is_hidden || is_hidden;
+      inherit("purpose", prim, meshes_[m].prim);
+    }
     if (prim.type == "Mesh") {
-      meshes_.push_back({placed(), std::move(prim)});
+      meshes_.push_back({placed(), std::move(prim), is_hidden});
       return;
     }
     if (parent != nullptr && prim.type == "NodeGraph") {
@@ -205,6 +230,12 @@ class UsdaReader {
       return;
     }
     if (prim.type == "GeomSubset" && parent != nullptr) parent->subsets.push_back(std::move(prim));
+  }
+
+  /// Gives a prim the property of its parent unless the prim has its own.
+  static void inherit(const char* property, const Prim& parent, Prim& prim) {
+    const PrimProperty* inherited = parent.find(property);
+    if (inherited != nullptr) prim.properties.try_emplace(property, *inherited);
   }
 
   /// \param words  the words before '=', such as "uniform", "token" and "orientation"

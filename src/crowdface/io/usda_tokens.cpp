@@ -87,18 +87,18 @@ bool UsdaTokens::consume(char sign) {
   return true;
 }
 
-std::string UsdaTokens::consume_group() {
-  std::string interpolation;
+std::string UsdaTokens::consume_group(std::string_view key) {
+  std::string value;
   bool is_next = false;
   for (int open = 1; open > 0;) {
     const UsdaToken token = next();
     if (token.kind == UsdaToken::Kind::kEnd) fail("it ends within brackets");
     if (token.is('(') || token.is('[') || token.is('{')) ++open;
     if (token.is(')') || token.is(']') || token.is('}')) --open;
-    if (is_next && token.kind == UsdaToken::Kind::kQuoted) interpolation = token.text;
-    is_next = token.is_word("interpolation") || (is_next && token.is('='));
+    if (is_next && token.kind != UsdaToken::Kind::kSign) value = token.text;
+    is_next = open == 1 && (token.is_word(key) || (is_next && token.is('=')));
   }
-  return interpolation;
+  return value;
 }
 
 std::vector<double> UsdaTokens::read_numbers() {

@@ -29,8 +29,8 @@ class UsdaTokens {
   bool consume(char sign);
   /// Consumes everything up to the closing bracket of a group whose opening bracket is already
   /// consumed.
-  /// \return the value of `interpolation` in the group; empty if the group does not set it.
-  std::string consume_group();
+  /// \return the value of `key` in the group; empty if the group does not set it.
+  std::string consume_group(std::string_view key = "interpolation");
   /// Consumes a value, which may have brackets, and returns all numbers in it.
   std::vector<double> read_numbers();
   /// Throws InvalidInput with the file's name and `what`.
