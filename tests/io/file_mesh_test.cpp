@@ -338,6 +338,35 @@ TEST(ParseGltf, TurnsTextureCoordinatesAsMaterialsAsk) {
   EXPECT_THAT(without.notes, ::testing::ElementsAre(::testing::HasSubstr("skin.png: is missing")));
 }
 
+TEST(ParseGltf, AppliesTheDefaultWeightsOfMorphTargets) {
+  GltfParts parts = plain_parts();
+  parts.primitive =
+      R"({"attributes":{"POSITION":0},"indices":1,"targets":[{"NORMAL":2},{"POSITION":2}]})";
+  parts.accessors += R"(,{"bufferView":2,"componentType":5126,"type":"VEC3","count":4})";
+  parts.data += bytes_of_all(std::vector<float>{0, 0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0});
+  parts.views += R"(,{"buffer":0,"byteOffset":60,"byteLength":48})";
+  const auto y = [&] { return mesh_of(parts).positions(1, 1); };
+  EXPECT_EQ(y(), 0);
+  EXPECT_EQ(mesh_of(parts).notes.size(), 1U);
+  parts.weights = R"(,"weights":[0,0.5])";
+  EXPECT_EQ(y(), 1);
+  EXPECT_THAT(mesh_of(parts).notes,
+              ::testing::ElementsAre(::testing::HasSubstr("its 1 morph targets are not used")));
+  parts.node = R"({"mesh":0,"weights":[1,-1]})";
+  EXPECT_EQ(y(), -2);
+  EXPECT_TRUE(mesh_of(parts).notes.empty());
+  parts.node = R"({"mesh":0,"weights":[0,0]})";
+  EXPECT_EQ(y(), 0);
+  parts.node = R"({"mesh":0,"weights":[0,1]})";
+  parts.accessors.back() = ' ';
+  parts.accessors +=
+      R"(,"sparse":{"count":0,"indices":{"bufferView":1,"componentType":5123},"values":{"bufferView":0}}})";
+  EXPECT_EQ(y(), 2);
+  parts.accessors.replace(parts.accessors.rfind(R"("count":4)"), 9, R"("count":3)");
+  expect_error(ExitCode::kBadData, {"scene.gltf", "a morph target and POSITION differ in length"},
+               [&] { mesh_of(parts); });
+}
+
 TEST(ParseGltf, ReadsStripsAndFans) {
   GltfParts parts = plain_parts();
   parts.primitive = R"({"attributes":{"POSITION":0},"mode":5})";

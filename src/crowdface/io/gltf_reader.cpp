@@ -141,6 +141,7 @@ class GltfMeshReader {
     const auto number = node["mesh"].get<std::size_t>();
     const GltfJson& mesh = file_.scene().at("meshes").at(number);
     const std::string name = node.value("name", mesh.value("name", concat("mesh_", number)));
+    weights_ = node.value("weights", mesh.value("weights", std::vector<double>()));
     std::map<std::size_t, VertexRange> known;
     for (const GltfJson& primitive : mesh.at("primitives")) {
       const int mode = primitive.value("mode", kTriangles);
@@ -188,6 +189,7 @@ class GltfMeshReader {
     };
     Primitive part;
     part.places = rows("POSITION", 3);
+    move_by_targets(json, part.places);
     if (attributes.contains(uv_set)) part.uvs = rows(uv_set, 2);
     if (attributes.contains("COLOR_0")) {
       const GltfJson& accessor =
@@ -200,6 +202,24 @@ class GltfMeshReader {
     }
     part.corners = corners_of(json, static_cast<std::uint32_t>(part.places.size() / 3));
     return part;
+  }
+
+  /// Adds the displacements of the morph targets, times the default weights of the node or mesh, to
+  /// the positions.
+  void move_by_targets(const GltfJson& primitive, std::vector<double>& places) {
+    const GltfJson targets = primitive.value("targets", GltfJson::array());
+    std::size_t unused = 0;
+    for (std::size_t t = 0; t < targets.size(); ++t) {
+      const double weight = t < weights_.size() ? weights_[t] : 0;
+      if (weight == 0) ++unused;
+      if (weight == 0 || !targets[t].contains("POSITION")) continue;
+      const auto moves = file_.read_values(targets[t]["POSITION"].get<std::size_t>(), 3);
+      if (moves.size() != places.size()) {
+        file_.fail("a morph target and POSITION differ in length");
+      }
+      for (std::size_t i = 0; i < places.size(); ++i) places[i] += weight * moves[i];
+    }
+    unused_targets_ = std::max(unused_targets_, unused);
   }
 
   std::vector<std::uint32_t> corners_of(const GltfJson& json, std::uint32_t count) {
@@ -224,6 +244,7 @@ class GltfMeshReader {
     }
     Primitive part;
     part.places = std::move(mesh->attributes[0]);
+    move_by_targets(json, part.places);
     if (wanted.size() > 1) part.uvs = std::move(mesh->attributes[1]);
     part.corners = std::move(mesh->corners);
     return part;
@@ -286,7 +307,9 @@ class GltfMeshReader {
   void finish() {
     set_vertex_data(mesh_, points_, uvs_, any_colours_ ? colours_ : std::vector<double>());
     if (!has_ids_) mesh_.vertex_ids.clear();
-    note_shapes();
+    if (unused_targets_ > 0) {
+      mesh_.notes.push_back(shapes_note(unused_targets_, "morph targets"));
+    }
     std::set<std::string> used, unused;
     for (const MaterialRange& range : mesh_.materials) used.insert(range.name);
     const GltfJson& scene = file_.scene();
@@ -333,19 +356,6 @@ class GltfMeshReader {
     }
   }
 
-  void note_shapes() {
-    std::size_t most = 0;
-    const GltfJson& scene = file_.scene();
-    if (!scene.contains("meshes")) return;
-    for (const GltfJson& mesh : scene["meshes"]) {
-      if (!mesh.contains("primitives")) continue;
-      for (const GltfJson& primitive : mesh["primitives"]) {
-        if (primitive.contains("targets")) most = std::max(most, primitive["targets"].size());
-      }
-    }
-    if (most > 0) mesh_.notes.push_back(shapes_note(most, "morph targets"));
-  }
-
   /// \param from  JSON object that may have a texture reference under `key`
   void add_texture(const GltfJson& from, const char* key, const std::string& material,
                    TextureKind kind) {
@@ -374,6 +384,8 @@ class GltfMeshReader {
   FileMesh mesh_;
   std::vector<double> points_, uvs_, colours_;
   std::vector<std::uint32_t> uv_rows_;  ///< for each vertex, the row of its texture coordinate
+  std::vector<double> weights_;         ///< weights of the morph targets of the mesh being read
+  std::size_t unused_targets_ = 0;      ///< most morph targets of weight 0 that a primitive has
   std::uint32_t piece_ = 0;
   bool any_colours_ = false, has_ids_ = true;
 };
