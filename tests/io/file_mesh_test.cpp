@@ -332,10 +332,31 @@ TEST(ParseGltf, TurnsTextureCoordinatesAsMaterialsAsk) {
   EXPECT_EQ(mesh.textures[0].material, "Skin");
   EXPECT_EQ(mesh.textures[0].kind, TextureKind::kColour);
   EXPECT_EQ(mesh.textures[0].bytes, "\x89PNG");
-  parts.more.replace(parts.more.find("data:"), 30, "skin.png");
-  const FileMesh without = mesh_of(parts);
+}
+
+// Exporters write the paths of their own machine, and Windows ignores the case of names.
+TEST(ParseGltf, FindsTexturesOfOtherMachines) {
+  const TemporaryFolder folder;
+  folder.write("textures/Skin 1.PNG", "sub");
+  const auto texture_of = [&](const std::string& uri) {
+    GltfParts parts = plain_parts();
+    parts.primitive = R"({"attributes":{"POSITION":0},"indices":1,"material":0})";
+    parts.more = concat(
+        R"("images":[{"uri":")", uri,
+        R"("}],"textures":[{"source":0}],"materials":[{"name":"Skin","normalTexture":{"index":0}}],)");
+    return mesh_of(parts, folder / "head.gltf");
+  };
+  for (const char* uri : {"textures/Skin%201.PNG", "maps/skin%201.png", R"(textures\\skin 1.png)",
+                          "C:/work/Textures/Skin 1.png", "../../skin%201.png"}) {
+    const FileMesh mesh = texture_of(uri);
+    ASSERT_EQ(mesh.textures.size(), 1U) << uri;
+    EXPECT_EQ(mesh.textures[0].bytes, "sub") << uri;
+    EXPECT_TRUE(mesh.notes.empty()) << uri;
+  }
+  const FileMesh without = texture_of("other.png");
   EXPECT_TRUE(without.textures.empty());
-  EXPECT_THAT(without.notes, ::testing::ElementsAre(::testing::HasSubstr("skin.png: is missing")));
+  EXPECT_THAT(without.notes,
+              ::testing::ElementsAre(::testing::HasSubstr("\"other.png\" is neither beside it")));
 }
 
 TEST(ParseGltf, AppliesTheDefaultWeightsOfMorphTargets) {

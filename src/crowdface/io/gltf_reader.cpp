@@ -44,7 +44,8 @@ struct VertexRange {
 
 class GltfMeshReader {
  public:
-  GltfMeshReader(std::string_view bytes, const std::filesystem::path& path) : file_(bytes, path) {}
+  GltfMeshReader(std::string_view bytes, const std::filesystem::path& path)
+      : file_(bytes, path), path_(path) {}
 
   FileMesh read() {
     const GltfJson& scene = file_.scene();
@@ -60,6 +61,7 @@ class GltfMeshReader {
       add_mesh(nodes[n], bound ? Eigen::Matrix4d::Identity() : worlds[n]);
     }
     finish();
+    read_texture_files(std::move(texture_files_), path_, mesh_);
     return std::move(mesh_);
   }
 
@@ -369,11 +371,16 @@ class GltfMeshReader {
         if (texture["extensions"].contains(packed)) source = &texture["extensions"][packed];
       }
       const GltfJson& image = scene.at("images").at(source->at("source").get<std::size_t>());
-      mesh_.textures.push_back(
-          {material, kind,
-           image.contains("uri")
-               ? file_.read_uri(image.at("uri").get<std::string>(), "its texture")
-               : std::string(file_.view(image.at("bufferView").get<std::size_t>()))});
+      const auto uri = image.value("uri", std::string());
+      const bool is_outside = !uri.empty() && !uri.starts_with("data:");
+      MeshTexture added{material, kind, {}};
+      if (uri.empty()) {
+        added.bytes = file_.view(image.at("bufferView").get<std::size_t>());
+      } else if (!is_outside) {
+        added.bytes = file_.read_uri(uri, "its texture");
+      }
+      mesh_.textures.push_back(std::move(added));
+      texture_files_.push_back(is_outside ? percent_decoded(uri).value_or(uri) : "");
     } catch (const std::exception& error) {
       mesh_.notes.push_back(concat("the ", mtl_statement_of(kind).name, " texture of ",
                                    quoted(material), " cannot be read: ", error.what()));
@@ -381,7 +388,9 @@ class GltfMeshReader {
   }
 
   GltfFile file_;
+  const std::filesystem::path& path_;
   FileMesh mesh_;
+  std::vector<std::string> texture_files_;  ///< for each texture, its file; empty if embedded
   std::vector<double> points_, uvs_, colours_;
   std::vector<std::uint32_t> uv_rows_;  ///< for each vertex, the row of its texture coordinate
   std::vector<double> weights_;         ///< weights of the morph targets of the mesh being read
