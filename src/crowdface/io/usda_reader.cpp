@@ -217,6 +217,7 @@ class UsdaReader {
     for (std::size_t m = first_mesh; m < meshes_.size(); ++m) {
       meshes_[m].is_hidden = meshes_[m].is_hidden || is_hidden;
       inherit("purpose", prim, meshes_[m].prim);
+      inherit("material:binding", prim, meshes_[m].prim);
     }
     if (prim.type == "Mesh") {
       meshes_.push_back({placed(), std::move(prim), is_hidden});
