@@ -238,5 +238,22 @@ TEST(ParseUsda, InheritsMaterialsFromParents) {
   EXPECT_EQ(mesh.materials[1].name, "iris");
 }
 
+TEST(ParseUsda, ReadsTheFirstTimeSampleIfThereIsNoDefault) {
+  const FileMesh mesh = mesh_of(
+      "def Xform \"a\" {\n double3 xformOp:translate.timeSamples = { 1: (10, 0, 0), 2: (0, 0, 0) "
+      "}\n"
+      "uniform token[] xformOpOrder = [\"xformOp:translate\"]\n def Mesh \"head\" {\n"
+      "int[] faceVertexCounts = [3]\n int[] faceVertexIndices = [0, 1, 2]\n"
+      "point3f[] points.timeSamples = {\n -1.5 : [(0, 0, 1), (1, 0, 1), (0, 1, 1)],\n"
+      "2: [(9, 9, 9)],\n}\n texCoord2f[] primvars:st (\n interpolation = \"vertex\"\n)\n"
+      "texCoord2f[] primvars:st.timeSamples = { 1: [(0, 0), (0.5, 0), (0, 1)] }\n}\n}\n");
+  ASSERT_EQ(mesh.positions.rows(), 3);
+  EXPECT_EQ(mesh.positions.row(1), Eigen::RowVector3d(11, 0, 1));
+  ASSERT_EQ(mesh.uvs.rows(), 3);
+  EXPECT_EQ(mesh.uvs(1, 0), 0.5);
+  EXPECT_THAT(mesh.notes, ElementsAre("its meshes are animated: the first time sample is used"));
+  EXPECT_TRUE(square_with("point3f[] points.timeSamples = { 1: [(9, 9, 9)] }").notes.empty());
+}
+
 }  // namespace
 }  // namespace crowdface::testing

@@ -27,6 +27,7 @@ struct PrimProperty {
   std::vector<double> numbers;
   std::vector<std::string> texts;  ///< strings and paths
   std::string interpolation;
+  bool is_time_sample = false;  ///< whether the value is the first time sample
 };
 
 struct Prim {
@@ -47,7 +48,8 @@ struct Prim {
 struct MeshPrim {
   Eigen::Matrix4d place;
   Prim prim;
-  bool is_hidden = false;  ///< whether the prim or a parent is inactive or invisible
+  bool is_hidden = false;    ///< whether the prim or a parent is inactive or invisible
+  bool is_animated = false;  ///< whether the prim or a parent has a property without default value
 };
 
 /// Whether a primvar has a value for each corner or vertex.
@@ -136,16 +138,21 @@ class UsdaReader {
       if (is_prim(token)) read_prim(token, Eigen::Matrix4d::Identity(), 0, nullptr);
     }
     std::vector<std::string> unused;
+    bool is_animated = false;
     for (const MeshPrim& mesh : meshes_) {
       const std::string_view purpose = text_of(mesh.prim, "purpose");
       if (mesh.is_hidden || purpose == "guide" || purpose == "proxy") {
         unused.emplace_back(mesh.prim.name);
       } else {
         add_mesh(mesh.prim, mesh.place);
+        is_animated = is_animated || mesh.is_animated;
       }
     }
     if (points_.empty() && !unused.empty()) {
       fail(concat("expected a mesh that is shown, found only: ", join(unused)));
+    }
+    if (is_animated) {
+      mesh_.notes.emplace_back("its meshes are animated: the first time sample is used");
     }
     if (!unused.empty()) {
       mesh_.notes.push_back(
@@ -205,7 +212,11 @@ class UsdaReader {
         read_property(words, prim);
         words.clear();
       } else if (token.is('(') || token.is('{') || token.is('[')) {
-        tokens_.consume_group();
+        const std::string interpolation = tokens_.consume_group();
+        // A primvar with time samples has its interpolation in a statement without a value.
+        if (!words.empty() && words.back().starts_with("primvars:")) {
+          prim.properties[std::string(words.back())].interpolation = interpolation;
+        }
         words.clear();
       } else if (token.kind == UsdaToken::Kind::kWord) {
         if (words.size() == kLongestStatement) words.erase(words.begin());
@@ -214,13 +225,16 @@ class UsdaReader {
     }
     if (prim.type == "Material") add_textures(prim);
     is_hidden = is_hidden || text_of(prim, "visibility") == "invisible";
+    const bool is_animated = std::ranges::any_of(
+        prim.properties, [](const auto& property) { return property.second.is_time_sample; });
     for (std::size_t m = first_mesh; m < meshes_.size(); ++m) {
       meshes_[m].is_hidden = meshes_[m].is_hidden || is_hidden;
+      meshes_[m].is_animated = meshes_[m].is_animated || is_animated;
       inherit("purpose", prim, meshes_[m].prim);
       inherit("material:binding", prim, meshes_[m].prim);
     }
     if (prim.type == "Mesh") {
-      meshes_.push_back({placed(), std::move(prim), is_hidden});
+      meshes_.push_back({placed(), std::move(prim), is_hidden, is_animated});
       return;
     }
     if (parent != nullptr && prim.type == "NodeGraph") {
@@ -241,12 +255,21 @@ class UsdaReader {
 
   /// \param words  the words before '=', such as "uniform", "token" and "orientation"
   void read_property(const std::vector<std::string_view>& words, Prim& prim) {
-    const std::string name(words.empty() ? std::string_view() : words.back());
+    constexpr std::string_view kTimeSamples = ".timeSamples";
+    std::string name(words.empty() ? std::string_view() : words.back());
     const std::string_view type = words.size() < 2 ? std::string_view() : words[words.size() - 2];
     PrimProperty property;
+    property.is_time_sample = name.ends_with(kTimeSamples) && tokens_.consume('{');
+    if (property.is_time_sample) {
+      name.resize(name.size() - kTimeSamples.size());
+      // Skips the time code and the colon.
+      UsdaToken token = tokens_.next();
+      if (token.is('}')) return;
+      if (!token.text.ends_with(':')) token = tokens_.next();
+    }
     constexpr std::array<std::string_view, 4> kNumbers = {"points", "faceVertexCounts",
                                                           "faceVertexIndices", "indices"};
-    const bool is_plain = name.find('.') == name.npos;  // "points.timeSamples"
+    const bool is_plain = name.find('.') == name.npos;  // "points.connect"
     const bool is_primvar = name.starts_with("primvars:");
     const bool is_list = name == "xformOpOrder" || name == "material:binding";
     const bool is_text =
@@ -272,9 +295,18 @@ class UsdaReader {
       }
     }
     if (tokens_.consume('(')) property.interpolation = tokens_.consume_group();
+    if (property.is_time_sample) {
+      tokens_.consume_group();
+      if (property.numbers.empty() && property.texts.empty()) return;
+    }
+    PrimProperty& known = prim.properties[name];
+    if (property.is_time_sample) {
+      if (!known.numbers.empty() || !known.texts.empty()) return;
+      property.interpolation = known.interpolation;
+    }
     if (is_primvar && is_uv_type(type)) prim.uvs.emplace(rank_of_uvs(type, name), name);
     if (name == "primvars:displayColor") prim.colours = name;
-    prim.properties[name] = std::move(property);
+    known = std::move(property);
   }
 
   std::uint32_t index_of(double number, std::size_t count) const {
