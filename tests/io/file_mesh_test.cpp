@@ -388,6 +388,34 @@ TEST(ParseGltf, AppliesTheDefaultWeightsOfMorphTargets) {
                [&] { mesh_of(parts); });
 }
 
+TEST(ParseGltf, PrimitivesThatShareVerticesKeepTheirTextureCoordinates) {
+  GltfParts parts = plain_parts();
+  parts.primitive = R"({"attributes":{"POSITION":0,"TEXCOORD_0":2},"indices":1},)"
+                    R"({"attributes":{"POSITION":0,"TEXCOORD_0":3},"indices":1},)"
+                    R"({"attributes":{"POSITION":0,"TEXCOORD_0":3},"indices":1},)"
+                    R"({"attributes":{"POSITION":0,"TEXCOORD_0":3},"indices":1,"material":0},)"
+                    R"({"attributes":{"POSITION":0},"indices":1})";
+  parts.accessors += R"(,{"bufferView":2,"componentType":5126,"type":"VEC2","count":4})"
+                     R"(,{"bufferView":3,"componentType":5126,"type":"VEC2","count":4})";
+  parts.data += bytes_of_all(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}) +
+                bytes_of_all(std::vector<float>{0, 0, 0.5, 0, 0, 1, 0.5, 1});
+  parts.views +=
+      R"(,{"buffer":0,"byteOffset":60,"byteLength":32},{"buffer":0,"byteOffset":92,"byteLength":32})";
+  parts.more =
+      R"("materials":[{"name":"Skin","pbrMetallicRoughness":{"baseColorTexture":{"index":0,)"
+      R"("extensions":{"KHR_texture_transform":{"offset":[0.25,0]}}}}}],)";
+  const FileMesh mesh = mesh_of(parts);
+  EXPECT_EQ(mesh.positions.rows(), 4);
+  EXPECT_EQ(mesh.uvs.rows(), 12);
+  const auto& rows = mesh.topology.corner_uvs;
+  ASSERT_EQ(rows.size(), 30U);
+  EXPECT_EQ(mesh.uvs(rows[1], 0), 1);
+  EXPECT_EQ(mesh.uvs(rows[7], 0), 0.5);
+  EXPECT_EQ(rows[13], rows[7]);
+  EXPECT_EQ(mesh.uvs(rows[19], 0), 0.75);
+  EXPECT_EQ(rows[25], kNoIndex);
+}
+
 TEST(ParseGltf, ReadsStripsAndFans) {
   GltfParts parts = plain_parts();
   parts.primitive = R"({"attributes":{"POSITION":0},"mode":5})";

@@ -35,11 +35,14 @@ struct Primitive {
 struct UvTransform {
   std::size_t set = 0;
   double x = 0, y = 0, rotation = 0, scale_x = 1, scale_y = 1;
+  auto operator<=>(const UvTransform&) const = default;
 };
 
 /// The vertices of one accessor, as a range of rows in the list of all vertices of the file.
 struct VertexRange {
   std::uint32_t first = 0, count = 0;
+  /// by accessor and transform, the row of the first vertex's texture coordinates
+  std::map<std::pair<std::size_t, UvTransform>, std::uint32_t> first_uvs;
 };
 
 class GltfMeshReader {
@@ -163,28 +166,36 @@ class GltfMeshReader {
     const std::string uv_set = concat("TEXCOORD_", transform.set);
     const bool packed =
         json.contains("extensions") && json["extensions"].contains("KHR_draco_mesh_compression");
-    VertexRange rows{static_cast<std::uint32_t>(pieces()), 0};
+    VertexRange unshared{static_cast<std::uint32_t>(pieces()), 0, {}};
+    VertexRange& rows = packed ? unshared : known.try_emplace(accessor, unshared).first->second;
+    std::uint32_t first_uv = kNoIndex;
     Primitive part;
-    if (!packed && known.contains(accessor)) {
-      rows = known[accessor];
+    if (rows.count > 0) {
       part.corners = corners_of(json, rows.count);
     } else {
-      part = packed ? unpack(json, uv_set) : read(json, uv_set);
+      part = packed ? unpack(json, uv_set) : read(json);
       rows.count = static_cast<std::uint32_t>(part.places.size() / 3);
-      add_rows(part, world_transform, transform);
-      if (!packed) known.emplace(accessor, rows);
+      add_rows(part, world_transform);
+    }
+    if (packed) {
+      first_uv = add_uvs(part.uvs, rows.count, transform);
+    } else if (attributes.contains(uv_set)) {
+      const auto uvs = attributes[uv_set].get<std::size_t>();
+      const auto [first, is_new] = rows.first_uvs.try_emplace({uvs, transform}, kNoIndex);
+      if (is_new) first->second = add_uvs(file_.read_values(uvs, 2), rows.count, transform);
+      first_uv = first->second;
     }
     for (const std::uint32_t corner : part.corners) {
       if (corner >= rows.count) {
         file_.fail(concat("a triangle refers to vertex ", corner, " of ", rows.count));
       }
     }
-    add_faces(part.corners, mode, rows.first, world_transform, material);
+    add_faces(part.corners, mode, rows.first, first_uv, world_transform, material);
   }
 
   std::size_t pieces() const { return mesh_.mesh_of_vertex.size(); }
 
-  Primitive read(const GltfJson& json, const std::string& uv_set) {
+  Primitive read(const GltfJson& json) {
     const GltfJson& attributes = json.at("attributes");
     const auto rows = [&](const std::string& name, std::size_t width) {
       return file_.read_values(attributes.at(name).get<std::size_t>(), width);
@@ -192,7 +203,6 @@ class GltfMeshReader {
     Primitive part;
     part.places = rows("POSITION", 3);
     move_by_targets(json, part.places);
-    if (attributes.contains(uv_set)) part.uvs = rows(uv_set, 2);
     if (attributes.contains("COLOR_0")) {
       const GltfJson& accessor =
           file_.scene().at("accessors").at(attributes.at("COLOR_0").get<std::size_t>());
@@ -252,22 +262,27 @@ class GltfMeshReader {
     return part;
   }
 
-  void add_rows(const Primitive& part, const Eigen::Matrix4d& world_transform,
-                const UvTransform& uv) {
+  /// Appends the texture coordinates of `count` vertices, and returns the row of the first one;
+  /// kNoIndex if their number differs.
+  std::uint32_t add_uvs(const std::vector<double>& uvs, std::size_t count, const UvTransform& by) {
+    if (uvs.size() != 2 * count) return kNoIndex;
+    const auto first = static_cast<std::uint32_t>(uvs_.size() / 2);
+    const double cos = std::cos(by.rotation), sin = std::sin(by.rotation);
+    for (std::size_t i = 0; i < count; ++i) {
+      const double u = uvs[2 * i] * by.scale_x, v = uvs[2 * i + 1] * by.scale_y;
+      uvs_.push_back(cos * u + sin * v + by.x);
+      uvs_.push_back(1 - (-sin * u + cos * v + by.y));  // converts to v upwards, as in OBJ
+    }
+    return first;
+  }
+
+  void add_rows(const Primitive& part, const Eigen::Matrix4d& world_transform) {
     const std::size_t count = part.places.size() / 3;
-    const bool has_uvs = part.uvs.size() == 2 * count;
     const bool has_colours = part.colours.size() == part.colour_width * count;
-    const double cos = std::cos(uv.rotation), sin = std::sin(uv.rotation);
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3d point = transform_point(world_transform, &part.places[3 * i]);
       points_.insert(points_.end(), point.data(), point.data() + 3);
       mesh_.mesh_of_vertex.push_back(piece_);
-      uv_rows_.push_back(has_uvs ? static_cast<std::uint32_t>(uvs_.size() / 2) : kNoIndex);
-      if (has_uvs) {
-        const double u = part.uvs[2 * i] * uv.scale_x, v = part.uvs[2 * i + 1] * uv.scale_y;
-        uvs_.push_back(cos * u + sin * v + uv.x);
-        uvs_.push_back(1 - (-sin * u + cos * v + uv.y));  // converts to v upwards, as in OBJ
-      }
       for (std::size_t c = 0; c < 3; ++c) {
         colours_.push_back(has_colours ? srgb_of_linear(part.colours[part.colour_width * i + c])
                                        : 1);
@@ -278,8 +293,10 @@ class GltfMeshReader {
     mesh_.vertex_ids.insert(mesh_.vertex_ids.end(), part.ids.begin(), part.ids.end());
   }
 
+  /// \param first, first_uv  rows of the first vertex and of its texture coordinates
   void add_faces(const std::vector<std::uint32_t>& corners, int mode, std::uint32_t first,
-                 const Eigen::Matrix4d& world_transform, const std::string& material) {
+                 std::uint32_t first_uv, const Eigen::Matrix4d& world_transform,
+                 const std::string& material) {
     const bool mirrored = world_transform.topLeftCorner<3, 3>().determinant() < 0;
     if (mesh_.materials.empty() || mesh_.materials.back().name != material) {
       mesh_.materials.push_back({material, mesh_.topology.face_count()});
@@ -288,7 +305,7 @@ class GltfMeshReader {
       if (mirrored) std::swap(b, c);
       for (const std::uint32_t corner : {a, b, c}) {
         mesh_.topology.corner_vertices.push_back(first + corner);
-        mesh_.topology.corner_uvs.push_back(uv_rows_[first + corner]);
+        mesh_.topology.corner_uvs.push_back(first_uv == kNoIndex ? kNoIndex : first_uv + corner);
       }
       mesh_.topology.face_offsets.push_back(
           static_cast<std::uint32_t>(mesh_.topology.corner_vertices.size()));
@@ -392,9 +409,8 @@ class GltfMeshReader {
   FileMesh mesh_;
   std::vector<std::string> texture_files_;  ///< for each texture, its file; empty if embedded
   std::vector<double> points_, uvs_, colours_;
-  std::vector<std::uint32_t> uv_rows_;  ///< for each vertex, the row of its texture coordinate
-  std::vector<double> weights_;         ///< weights of the morph targets of the mesh being read
-  std::size_t unused_targets_ = 0;      ///< most morph targets of weight 0 that a primitive has
+  std::vector<double> weights_;     ///< weights of the morph targets of the mesh being read
+  std::size_t unused_targets_ = 0;  ///< most morph targets of weight 0 that a primitive has
   std::uint32_t piece_ = 0;
   bool any_colours_ = false, has_ids_ = true;
 };
