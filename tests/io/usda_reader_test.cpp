@@ -107,7 +107,7 @@ TEST(ParseUsda, RefusesWhatHasNoMeshOfItsOwnOrIsBroken) {
   refuse("def Xform \"a\" (references = @b.usd@) { }", "--flatten");
   refuse("def Mesh \"a\" {", "ends within a prim");
   refuse("def Mesh \"a\" { point3f[] points = [(1, x, 2)] }",
-         "expected a list of numbers");
+         "expected numbers in points, found x");
   refuse(
       "def Mesh \"a\" { point3f[] points = [(1, 2, 3)] int[] faceVertexCounts = [3] "
       "int[] faceVertexIndices = [0, 0, 1] }",
@@ -253,6 +253,21 @@ TEST(ParseUsda, ReadsTheFirstTimeSampleIfThereIsNoDefault) {
   EXPECT_EQ(mesh.uvs(1, 0), 0.5);
   EXPECT_THAT(mesh.notes, ElementsAre("its meshes are animated: the first time sample is used"));
   EXPECT_TRUE(square_with("point3f[] points.timeSamples = { 1: [(9, 9, 9)] }").notes.empty());
+}
+
+TEST(ParseUsda, ReadsByteOrderMarksAndCoordinatesInDoublePrecision) {
+  const std::string body = concat(
+      "#usda 1.0\ndef Mesh \"a\" {\n", kSquare,
+      "double2[] primvars:st = [(0, 0), (1, 0), (0, 1), (1, 1)] (interpolation = \"vertex\")\n}\n");
+  const FileMesh mesh = parse_usda("\xEF\xBB\xBF" + body, "head.usda");
+  EXPECT_EQ(mesh.positions.rows(), 4);
+  EXPECT_EQ(mesh.uvs.rows(), 4);
+}
+
+TEST(ParseUsda, NamesTheListAndLineOfABadNumber) {
+  expect_error(
+      ExitCode::kBadData, {"head.usda:6: expected numbers in primvars:displayColor, found nan"},
+      [] { mesh_of("def Mesh \"a\" {\n color3f[] primvars:displayColor = [(nan, 0, 0)]\n}"); });
 }
 
 }  // namespace

@@ -62,7 +62,7 @@ bool varies(const PrimProperty& primvar, std::size_t width) {
 
 /// Whether values of this type may be texture coordinates.
 bool is_uv_type(std::string_view type) {
-  return type.starts_with("texCoord2") || type.starts_with("float2");
+  return type.starts_with("texCoord2") || type.starts_with("float2") || type.starts_with("double2");
 }
 
 /// How likely a primvar holds the texture coordinates of a mesh whose materials name no primvar:
@@ -279,7 +279,7 @@ class UsdaReader {
     if (is_plain &&
         (std::ranges::find(kNumbers, name) != kNumbers.end() || name.starts_with("xformOp:") ||
          (is_primvar && (is_uv_type(type) || type.starts_with("color3") || type == "int[]")))) {
-      property.numbers = tokens_.read_numbers();
+      property.numbers = tokens_.read_numbers(name);
     } else {
       const UsdaToken token = tokens_.next();
       if (token.kind == UsdaToken::Kind::kQuoted && (is_list || is_text)) {

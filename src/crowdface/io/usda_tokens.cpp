@@ -17,6 +17,7 @@ constexpr std::string_view kSigns = "()[]{}=,;", kEnds = "()[]{}=,;\"'@<#";
 }  // namespace
 
 UsdaTokens::UsdaTokens(std::string_view text, const std::string& name) : text_(text), name_(name) {
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte-order mark
   if (!text_.starts_with("#usda")) {
     fail("expected a USD layer as text (#usda 1.0), found another");
   }
@@ -101,7 +102,7 @@ std::string UsdaTokens::consume_group(std::string_view key) {
   return value;
 }
 
-std::vector<double> UsdaTokens::read_numbers() {
+std::vector<double> UsdaTokens::read_numbers(std::string_view list) {
   std::vector<double> numbers;
   int open = 0;
   do {
@@ -121,7 +122,9 @@ std::vector<double> UsdaTokens::read_numbers() {
     const auto [after, error] =
         std::from_chars(text_.data() + position_, text_.data() + text_.size(), number);
     if (error != std::errc() || !std::isfinite(number)) {
-      fail("expected a list of numbers, found something else in it");
+      const auto line = 1 + std::ranges::count(text_.substr(0, position_), '\n');
+      throw InvalidInput(
+          concat(name_, ':', line, ": expected numbers in ", list, ", found ", next().text));
     }
     position_ = static_cast<std::size_t>(after - text_.data());
     numbers.push_back(number);

@@ -32,7 +32,8 @@ class UsdaTokens {
   /// \return the value of `key` in the group; empty if the group does not set it.
   std::string consume_group(std::string_view key = "interpolation");
   /// Consumes a value, which may have brackets, and returns all numbers in it.
-  std::vector<double> read_numbers();
+  /// \param list  name of the value, for messages.
+  std::vector<double> read_numbers(std::string_view list);
   /// Throws InvalidInput with the file's name and `what`.
   [[noreturn]] void fail(std::string_view what) const;
 
