@@ -416,6 +416,28 @@ TEST(ParseGltf, PrimitivesThatShareVerticesKeepTheirTextureCoordinates) {
   EXPECT_EQ(rows[25], kNoIndex);
 }
 
+// Eyes that hang on a bone otherwise have another size than the skin.
+TEST(ParseGltf, PlacesSkinnedVerticesByTheirJoints) {
+  GltfParts parts = plain_parts();
+  parts.node =
+      R"({"children":[1,2],"scale":[0.5,0.5,0.5]},{"translation":[0,4,0]},{"mesh":0,"skin":0,"scale":[9,9,9]})";
+  parts.primitive = R"({"attributes":{"POSITION":0,"JOINTS_0":2,"WEIGHTS_0":3},"indices":1})";
+  parts.accessors += R"(,{"bufferView":2,"componentType":5121,"type":"VEC4","count":4})"
+                     R"(,{"bufferView":3,"componentType":5126,"type":"VEC4","count":4})"
+                     R"(,{"bufferView":4,"componentType":5126,"type":"MAT4","count":2})";
+  parts.data += std::string({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  for (int v = 0; v < 4; ++v) parts.data += bytes_of_all(std::vector<float>{1, 0, 0, 0});
+  parts.data += bytes_of_all(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1});
+  parts.data += bytes_of_all(std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -3, 0, 1});
+  parts.views +=
+      R"(,{"buffer":0,"byteOffset":60,"byteLength":16},{"buffer":0,"byteOffset":76,"byteLength":64})"
+      R"(,{"buffer":0,"byteOffset":140,"byteLength":128})";
+  parts.more = R"("skins":[{"joints":[0,1],"inverseBindMatrices":4}],)";
+  const FileMesh mesh = mesh_of(parts);
+  ASSERT_EQ(mesh.positions.rows(), 4);
+  EXPECT_LT((mesh.positions.row(3) - Eigen::RowVector3d(0.5, 1, 0.25)).norm(), 1e-12);
+}
+
 TEST(ParseGltf, ReadsStripsAndFans) {
   GltfParts parts = plain_parts();
   parts.primitive = R"({"attributes":{"POSITION":0},"mode":5})";

@@ -343,4 +343,36 @@ std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
   return worlds;
 }
 
+std::vector<Eigen::Matrix4d> GltfFile::joint_transforms(
+    std::size_t skin, const std::vector<Eigen::Matrix4d>& worlds) {
+  const Json& json = scene_.at("skins").at(skin);
+  std::vector<Eigen::Matrix4d> transforms;
+  for (const Json& joint : json.at("joints")) {
+    transforms.push_back(worlds.at(joint.get<std::size_t>()));
+  }
+  if (!json.contains("inverseBindMatrices")) return transforms;
+  const auto inverses = read_values(json.at("inverseBindMatrices").get<std::size_t>(), 16);
+  if (inverses.size() < 16 * transforms.size()) fail("a skin lacks inverse bind matrices");
+  for (std::size_t j = 0; j < transforms.size(); ++j) {
+    const auto first = inverses.begin() + static_cast<std::ptrdiff_t>(16 * j);
+    transforms[j] = matrix_product(transforms[j], matrix_from({first, first + 16}));
+  }
+  return transforms;
+}
+
+GltfSkinWeights GltfFile::read_skin_weights(const Json& attributes, std::size_t count) {
+  GltfSkinWeights skin;
+  for (std::size_t set = 0; attributes.contains(concat("JOINTS_", set)); ++set) {
+    const std::string of_weights = concat("WEIGHTS_", set);
+    if (!attributes.contains(of_weights)) fail(concat("a mesh lacks ", of_weights));
+    skin.joints.push_back(
+        read_unsigned_values(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
+    skin.weights.push_back(read_values(attributes.at(of_weights).get<std::size_t>(), 4));
+    if (skin.joints.back().size() != 4 * count || skin.weights.back().size() != 4 * count) {
+      fail("JOINTS_n, WEIGHTS_n and POSITION differ in length");
+    }
+  }
+  return skin;
+}
+
 }  // namespace crowdface

@@ -14,6 +14,13 @@
 
 namespace crowdface {
 
+/// The joints and weights of the vertices of a skinned mesh: for each pair of attributes JOINTS_n
+/// and WEIGHTS_n, four numbers per vertex.
+struct GltfSkinWeights {
+  std::vector<std::vector<std::uint32_t>> joints;
+  std::vector<std::vector<double>> weights;
+};
+
 /// A glTF 2.0 scene and its buffers. Error messages name the file.
 class GltfFile {
  public:
@@ -47,6 +54,13 @@ class GltfFile {
   /// For each node, the transform from the node's axes to the file's axes.
   /// \param parents  result of `parents`.
   std::vector<Eigen::Matrix4d> world_transforms(const std::vector<std::uint32_t>& parents) const;
+  /// For each joint of a skin, the transform from the mesh's axes to the file's axes in the rest
+  /// pose.
+  /// \param worlds  result of `world_transforms`.
+  std::vector<Eigen::Matrix4d> joint_transforms(std::size_t skin,
+                                                const std::vector<Eigen::Matrix4d>& worlds);
+  /// \param attributes  the attributes of a primitive with `count` vertices.
+  GltfSkinWeights read_skin_weights(const Json& attributes, std::size_t count);
 
  private:
   /// The content of the buffer with the index `number`.

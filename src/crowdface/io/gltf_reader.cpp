@@ -59,8 +59,12 @@ class GltfMeshReader {
     std::vector<bool> shown = nodes_of_scene(parents);
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
       if (!shown[n] || !nodes[n].contains("mesh")) continue;
-      // Skinned meshes ignore the transform of their node (glTF 2.0, section 3.7.3).
+      // The joints of a skinned mesh replace the transform of its node (glTF 2.0, section 3.7.3).
       const bool bound = nodes[n].contains("skin");
+      joint_transforms_.clear();
+      if (bound) {
+        joint_transforms_ = file_.joint_transforms(nodes[n]["skin"].get<std::size_t>(), worlds);
+      }
       add_mesh(nodes[n], bound ? Eigen::Matrix4d::Identity() : worlds[n]);
     }
     finish();
@@ -203,6 +207,9 @@ class GltfMeshReader {
     Primitive part;
     part.places = rows("POSITION", 3);
     move_by_targets(json, part.places);
+    if (!joint_transforms_.empty() && attributes.contains("JOINTS_0")) {
+      move_by_joints(attributes, part.places);
+    }
     if (attributes.contains("COLOR_0")) {
       const GltfJson& accessor =
           file_.scene().at("accessors").at(attributes.at("COLOR_0").get<std::size_t>());
@@ -232,6 +239,27 @@ class GltfMeshReader {
       for (std::size_t i = 0; i < places.size(); ++i) places[i] += weight * moves[i];
     }
     unused_targets_ = std::max(unused_targets_, unused);
+  }
+
+  /// Places the vertices of a skinned mesh in the rest pose. A vertex without weights follows the
+  /// first joint in its list.
+  void move_by_joints(const GltfJson& attributes, std::vector<double>& places) {
+    const GltfSkinWeights by = file_.read_skin_weights(attributes, places.size() / 3);
+    for (std::size_t p = 0; p < places.size() / 3; ++p) {
+      Eigen::Vector3d place = Eigen::Vector3d::Zero();
+      double sum = 0;
+      const auto add = [&](std::size_t i, double weight) {
+        const std::size_t joint = by.joints[i / 4][4 * p + i % 4];
+        place += weight * transform_point(joint_transforms_.at(joint), &places[3 * p]);
+        sum += weight;
+      };
+      for (std::size_t i = 0; i < 4 * by.joints.size(); ++i) {
+        const double weight = by.weights[i / 4][4 * p + i % 4];
+        if (weight > 0) add(i, weight);
+      }
+      if (sum == 0) add(0, 1);
+      for (std::size_t k = 0; k < 3; ++k) places[3 * p + k] = place[static_cast<Index>(k)] / sum;
+    }
   }
 
   std::vector<std::uint32_t> corners_of(const GltfJson& json, std::uint32_t count) {
@@ -409,6 +437,8 @@ class GltfMeshReader {
   FileMesh mesh_;
   std::vector<std::string> texture_files_;  ///< for each texture, its file; empty if embedded
   std::vector<double> points_, uvs_, colours_;
+  /// for each joint of the mesh being read, see GltfFile::joint_transforms; empty without a skin
+  std::vector<Eigen::Matrix4d> joint_transforms_;
   std::vector<double> weights_;     ///< weights of the morph targets of the mesh being read
   std::size_t unused_targets_ = 0;  ///< most morph targets of weight 0 that a primitive has
   std::uint32_t piece_ = 0;

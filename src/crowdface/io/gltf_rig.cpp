@@ -116,44 +116,21 @@ class RigReader {
     for (const Json& joint : json.at("joints")) {
       skin.joints.push_back(joint_of_[joint.get<std::size_t>()]);
     }
-    std::vector<double> inverses;
-    if (json.contains("inverseBindMatrices")) {
-      inverses = file_.read_values(json.at("inverseBindMatrices").get<std::size_t>(), 16);
-      if (inverses.size() < 16 * skin.joints.size())
-        file_.fail("a skin lacks inverse bind matrices");
-    }
-    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-      skin.rest_transforms.push_back(rig_.joints[skin.joints[j]].rest_transform);
-      if (inverses.empty()) continue;
-      const auto first = inverses.begin() + static_cast<std::ptrdiff_t>(16 * j);
-      skin.rest_transforms.back() =
-          matrix_product(skin.rest_transforms.back(), matrix_from({first, first + 16}));
-    }
+    skin.rest_transforms = file_.joint_transforms(number, world_transforms_);
     return skin;
   }
 
   void add_skinned(const Json& attributes, const std::vector<double>& places, const Skin& skin) {
     const std::size_t count = places.size() / 3;
-    std::vector<std::vector<std::uint32_t>> bound;
-    std::vector<std::vector<double>> weights;
-    for (std::size_t set = 0; attributes.contains(concat("JOINTS_", set)); ++set) {
-      const std::string of_weights = concat("WEIGHTS_", set);
-      if (!attributes.contains(of_weights)) file_.fail(concat("a mesh lacks ", of_weights));
-      bound.push_back(
-          file_.read_unsigned_values(attributes.at(concat("JOINTS_", set)).get<std::size_t>(), 4));
-      weights.push_back(file_.read_values(attributes.at(of_weights).get<std::size_t>(), 4));
-      if (bound.back().size() != 4 * count || weights.back().size() != 4 * count) {
-        file_.fail("JOINTS_n, WEIGHTS_n and POSITION differ in length");
-      }
-    }
+    const GltfSkinWeights by = file_.read_skin_weights(attributes, count);
     for (std::size_t p = 0; p < count; ++p) {
       std::map<std::uint32_t, double> of_point;
       double sum = 0;
       Eigen::Vector3d place = Eigen::Vector3d::Zero();
-      for (std::size_t i = 0; i < 4 * bound.size(); ++i) {
-        const double weight = weights[i / 4][4 * p + i % 4];
+      for (std::size_t i = 0; i < 4 * by.joints.size(); ++i) {
+        const double weight = by.weights[i / 4][4 * p + i % 4];
         if (!(weight > 0)) continue;
-        const std::size_t joint = bound[i / 4][4 * p + i % 4];
+        const std::size_t joint = by.joints[i / 4][4 * p + i % 4];
         if (joint >= skin.joints.size()) {
           file_.fail(
               concat("a vertex is bound to the joint ", joint, ", which its skin does not have"));
