@@ -41,6 +41,17 @@ TEST(TileStep, IsTheWholePartExceptOnABorder) {
   EXPECT_EQ(tile_index(0.0, 0.5), 0);
 }
 
+TEST(TileStep, RoundingErrorsStayInThePolygonsTile) {
+  EXPECT_EQ(tile_index(-1e-6, 0.5), 0);
+  EXPECT_EQ(tile_index(-1e-6, -5e-7), 0);
+  EXPECT_EQ(tile_index(1.00009, 0.9), 0);
+  EXPECT_EQ(tile_index(0.99991, 1.1), 1);
+  EXPECT_EQ(tile_index(10.00001, 9.5), 9);
+  EXPECT_EQ(tile_index(1.001, 0.9), 1);
+  EXPECT_EQ(tile_index(-0.001, 0.5), -1);
+  EXPECT_EQ(tile_index(1.00001, 4.5), 1) << "the mean lies in another tile";
+}
+
 TEST(TileNumber, CountsTenColumnsARow) {
   EXPECT_EQ(tile_number(0, 0), 1001);
   EXPECT_EQ(tile_number(9, 0), 1010);
@@ -105,7 +116,9 @@ TEST(UvSamples, UnusableCoordinatesAreRefused) {
   mesh.uvs(3, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne), BrokenPrecondition);
   mesh.uvs(3, 1) = -0.5;
-  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim), HasSubstr("UDIM"));
+  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim),
+              HasSubstr("vertex 4, texture coordinate 0, -0.5: expected texture coordinates inside "
+                        "the UDIM tiles"));
   EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kOne), "accepted");
   mesh.topology.corner_uvs[0] = 6;
   EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne), BrokenPrecondition);

@@ -28,6 +28,16 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
   return count > 0 ? Eigen::RowVector2d(sum / count) : sum;
 }
 
+/// The UDIM number of the tile of a corner. \throws InvalidInput that names the vertex.
+int tile_of(const Eigen::RowVector2d& uv, const Eigen::RowVector2d& mean, std::uint32_t vertex) {
+  try {
+    return tile_number(tile_index(uv[0], mean[0]), tile_index(uv[1], mean[1]));
+  } catch (const InvalidInput& error) {
+    throw InvalidInput(concat("vertex ", std::uint64_t{vertex} + 1, ", texture coordinate ", uv[0],
+                              ", ", uv[1], ": ", error.what()));
+  }
+}
+
 /// Returns the samples of each vertex: one sample for each corner of a polygon at this vertex that
 /// has a texture coordinate, in the order of the corners.
 UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& uvs,
@@ -39,10 +49,9 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
       for (std::size_t c = 0; c < face_uvs.size(); ++c) {
         if (face_uvs[c] == kNoIndex) continue;
         const Eigen::RowVector2d uv = uvs.row(face_uvs[c]);
-        const int tile = tiling == UvTiling::kOne
-                             ? kFirstTile
-                             : tile_number(tile_index(uv[0], mean[0]), tile_index(uv[1], mean[1]));
-        put(topology.face(f)[c], {tile, uv[0], uv[1]});
+        const std::uint32_t vertex = topology.face(f)[c];
+        const int tile = tiling == UvTiling::kOne ? kFirstTile : tile_of(uv, mean, vertex);
+        put(vertex, {tile, uv[0], uv[1]});
       }
     }
   };
@@ -65,8 +74,14 @@ void check_every_used_vertex(const Topology& topology, const UvSamples& samples,
 }  // namespace
 
 double tile_index(double coordinate, double polygon_mean) {
-  const double whole = std::floor(coordinate);
-  return whole == coordinate ? std::floor(polygon_mean) : whole;
+  constexpr double kMaxRoundingError = 1e-4;
+  // No tile lies below 0, so a mean just below 0 is a rounding error, too.
+  if (polygon_mean < 0 && polygon_mean >= -kMaxRoundingError) polygon_mean = 0;
+  const double border = std::round(coordinate), tile = std::floor(polygon_mean);
+  const bool is_beside_tile = border == tile || border == tile + 1;
+  if (coordinate == border) return tile;
+  if (std::abs(coordinate - border) <= kMaxRoundingError && is_beside_tile) return tile;
+  return std::floor(coordinate);
 }
 
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs,

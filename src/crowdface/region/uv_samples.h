@@ -24,8 +24,8 @@ struct UvSample {
 using UvSamples = CompressedRows<UvSample>;
 
 /// The column (for u) or row (for v) of the tile that contains a corner's coordinate: the integer
-/// part of the coordinate. An integer coordinate lies on the border of two tiles; the mean
-/// coordinate of the corner's polygon selects one of these tiles.
+/// part of the coordinate. A coordinate that differs from an integer by at most 1e-4 lies on the
+/// border of two tiles; the mean coordinate of the corner's polygon selects one of these tiles.
 double tile_index(double coordinate, double polygon_mean);
 
 /// How a mask covers the texture coordinates. kOne means a single image; the tile of every sample
@@ -37,7 +37,8 @@ enum class UvTiling { kOne, kUdim };
 /// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex must have
 ///                   a texture coordinate.
 /// \throws InvalidInput if a needed vertex that some polygon uses has no texture coordinate at any
-///         corner, or if a coordinate lies outside all UDIM tiles (for UvTiling::kUdim).
+///         corner, or if a coordinate lies outside all UDIM tiles (for UvTiling::kUdim). The
+///         message names the vertex.
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs,
                             UvTiling tiling, const std::vector<bool>& is_needed = {});
 
