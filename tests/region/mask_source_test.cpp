@@ -40,6 +40,15 @@ TEST(MaskSource, NegativeValueIsNamedUnlessAlpha) {
   EXPECT_EQ(MaskSource("m.exr", image).read(1001).pixels, image.pixels);
 }
 
+// Filters that resample or sharpen images undershoot.
+TEST(MaskSource, SmallNegativeValuesCountAsZero) {
+  const Image image{2, 1, 2, -1, std::vector<float>{-0.0004F, 1, -0.18F, 0.5F}, {}};
+  EXPECT_EQ(std::get<0>(MaskSource("m.exr", image).read(1001).pixels),
+            (std::vector<float>{0, 1, 0, 0.5F}));
+  const Image lower{1, 1, 1, -1, std::vector<float>{-0.25F}, {}};
+  EXPECT_THROW(MaskSource("m.exr", lower).read(1001), InvalidInput);
+}
+
 TEST(MaskSource, NothingIsReadUntilAsked) {
   const std::vector<MaskSource> masks = {MaskSource("no/such/file.png"),
                                          MaskSource("none.<UDIM>.png")};

@@ -243,9 +243,17 @@ TEST(RegionWeights, RowsOfVerticesNeedNoTextureCoordinates) {
   EXPECT_EQ(weights("w.csv", "rest,face\n0,1\n.5,.5\n3,1\n").alpha, plain.alpha);
   EXPECT_EQ(weights("w.csv", "\xEF\xBB\xBFrest;face\r\n0;1\r\n0,5;0,5\r\n3;1\r\n").alpha,
             plain.alpha);
+  EXPECT_EQ(weights("w.csv", "\"rest\",\"face\"\n0,1\n.5,.5\n3,1\n").alpha, plain.alpha);
+  // pandas numbers the rows from 0, R from 1.
+  EXPECT_EQ(weights("w.csv", ",rest,face\n0,0,1\n1,.5,.5\n2,3,1\n").alpha, plain.alpha);
+  EXPECT_EQ(weights("w.txt", "\"rest\" \"face\"\n\"1\" 0 1\n\"2\" .5 .5\n\"3\" 3 1\n").alpha,
+            plain.alpha);
+  EXPECT_EQ(weights("w.txt", "1 -2.8e-17\n0.5 0.5\n1 3\n").alpha, plain.alpha);
   EXPECT_EQ(plain.uncovered_vertex_count, 0);
   EXPECT_EQ(weights("w.txt", "1 0\n0 0\n0 0\n").uncovered_vertex_count, 2);
-  for (const char* bad : {"1 0\n1 0\n", "1 0\n1\n1 0\n", "1 0\n-1 0\n1 0\n", "1 0\nnan 0\n1 0\n"}) {
+  for (const char* bad : {"1 0\n1 0\n", "1 0\n1\n1 0\n", "1 0\n-1 0\n1 0\n", "1 0\nnan 0\n1 0\n",
+                          "1 0\n-0.3 0\n1 0\n", "rest,face\n0,1,0\n1,1,0\n3,1,0\n",
+                          "rest,face\n5,1,0\n6,1,0\n7,1,0\n"}) {
     EXPECT_THROW(weights("bad.txt", bad), RecoverableError) << bad;
   }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/region/mask_source.h"
 
+#include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
@@ -10,17 +12,23 @@
 namespace crowdface {
 namespace {
 
-void check_not_negative(const std::string& file, const Image& image) {
+/// Refuses values below kMinMaskValue. Replaces other negative values by 0.
+void replace_small_negatives(const std::string& file, Image& image) {
   const auto channels = mask_channel_indices(image);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       for (const int channel : channels) {
         const float value = image.at(x, y, channel);
-        if (value >= 0) continue;
+        if (value >= kMinMaskValue) continue;
         throw InvalidInput(concat(file, ": expected mask values of zero or more, found ",
                                   double{value}, " at column ", x + 1, ", row ", y + 1,
                                   ", channel ", channel + 1));
       }
+    }
+  }
+  if (auto* values = std::get_if<std::vector<float>>(&image.pixels)) {
+    for (float& value : *values) {
+      if (value >= kMinMaskValue) value = std::max(value, 0.0F);
     }
   }
 }
@@ -42,7 +50,7 @@ std::string MaskSource::tile_path(int tile) const {
 Image MaskSource::read(int tile) const {
   const std::string file = tile_path(tile);
   Image image = image_ ? *image_ : read_image(file);
-  check_not_negative(file, image);
+  replace_small_negatives(file, image);
   return image;
 }
 

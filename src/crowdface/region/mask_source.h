@@ -9,6 +9,10 @@
 
 namespace crowdface {
 
+/// The smallest accepted value of a mask. Values from here to 0 count as 0, because filters that
+/// resample images undershoot (Lanczos down to −0.18) and sums of weights have rounding errors.
+inline constexpr double kMinMaskValue = -0.2;
+
 /// The source of a mask's pixels. It is one image or, if the path contains <UDIM>, a set of UDIM
 /// tiles. Reads an image only on request, so tiles in which no texture coordinate lies may be
 /// missing.
@@ -26,8 +30,8 @@ class MaskSource {
   /// The path of a tile, or of the single image.
   std::string tile_path(int tile) const;
   /// Reads a tile, or the single image.
-  /// \throws InvalidInput naming the pixel, if a value outside the alpha channel is negative; also
-  ///         throws the errors of read_image.
+  /// \throws InvalidInput naming the pixel, if a value outside the alpha channel is below
+  ///         kMinMaskValue; also throws the errors of read_image.
   Image read(int tile) const;
 
  private:

@@ -3,13 +3,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/region/mask_source.h"
 
 namespace crowdface {
 namespace {
+
+/// Removes the first column if the column numbers the rows, from 0 or 1, and has no name. pandas
+/// and R write such a column.
+void remove_row_numbers(VertexWeights& weights) {
+  NpyArray& rows = weights.rows;
+  const std::size_t width = rows.width();
+  if (weights.names.empty() || weights.names.size() + 1 != width || rows.values.empty()) return;
+  std::vector<double> others;
+  for (std::size_t i = 0; i < rows.values.size(); ++i) {
+    if (i % width > 0) {
+      others.push_back(rows.values[i]);
+    } else if (rows.values[i] != rows.values[0] + static_cast<double>(i / width)) {
+      return;
+    }
+  }
+  if (rows.values[0] != 0 && rows.values[0] != 1) return;
+  rows.values = std::move(others);
+  rows.shape[1] = width - 1;
+}
 
 VertexWeights read_rows(const std::filesystem::path& path) {
   VertexWeights weights;
@@ -25,7 +46,7 @@ VertexWeights read_rows(const std::filesystem::path& path) {
     // commas separate columns by semicolons.
     if (text.find(';') != text.npos) std::ranges::replace(text, ',', '.');
     std::ranges::replace_if(
-        text, [](char c) { return c == ',' || c == ';'; }, ' ');
+        text, [](char c) { return c == ',' || c == ';' || c == '"'; }, ' ');
     const std::vector<std::string> words = words_of(text);
     if (words.empty()) continue;
     if (count == 0 && weights.names.empty() && !parse_double(words[0])) {
@@ -45,7 +66,8 @@ VertexWeights read_rows(const std::filesystem::path& path) {
     ++count;
   }
   rows.shape = {count, width};
-  if (!weights.names.empty() && weights.names.size() != width) {
+  remove_row_numbers(weights);
+  if (!weights.names.empty() && weights.names.size() != rows.width()) {
     refuse_file(path, concat("expected a name for each of ", width, " columns, found ",
                              weights.names.size()));
   }
@@ -66,13 +88,15 @@ VertexWeights read_vertex_weights(const std::filesystem::path& path) {
   } else {
     weights = read_rows(path);
   }
-  const auto bad = std::ranges::find_if(
-      weights.rows.values, [](double value) { return !(value >= 0) || !std::isfinite(value); });
+  const auto bad = std::ranges::find_if(weights.rows.values, [](double value) {
+    return !(value >= kMinMaskValue) || !std::isfinite(value);
+  });
   if (bad != weights.rows.values.end()) {
     refuse_file(path, concat("expected weights of zero or more, found ", *bad, " for vertex ",
                              (bad - weights.rows.values.begin()) /
                                  static_cast<std::ptrdiff_t>(weights.rows.width())));
   }
+  for (double& value : weights.rows.values) value = std::max(value, 0.0);
   return weights;
 }
 
