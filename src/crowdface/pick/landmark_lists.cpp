@@ -117,14 +117,14 @@ void read_fcsv(std::string_view text, LandmarkList& list) {
 }
 
 /// Parses a number with a decimal point or, as some systems write it, a decimal comma.
-std::optional<double> number_in(std::string_view field) {
+std::optional<double> parse_field(std::string_view field) {
   std::string with_point(field);
   std::ranges::replace(with_point, ',', '.');
   return parse_double(with_point);
 }
 
 bool is_number(std::string_view field) {
-  return number_in(field).has_value();
+  return parse_field(field).has_value();
 }
 
 char separator_of(std::string_view line) {
@@ -196,7 +196,7 @@ std::optional<TableRow> row_by_header(const std::vector<std::string_view>& field
   if (name && *name < fields.size()) row.name = fields[*name];
   for (const std::size_t column : columns.numbers) {
     if (column + shift >= fields.size()) return std::nullopt;
-    const auto number = number_in(fields[column + shift]);
+    const auto number = parse_field(fields[column + shift]);
     if (!number) return std::nullopt;
     row.numbers.push_back(*number);
   }
@@ -209,7 +209,7 @@ std::optional<TableRow> row_by_order(const std::vector<std::string_view>& fields
   TableRow row;
   std::vector<double> before;  // the numbers in front of the name
   for (const std::string_view field : fields) {
-    if (const auto number = number_in(field)) {
+    if (const auto number = parse_field(field)) {
       row.numbers.push_back(*number);
     } else if (!field.empty() && !row.name.empty()) {
       return std::nullopt;
