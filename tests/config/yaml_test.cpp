@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"a:\n  b: 1\n c: 2\n", "f:3:2", "matches no line above"},
         Malformed{"a: - 1\n", "f:1:4", "list item"}, Malformed{"a: @x\n", "f:1:4", "cannot start"},
         Malformed{"a: `x`\n", "f:1:4", "quotes"}, Malformed{"a: %x\n", "f:1:4", "cannot start"},
-        Malformed{"a: \"x\\q\"\n", "f:1:8", "unknown escape"},
+        Malformed{"a: \"x\\q\"\n", "f:1:8", "begins an escape"},
         Malformed{"a: 'open\nb: 2\n", "f:1:4", "never closed"},
         Malformed{"a: \"open\\\"\nb: 2\n", "f:1:4", "never closed"},
         Malformed{"a: 'it''s open\n", "f:1:4", "never closed"},

@@ -99,6 +99,15 @@ TEST(RegionWeights, WholeHeadIsAllOnes) {
   EXPECT_EQ(weights.uncovered_vertex_count, 0);
 }
 
+TEST(RegionWeights, AGreyPaintingIsOneChannel) {
+  const Strip strip({{0.25, 0.5}, {0.5, 0.5}, {0.75, 0.5}});
+  const MaskSource one("m", image_of(2, 1, 1, {1, 0}));
+  const MaskSource three_equal("m", image_of(2, 1, 3, {1, 1, 1, 0, 0, 0}));
+  EXPECT_EQ(region_weights(strip.topology, strip.uvs, {three_equal}, 2).alpha,
+            region_weights(strip.topology, strip.uvs, {one}, 2).alpha);
+  EXPECT_THAT(message_of_masks(strip, {three_equal}, 3), HasSubstr("3 regions, found 1"));
+}
+
 TEST(RegionWeights, ConstantMasksAreScaledToOne) {
   const MaskSource mask("m", image_of(1, 1, 3, {0.5F, 0.25F, 0.25F}));
   const MaskSource doubled("m", image_of(1, 1, 3, {1.0F, 0.5F, 0.5F}));

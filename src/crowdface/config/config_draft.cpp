@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/config/config_values.h"
+#include "crowdface/config/input_files.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 
@@ -25,8 +26,9 @@ bool expect_file(const YamlNode& node, const std::filesystem::path& file, Config
     return false;
   }
   if (path_exists(file)) return true;
-  draft.complaints.add_at(node, concat(what, quoted(file.string()), " is missing"),
-                          ExitCode::kMissingInput);
+  draft.complaints.add_at(
+      node, concat(what, quoted(file.string()), " is missing", advice_on_backslashes(file)),
+      ExitCode::kMissingInput);
   return false;
 }
 

@@ -38,8 +38,8 @@ std::vector<fs::path> visible_files(const fs::path& folder,
       folder, [&](const fs::path& path) { return is_wanted(path) && is_visible_file(path); },
       &error);
   if (!error) return files;
-  throw MissingInput(
-      concat("the folder ", quoted(folder.string()), " cannot be read: ", error.message()));
+  throw MissingInput(concat("the folder ", quoted(folder.string()),
+                            " cannot be read: ", error.message(), advice_on_backslashes(folder)));
 }
 
 /// Returns whether a file's extension belongs to a format in which meshes may be stored.
@@ -237,15 +237,21 @@ std::string suggested_head_pattern(const fs::path& folder) {
     for (const fs::path& at : inner) {
       const std::vector<fs::path> heads = list_heads(at);
       if (heads.empty()) continue;
-      const fs::path pattern =
-          folder / "*" / (at / heads.front().filename()).lexically_relative(below);
-      if (files_matching(pattern).size() < kMinHeads) continue;
-      return concat("; if each head has its own folder, set faces.files: \"",
-                    (folder.filename() / pattern.lexically_relative(folder)).string(),
-                    "\" in the config");
+      const fs::path name = heads.front().filename();
+      for (const fs::path& last : {name, fs::path(concat("*", name.extension().string()))}) {
+        const fs::path pattern = folder / "*" / (at / last).lexically_relative(below);
+        if (files_matching(pattern).size() < kMinHeads) continue;
+        return concat("; if each head has its own folder, set faces.files: \"",
+                      (folder.filename() / pattern.lexically_relative(folder)).string(),
+                      "\" in the config");
+      }
     }
   }
   return {};
+}
+
+std::string_view advice_on_backslashes(const fs::path& path) {
+  return path.string().find('\\') == std::string::npos ? "" : "; write paths with / instead of \\";
 }
 
 std::string invalid_head_name_message(const std::string& name, const fs::path& file) {

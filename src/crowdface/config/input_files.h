@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/config/config.h"
@@ -33,6 +34,9 @@ std::string left_out_meshes_message(const std::filesystem::path& folder);
 /// a text that suggests a pattern for `faces.files`, such as "people/*/neutral.obj". Searches up to
 /// two folders deep. Empty if no such pattern matches at least kMinHeads files.
 std::string suggested_head_pattern(const std::filesystem::path& folder);
+
+/// Advice for messages about a path that does not exist: empty unless the path has backslashes.
+std::string_view advice_on_backslashes(const std::filesystem::path& path);
 
 /// Returns the message for a head whose file name gives an invalid head name (see is_valid_name).
 std::string invalid_head_name_message(const std::string& name, const std::filesystem::path& file);

@@ -238,6 +238,10 @@ std::string explain(const std::string& message) {
       Entry{"end of map flow not found", "a '{' is not closed"},
       Entry{"illegal flow end", "a ']' or '}' has no opening bracket"},
       Entry{"unknown token", "a value cannot start with this character; put it between quotes"},
+      Entry{"bad character found while scanning hex number",
+            "between double quotes '\\' begins an escape; write paths with / instead of \\"},
+      Entry{"unknown escape character",
+            "between double quotes '\\' begins an escape; write paths with / instead of \\"},
       Entry{"the referenced anchor is not defined",
             "aliases (*) are not supported; put text that starts with '*' between quotes"},
   };

@@ -22,16 +22,21 @@ namespace {
 
 using std::filesystem::path;
 
+constexpr std::string_view kJpegStart = "\xFF\xD8\xFF";
+
 /// Rejects files that are unsafe to decode.
 /// \return the format's name in OpenImageIO.
 std::string checked_format(const path& file, std::string_view bytes, const ImageLimits& limits) {
   std::string format = image_format(bytes);
-  if (limits.allows_jpeg && bytes.starts_with("\xFF\xD8\xFF")) format = "jpeg";
+  if (limits.allows_jpeg && bytes.starts_with(kJpegStart)) format = "jpeg";
   if (format.empty()) {
-    refuse_file(file,
-                concat("expected a PNG, TIFF or OpenEXR image, found ",
-                       bytes.empty() ? "an empty file"
-                                     : "a file that begins with " + quoted(bytes.substr(0, 8))));
+    const std::string found =
+        bytes.empty() ? "an empty file"
+        : bytes.starts_with(kJpegStart)
+            ? "a JPEG image, whose values are inexact: paint it again and save it as PNG"
+            : concat("a file that begins with ", quoted(bytes.substr(0, 8)), ": save it as PNG");
+    refuse_file(file, concat("expected a PNG, ", limits.allows_jpeg ? "JPEG, " : "",
+                             "TIFF or OpenEXR image, found ", found));
   }
   if (const std::string defect =
           container_defect(format, bytes, limits.max_side, limits.allows_jpeg);

@@ -194,6 +194,10 @@ LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::
     mask.names.push_back(first.channel_names[static_cast<std::size_t>(channel)]);
   }
   use_alpha_of_constant_colours(mask);
+  // Painting programs save a grey mask as three equal channels.
+  const bool is_grey_painting =
+      mask.channels() > 1 && is_grey(mask) && !is_constant(mask, colour(0));
+  if (is_grey_painting) take_one_channel(mask, colour(0));
   return mask;
 }
 
