@@ -95,6 +95,9 @@ TEST_F(Wrap, ABatchReadsLandmarksInEachFormatAndNoHiddenFiles) {
   folder_.write("scans/list.json", json);
   folder_.write("scans/short.yml", concat("scan: ", kPlaces));
   folder_.write("scans/._table.obj", std::string("\0\5\x16\7", 4));
+  fs::copy(head(2), scans_ / "notes.obj");
+  folder_.write("scans/notes.txt", "scanned on a Monday\n");
+  folder_.write("scans/notes.json", "{\"camera\": \"left\"}\n");
   const std::string said =
       crowdface(0, {"wrap", "--batch", scans_.string(), "--template", head(1).string(),
                     "--landmarks", landmarks_.string(), "-o", folder_ / "out", "--dry-run"})
@@ -103,6 +106,8 @@ TEST_F(Wrap, ABatchReadsLandmarksInEachFormatAndNoHiddenFiles) {
     EXPECT_THAT(said, ::testing::ContainsRegex(concat(scan, ": [0-9]+ triangles, 7 landmarks")));
   }
   EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("._table")));
+  EXPECT_THAT(said, ::testing::ContainsRegex("notes.txt.*the file is not used"));
+  EXPECT_THAT(said, ::testing::ContainsRegex("notes.json.*the file is not used"));
 }
 
 TEST_F(Wrap, ShardsShareABatchAndThePageShowsTheMostDoubtfulFirst) {

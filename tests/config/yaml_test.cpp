@@ -144,6 +144,12 @@ INSTANTIATE_TEST_SUITE_P(Bytes, MalformedYaml,
                                          Malformed{"a: 1\n\tb: 2\n", "f:2:1", "tab"},
                                          Malformed{"a:\n  \t- b\n", "f:2:3", "tab"}));
 
+TEST(Yaml, JsonMayBeIndentedWithTabs) {
+  const auto [root, problems] = parse("{\n\t\"a\": [\n\t\t1, 2\n\t]\n}\n");
+  ASSERT_TRUE(root && problems.empty());
+  EXPECT_EQ(root->find("a")->value.items.size(), 2U);
+}
+
 TEST(Yaml, NulIsRefused) {
   const auto [root, problems] = parse(std::string_view("a: \0\n", 5));
   ASSERT_EQ(problems.size(), 1u);

@@ -21,9 +21,10 @@ TEST(ObjColours, AreSharesOrBytes) {
   EXPECT_EQ(obj_colours("v 1 2 3 255 51 1\n", 1), rows({{255, 51, 1}}));
   EXPECT_EQ(obj_colours("v 1 2 3 1.001 0.2 0\n", 1), rows({{255, 51, 0}})) << "not quite 1";
   EXPECT_EQ(obj_colours("v 1 2 3\n", 1).rows(), 0);
-  EXPECT_EQ(obj_colours("v 1 2 3\nv 1 2 3 0 0.2 1\nv 1 2 3 1\n", 3),
-            rows({{255, 255, 255}, {0, 51, 255}, {255, 255, 255}}))
+  EXPECT_EQ(obj_colours("v 1 2 3\nv 1 2 3 0 0.2 1\nv 1 2 3 0 0 1\nv 1 2 3 1\n", 4),
+            rows({{255, 255, 255}, {0, 51, 255}, {0, 0, 255}, {255, 255, 255}}))
       << "vertices of objects without colours are white";
+  EXPECT_EQ(obj_colours("v 1 2 3 1 1 1\nv 1 2 3\nv 1 2 3\n", 3).rows(), 0);
   EXPECT_EQ(obj_colours("v 1 2 3 1 1 nan\n", 1).rows(), 0);
 }
 

@@ -86,7 +86,10 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
     }
     at += length;
   }
-  // Search the indentation of each line for tabs.
+  // Search the indentation of each line for tabs, which JSON may have.
+  const std::size_t first = text_.find_first_not_of(" \t\r\n");
+  const bool is_json = first != text_.npos && (text_[first] == '{' || text_[first] == '[');
+  if (is_json) return std::nullopt;
   for (std::size_t row = 0; row < line_starts_.size(); ++row) {
     const std::size_t end = row + 1 < line_starts_.size() ? line_starts_[row + 1] : text_.size();
     const std::size_t tab =

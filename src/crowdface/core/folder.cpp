@@ -71,9 +71,10 @@ std::vector<fs::path> folder_tree(const fs::path& root) {
 
 bool is_inside_folder(const fs::path& path, const fs::path& folder) {
   std::error_code of_path, of_folder;
-  const fs::path way = fs::weakly_canonical(path, of_path)
-                           .lexically_relative(
-                               fs::weakly_canonical(folder.empty() ? "." : folder, of_folder));
+  const auto canonical = [](const fs::path& of, std::error_code& error) {
+    return fs::weakly_canonical(fs::absolute(of.empty() ? "." : of), error);
+  };
+  const fs::path way = canonical(path, of_path).lexically_relative(canonical(folder, of_folder));
   throw_if_system_error(path, of_path);
   throw_if_system_error(folder, of_folder);
   return !of_path && !of_folder && !way.empty() && *way.begin() != "..";

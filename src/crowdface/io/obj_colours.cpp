@@ -33,37 +33,37 @@ Positions colour_fractions(const ColourRows& colours) {
 
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
   constexpr std::size_t kFirst = 4, kMinWords = 7;  // "v", x y z, r g b
-  constexpr double kNone = std::numeric_limits<double>::lowest();
   constexpr std::ptrdiff_t kMinBlanks = 6;
-  std::vector<std::array<double, 3>> found;
-  bool has_some = false;
+  constexpr double kNone = std::numeric_limits<double>::lowest();
+  const auto count = static_cast<std::size_t>(vertices);
+  std::vector<std::array<double, 3>> found;  // #vertices; empty before the first colour
+  std::size_t vertex = 0, coloured = 0;
   double most = 1;
   for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
     end = std::min(text.find('\n', begin), text.size());
     const std::string_view line = text.substr(begin, end - begin);
     if (!is_vertex(line)) continue;
-    if (found.empty()) found.reserve(static_cast<std::size_t>(vertices));
-    std::array<double, 3>& colour = found.emplace_back();
-    colour.fill(kNone);
+    if (vertex == count) return ColourRows(0, 3);
+    const std::size_t v = vertex++;
     if (std::ranges::count_if(line, is_blank) < kMinBlanks) continue;
     const std::vector<std::string> words = words_of(line);
     if (words.size() < kMinWords) continue;
-    has_some = true;
+    if (found.empty()) found.assign(count, {kNone, kNone, kNone});
     for (std::size_t c = 0; c < 3; ++c) {
       const auto number = parse_double(words[kFirst + c]);
       if (!number || !std::isfinite(*number)) return ColourRows(0, 3);
-      colour[c] = *number;
+      found[v][c] = *number;
       most = std::max(most, *number);
     }
+    ++coloured;
   }
-  if (!has_some || static_cast<Eigen::Index>(found.size()) != vertices) return ColourRows(0, 3);
+  if (found.empty() || vertex != count || 2 * coloured < count) return ColourRows(0, 3);
   ColourRows colours(vertices, 3);
   const double scale = most > kLargestFraction ? 1 : kMaxByte;
   for (Eigen::Index v = 0; v < vertices; ++v) {
-    const std::array<double, 3>& of_vertex = found[static_cast<std::size_t>(v)];
     for (Eigen::Index c = 0; c < 3; ++c) {
-      const double number = of_vertex[static_cast<std::size_t>(c)];
-      const double value = of_vertex[0] == kNone ? kMaxByte : scale * number;
+      const double number = found[static_cast<std::size_t>(v)][static_cast<std::size_t>(c)];
+      const double value = number == kNone ? kMaxByte : scale * number;
       colours(v, c) = static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, kMaxByte)));
     }
   }

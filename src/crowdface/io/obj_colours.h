@@ -21,8 +21,8 @@ Positions colour_fractions(const ColourRows& colours);
 /// are clamped to 1; otherwise they are bytes from 0 to 255.
 inline constexpr double kLargestFraction = 2;
 
-/// The colours of the `v` lines. Vertices without a colour are white; no rows if no vertex has a
-/// colour.
+/// The colours of the `v` lines. Vertices without a colour are white; no rows if fewer than half of
+/// the vertices have a colour.
 /// \param vertices  number of vertices in the text.
 ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 

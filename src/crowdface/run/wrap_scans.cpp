@@ -41,19 +41,31 @@ struct Task {
   TextureFiles textures = {};  ///< empty without --texture
 };
 
+/// Whether a file beside a scan holds landmarks; warns if not. A text or JSON file may hold anything.
+bool holds_landmarks(const fs::path& file) {
+  try {
+    read_landmarks(file);
+    return true;
+  } catch (const RecoverableError& error) {
+    log_warning(concat(error.what(), "; the file is not used"));
+    return false;
+  }
+}
+
 Task make_task(const fs::path& scan, const fs::path& head, const fs::path& reports) {
   const std::string name = head.stem().string();
   Task task{scan, scan, head, reports / concat(name, ".wrap.json"),
             reports / concat(name, ".wrap.png")};
   task.own_landmarks.clear();
-  std::vector<std::string> endings = {".yaml", ".pp", "_picked_points.pp", ".mrk.json"};
-  endings.insert(endings.end(), landmark_extensions().begin(), landmark_extensions().end());
-  for (const std::string& ending : endings) {
+  const auto take = [&](const std::string& ending, const auto& is_wanted) {
     const fs::path beside = scan.parent_path() / concat(scan.stem().string(), ending);
-    if (task.own_landmarks.empty() && beside != scan && path_exists(beside)) {
+    if (task.own_landmarks.empty() && beside != scan && path_exists(beside) && is_wanted(beside))
       task.own_landmarks = beside;
-    }
+  };
+  for (const char* ending : {".yaml", ".pp", "_picked_points.pp", ".mrk.json"}) {
+    take(ending, [](const fs::path&) { return true; });
   }
+  for (const std::string& ending : landmark_extensions()) take(ending, holds_landmarks);
   return task;
 }
 
