@@ -347,7 +347,7 @@ TEST(ParseGltf, FindsTexturesOfOtherMachines) {
     return mesh_of(parts, folder / "head.gltf");
   };
   for (const char* uri : {"textures/Skin%201.PNG", "maps/skin%201.png", R"(textures\\skin 1.png)",
-                          "C:/work/Textures/Skin 1.png", "../../skin%201.png"}) {
+                          "C:/scans/Textures/Skin 1.png", "../../skin%201.png"}) {
     const FileMesh mesh = texture_of(uri);
     ASSERT_EQ(mesh.textures.size(), 1U) << uri;
     EXPECT_EQ(mesh.textures[0].bytes, "sub") << uri;

@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 #include <Eigen/Geometry>
 
@@ -35,7 +36,8 @@ struct Primitive {
 struct UvTransform {
   std::size_t set = 0;
   double x = 0, y = 0, rotation = 0, scale_x = 1, scale_y = 1;
-  auto operator<=>(const UvTransform&) const = default;
+  auto key() const { return std::tie(set, x, y, rotation, scale_x, scale_y); }
+  bool operator<(const UvTransform& other) const { return key() < other.key(); }
 };
 
 /// The vertices of one accessor, as a range of rows in the list of all vertices of the file.

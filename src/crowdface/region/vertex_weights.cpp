@@ -21,9 +21,10 @@ void remove_row_numbers(VertexWeights& weights) {
   if (weights.names.empty() || weights.names.size() + 1 != width || rows.values.empty()) return;
   std::vector<double> others;
   for (std::size_t i = 0; i < rows.values.size(); ++i) {
+    const std::size_t row = i / width;
     if (i % width > 0) {
       others.push_back(rows.values[i]);
-    } else if (rows.values[i] != rows.values[0] + static_cast<double>(i / width)) {
+    } else if (rows.values[i] != rows.values[0] + static_cast<double>(row)) {
       return;
     }
   }
