@@ -142,8 +142,8 @@ void give_bytes(png_structp png, png_bytep from, std::size_t count) {
 
 void flush_nothing(png_structp /*png*/) {}
 
-/// Sets the compression. Files of face images are at most 8 % larger than with the highest
-/// compression level of zlib, and encoding takes less than a tenth of the time.
+/// Sets the compression. Files of face images are at most 7 % larger than with the highest
+/// compression levels of zlib, and encoding takes a quarter of the time.
 void set_compression(png_structp png, ImageToEncode::Form form) {
   if (form == ImageToEncode::Form::kUncompressedPng) {
     png_set_compression_level(png, 0);
@@ -152,7 +152,7 @@ void set_compression(png_structp png, ImageToEncode::Form form) {
   constexpr int kRuns = 3;  // Z_RLE: matches only runs of equal bytes
   png_set_compression_strategy(png, kRuns);
   png_set_compression_level(png, 1);
-  png_set_filter(png, 0, PNG_FILTER_AVG);  // by default libpng tries all five filters per row
+  png_set_filter(png, 0, PNG_FILTER_PAETH);  // by default libpng tries all five filters per row
 }
 
 bool write_png(const ImageToEncode& picture, std::string& bytes, std::string& error) {
