@@ -24,8 +24,8 @@ TEST(WriteUnitNormals, EqualsAPlainLoopAtEveryLength) {
     for (std::size_t i = 0; i < count; ++i) {
       const Eigen::Vector3f normal = Eigen::Vector3f(u[i], v[i], 1).normalized();
       for (std::size_t c = 0; c < 3; ++c) {
-        const auto expected = static_cast<std::uint16_t>(
-            65535 * ((normal[static_cast<Eigen::Index>(c)] + 1) / 2) + 0.5F);
+        const float scaled = 65535 * ((normal[static_cast<Eigen::Index>(c)] + 1) / 2) + 0.5F;
+        const auto expected = static_cast<std::uint16_t>(scaled);
         EXPECT_EQ(out[3 * i + c], expected) << i << " of " << count;
         expected_sums[c] += expected;
       }
