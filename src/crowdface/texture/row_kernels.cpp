@@ -84,7 +84,7 @@ void write_unit_normals(const float* u, const float* v, std::size_t count, std::
   const std::size_t width = hn::Lanes(lanes);
   const auto one = hn::Set(lanes, 1.0F), half = hn::Set(lanes, 0.5F);
   const auto most = hn::Set(lanes, 65535.0F);
-  const auto encoded = [&](auto component) {
+  const auto encoded = [&](hn::Vec<Lanes> component) HWY_ATTR {
     const auto share = hn::Mul(hn::Add(component, one), half);
     const auto scaled = hn::Add(hn::Mul(most, share), half);
     return hn::ConvertTo(integers, hn::Min(hn::Max(scaled, hn::Zero(lanes)), most));
