@@ -254,8 +254,10 @@ TEST(MaterialFiles, AreReadAsProgramsWriteThem) {
     }
   }
   const testing::TemporaryFolder folder;
-  folder.write("a.mtl", std::string("\xff\xfen\0e\0w\0", 8));
-  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  folder.write("a.mtl", std::string("\xff\xfen\0e\0w\0m\0t\0l\0 \0a\0\n\0", 20));
+  EXPECT_EQ(find_textures(folder / "head.obj", {"a.mtl"}).single_material, "a") << "UTF-16";
+  folder.write("b.mtl", std::string("n\0e\0w\0", 6));
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"b.mtl"});
   ASSERT_EQ(found.warnings.size(), 1U);
   EXPECT_THAT(found.warnings[0], HasSubstr("save it as UTF-8"));
 }

@@ -40,7 +40,7 @@ TEST(MaskSource, NegativeValueIsNamedUnlessAlpha) {
   EXPECT_EQ(MaskSource("m.exr", image).read(1001).pixels, image.pixels);
 }
 
-// Filters that resample or sharpen images undershoot.
+// Resizing or sharpening an image can produce small negative values.
 TEST(MaskSource, SmallNegativeValuesCountAsZero) {
   const Image image{2, 1, 2, -1, std::vector<float>{-0.0004F, 1, -0.18F, 0.5F}, {}};
   EXPECT_EQ(std::get<0>(MaskSource("m.exr", image).read(1001).pixels),

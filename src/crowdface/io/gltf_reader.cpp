@@ -439,7 +439,7 @@ class GltfMeshReader {
   FileMesh mesh_;
   std::vector<std::string> texture_files_;  ///< for each texture, its file; empty if embedded
   std::vector<double> points_, uvs_, colours_;
-  /// for each joint of the mesh being read, see GltfFile::joint_transforms; empty without a skin
+  /// GltfFile::joint_transforms for the skin of the current mesh; empty if the mesh has no skin
   std::vector<Eigen::Matrix4d> joint_transforms_;
   std::vector<double> weights_;     ///< weights of the morph targets of the mesh being read
   std::size_t unused_targets_ = 0;  ///< most morph targets of weight 0 that a primitive has

@@ -38,11 +38,16 @@ std::vector<std::string> legacy_decodings(std::string_view bytes) {
   return readings;
 }
 
-std::string without_byte_order_mark(std::string_view bytes) {
-  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-    return converted(bytes, "UTF-16");
+std::string plain_text(std::string_view bytes) {
+  const bool is_utf16 = bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF");
+  std::string text = is_utf16
+                         ? converted(bytes, "UTF-16")
+                         : std::string(bytes.substr(bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0));
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_single = i + 1 == text.size() || text[i + 1] != '\n';
+    if (text[i] == '\r' && is_single) text[i] = '\n';
   }
-  return std::string(bytes.substr(bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0));
+  return text;
 }
 
 }  // namespace crowdface

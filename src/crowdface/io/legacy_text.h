@@ -12,8 +12,8 @@ namespace crowdface {
 /// already is UTF-8 or is longer than 4096 bytes.
 std::vector<std::string> legacy_decodings(std::string_view bytes);
 
-/// Removes the byte order mark of a text in UTF-8, and converts a text in UTF-16 that starts with a
-/// byte order mark to UTF-8. Returns an empty text if the UTF-16 is invalid.
-std::string without_byte_order_mark(std::string_view bytes);
+/// Converts the content of a text file to UTF-8 without a byte-order mark, and turns single CR line
+/// ends into LF. Reads UTF-16 only after a byte-order mark; returns an empty text if it is invalid.
+std::string plain_text(std::string_view bytes);
 
 }  // namespace crowdface

@@ -2,13 +2,11 @@
 #include "crowdface/io/material_files.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
-#include "crowdface/core/contains.h"
 #include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
@@ -144,8 +142,8 @@ class Collector {
     return !stays_inside(relative) || !is_inside_folder(folder_ / relative, folder_);
   }
 
-  /// A file outside the mesh's folder is copied only if it is an image, so that no material file
-  /// can publish other files of this machine.
+  /// Files outside the mesh's folder are copied only if they are images. Otherwise a downloaded
+  /// material file could name a private file, and the crowd would contain its copy.
   bool is_image(const fs::path& relative) const {
     try {
       read_image_size(folder_ / relative, {.allows_jpeg = true});
@@ -175,9 +173,12 @@ class Collector {
     if (is_outside(relative) && (what != kTexture || !is_image(relative))) {
       return refuse("lies outside the head's folder and is not copied");
     }
-    if (!destinations_.insert(destination).second) return false;
-    files_.files.push_back({(folder_ / relative).lexically_normal(), destination});
-    return true;
+    const fs::path source = (folder_ / relative).lexically_normal();
+    const auto [copied, is_new] = destinations_.emplace(destination, source);
+    if (copied->second != source)
+      return refuse("has the name of another texture and is not copied");
+    if (is_new) files_.files.push_back({source, destination});
+    return is_new;
   }
 
   /// Finds the file for a path that has backslashes, differs in case, or comes from another machine.
@@ -212,8 +213,8 @@ class Collector {
     const std::string text = read_material_text(file);
     if (text.find('\0') != text.npos) {
       files_.warnings.push_back(concat("material file ", quoted(name.string()),
-                                       " is not UTF-8 text, so its textures are not used: save it "
-                                       "as UTF-8"));
+                                       " is not text in UTF-8, so its textures are not used: save "
+                                       "it as UTF-8"));
       return;
     }
     for (const std::string_view line : split_lines(text)) {
@@ -306,7 +307,7 @@ class Collector {
   /// largest number of searches, each of which lists the folder and its subfolders
   static constexpr int kMaxSearches = 64;
   int searches_ = 0;
-  std::set<fs::path> destinations_;
+  std::map<fs::path, fs::path> destinations_;  ///< source by destination
   /// Maps the text of a statement to its texture path. Valid only within one material file.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;
@@ -320,17 +321,15 @@ class Collector {
   std::map<fs::path, TextureUses> texture_uses_;
 };
 
-/// The keyword in the case in which this program compares it; some programs write `map_kd`.
+/// A known keyword in its usual case, such as `map_Kd` for `map_kd`; other words unchanged.
 std::string_view usual_spelling(std::string_view word) {
-  constexpr std::array<std::string_view, 13> kKeywords = {
-      "newmtl", "Kd",   "d",        "Tr",       "map_Kd", "map_d", "norm",
-      "map_Pr", "disp", "map_Bump", "map_bump", "bump",   "map_Ks"};
-  if (contains(kKeywords, word)) return word;
-  const auto is_same = [&](std::string_view known) {
-    return known.size() == word.size() && lower_case(known) == lower_case(word);
-  };
-  const auto* const found = std::ranges::find_if(kKeywords, is_same);
-  return found == kKeywords.end() ? word : *found;
+  std::vector<std::string_view> known = {"newmtl", "Kd", "d", "Tr", "map_d", "bump"};
+  for (const TextureStatement& statement : kTextureStatements) known.push_back(statement.word);
+  const std::string wanted = lower_case(word);
+  for (const std::string_view keyword : known) {
+    if (lower_case(keyword) == wanted) return keyword;
+  }
+  return word;
 }
 
 Collector collect(const fs::path& mesh, const std::vector<std::string>& libraries) {
@@ -351,11 +350,7 @@ MaterialStatement material_statement(std::string_view line) {
 }
 
 std::string read_material_text(const fs::path& file) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  std::string text = read_file(file);
-  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
-  if (text.find('\n') == text.npos) std::ranges::replace(text, '\r', '\n');
-  return text;
+  return plain_text(read_file(file));
 }
 
 std::vector<std::string_view> suffixes_starting_at_words(std::string_view text) {

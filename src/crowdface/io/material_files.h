@@ -44,7 +44,7 @@ struct MaterialStatement {
 };
 /// The keyword of a known statement has its usual case, whatever the case in the line.
 MaterialStatement material_statement(std::string_view line);
-/// Reads a material file. Removes a byte-order mark, and turns CR line ends into LF.
+/// Reads a material file and converts it with `plain_text`.
 std::string read_material_text(const std::filesystem::path& file);
 /// Whether a statement with this first word names a texture.
 bool is_texture_statement(std::string_view word);

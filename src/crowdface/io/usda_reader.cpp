@@ -65,8 +65,9 @@ bool is_uv_type(std::string_view type) {
   return type.starts_with("texCoord2") || type.starts_with("float2") || type.starts_with("double2");
 }
 
-/// How likely a primvar holds the texture coordinates of a mesh whose materials name no primvar:
-/// 0 for the name that USD recommends, 1 for the usual names of other programs.
+/// Ranks a primvar by how likely it holds texture coordinates; lower is likelier. Rank 0 is the name
+/// that USD recommends, rank 1 are the usual names of other programs. Used only for meshes whose
+/// materials name no primvar.
 int rank_of_uvs(std::string_view type, std::string_view primvar) {
   const std::string name = lower_case(primvar.substr(primvar.find(':') + 1));
   if (name == "st") return 0;
@@ -354,7 +355,8 @@ class UsdaReader {
     return path.empty() || found == material.shaders.end() ? nullptr : &*found;
   }
 
-  /// The text of a shader's input, which may be connected to an input of the material.
+  /// The value of a shader's input. If the input is connected to an input of the material, the value
+  /// of that input.
   static std::string_view input_text(const Prim& material, const Prim& shader,
                                      std::string_view input) {
     const std::string_view own = text_of(shader, input);

@@ -30,7 +30,7 @@ class LandmarkList {
     if (places_.size() >= kMaxListed)
       fail(where, concat("expected at most ", kMaxListed, " landmarks"));
     if (name.empty()) name = std::to_string(places_.size() + 1);
-    // The last decoding is Windows-1252, which spreadsheets of western systems write.
+    // Of the decodings, take the last: Windows-1252, which western spreadsheets write.
     if (const auto decodings = legacy_decodings(name); !decodings.empty()) name = decodings.back();
     LandmarkPlace place;
     place.file_location = concat(path_, where);
@@ -134,7 +134,7 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
-/// The fields of a line, without quotes, and without empty fields at the end.
+/// Splits a line into fields. Removes quotes around fields, and empty fields at the end of the line.
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
   for (std::string_view field : split(line, separator)) {
@@ -185,10 +185,10 @@ struct TableRow {
   std::vector<double> numbers;  ///< a vertex or x, y, z; another count if the row is wrong
 };
 
-/// Reads a row by the header of its table. Returns nothing if a number is missing.
+/// Reads a row whose columns the table's header names. Returns nothing if a number is missing.
 std::optional<TableRow> row_by_header(const std::vector<std::string_view>& fields,
                                       const TableColumns& columns) {
-  // R writes names of rows in front of the columns, and no header for the names.
+  // The program R begins each row with a name, but writes no header for the column of names.
   const std::size_t shift = columns.numbers[0] == 0 && fields.size() == columns.count + 1 ? 1 : 0;
   if (fields.size() > columns.count + shift) return std::nullopt;
   TableRow row;
@@ -225,7 +225,7 @@ std::optional<TableRow> row_by_order(const std::vector<std::string_view>& fields
     row.numbers.erase(row.numbers.begin());
   } else if (row.numbers.empty() || before.size() >= 3) {
     row.numbers = std::move(before);  // the name follows x, y, z, or the vertex
-    // A number that precedes x, y, z is a row number.
+    // The first of four numbers is a row number; x, y, z follow.
     if (row.numbers.size() == 4) row.numbers.erase(row.numbers.begin());
   } else if (before.size() > 1) {
     return std::nullopt;
@@ -348,13 +348,8 @@ std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     read_array(bytes, path.string(), list);
     return list.take();
   }
-  std::string content = without_byte_order_mark(bytes);
+  const std::string content = plain_text(bytes);
   if (content.empty() && !bytes.empty()) list.fail("", "expected text in UTF-8 or UTF-16");
-  // Some programs end lines with CR.
-  for (std::size_t i = 0; i < content.size(); ++i) {
-    const bool is_line_end = i + 1 == content.size() || content[i + 1] != '\n';
-    if (content[i] == '\r' && is_line_end) content[i] = '\n';
-  }
   std::string_view text = content;
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
   if (text.starts_with('<') && text.find("<PickedPoints") != text.npos) {

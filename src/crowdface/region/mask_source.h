@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-/// The smallest accepted value of a mask. Values from here to 0 count as 0, because filters that
-/// resample images undershoot (Lanczos down to −0.18) and sums of weights have rounding errors.
+/// The smallest accepted value of a mask. Negative values down to this limit count as 0: resizing an
+/// image can produce such values (down to −0.18 with a Lanczos filter), and so can rounding errors.
 inline constexpr double kMinMaskValue = -0.2;
 
 /// The source of a mask's pixels. It is one image or, if the path contains <UDIM>, a set of UDIM
