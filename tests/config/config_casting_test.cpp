@@ -247,6 +247,54 @@ TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
   refused("without: [not old]", "name");
 }
 
+// Six shares of 0.167 were refused, because they sum to 1.002.
+TEST_F(ConfigTest, SharesThatAreRoundedUpAreScaled) {
+  const auto scaled = [&](const std::vector<std::string>& shares) {
+    std::string groups = kPlain + "groups:\n";
+    for (std::size_t g = 0; g < shares.size(); ++g)
+      groups += concat("  - {name: g", g, ", share: ", shares[g], "}\n");
+    const auto config = read(groups);
+    std::vector<double> result;
+    for (std::size_t g = 0; config && g < shares.size(); ++g)
+      result.push_back(config->groups[g].share);
+    return result;
+  };
+  using testing::DoubleNear;
+  using testing::Each;
+  EXPECT_THAT(scaled(std::vector<std::string>(6, "0.167")), Each(DoubleNear(1.0 / 6, 1e-12)));
+  EXPECT_THAT(scaled({"0.34", "0.34", "0.34"}), Each(DoubleNear(1.0 / 3, 1e-12)));
+  EXPECT_THAT(scaled({"0.3", "0.7"}), ElementsAre(0.3, 0.7)) << "these need no scaling";
+  EXPECT_THAT(scaled({"0.33", "0.33", "0.33"}), Each(0.33)) << "the others belong to no group";
+  EXPECT_THAT(scaled({"0.5", "0.52"}), ElementsAre());
+  EXPECT_THAT(scaled({"1", "0.02", "0"}), ElementsAre()) << "a share of 0 is not rounded";
+
+  const auto colours = read(kPlain +
+                            "attachments: {items: [], hair_colours: {red: 0.34, black: 0.34, "
+                            "blond: 0.34}}\n");
+  ASSERT_TRUE(colours) << told();
+  EXPECT_NEAR(colours->attachments.hair_colours.at("red"), 1.0 / 3, 1e-12);
+  const auto quotas =
+      read(kPlain +
+           "attachments: {items: [{name: a, kind: hair, file: heads/ann.obj}, {name: b, kind: "
+           "hair, file: heads/ann.obj}, {name: c, kind: hair, file: heads/ann.obj}], quotas: {a: "
+           "0.34, b: 0.34, c: 0.34}}\n");
+  ASSERT_TRUE(quotas) << told();
+  EXPECT_NEAR(quotas->attachments.quotas.at("b"), 1.0 / 3, 1e-12);
+}
+
+TEST_F(ConfigTest, SharesThatAreRoundedDownGiveAWarning) {
+  const auto warnings = [&](const std::string& shares) {
+    const std::string text = kPlain + "groups: [" + shares + "]\n";
+    const ConfigReading reading = read_partial_config(touch("c.yaml", text), {}, problems_);
+    EXPECT_TRUE(reading.is_complete) << told();
+    return reading.warnings;
+  };
+  EXPECT_THAT(warnings("{name: a, share: 0.33}, {name: b, share: 0.33}, {name: c, share: 0.33}"),
+              ElementsAre(HasSubstr("sum to 0.99, so some faces may belong to no group")));
+  EXPECT_THAT(warnings("{name: a, share: 0.33}, {name: b, share: 0.33}, {name: c}"), ElementsAre());
+  EXPECT_THAT(warnings("{name: a, share: 0.6}, {name: b, share: 0.3}"), ElementsAre());
+}
+
 TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {
   const auto refused = [&](const std::string& more, const std::string& phrase) {
     EXPECT_FALSE(read(kPlain + more)) << more;

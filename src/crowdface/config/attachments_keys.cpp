@@ -168,12 +168,24 @@ std::vector<std::string> words_of_items(const Attachments& attachments) {
   return words;
 }
 
+/// Scales the quotas of one kind, which may add up to slightly more than 1 because they are rounded.
+void scale_quotas(const std::string& kind, const std::vector<const YamlEntry*>& entries,
+                  Attachments& attachments, ConfigDraft& draft) {
+  std::vector<double> shares;
+  for (const YamlEntry* entry : entries) shares.push_back(attachments.quotas[entry->key]);
+  const auto factor = factor_of_rounded_shares(shares);
+  if (!factor) {
+    draft.complaints.add_at(entries.back()->value,
+                            concat("the quotas of the kind ", kind, " add up to more than 1"));
+  }
+  for (const YamlEntry* entry : entries) attachments.quotas[entry->key] *= factor.value_or(1);
+}
+
 void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
-  constexpr double kRounding = 1e-9;
   draft.complaints.expect_map(node,
                               "a mapping from kinds, names or colours to shares, {glasses: 0.33}");
-  std::map<std::string, double> totals;  // sum of the quotas, by kind
-  std::set<std::string> alone;           // kinds with a quota for the whole kind
+  std::map<std::string, std::vector<const YamlEntry*>> entries_by_kind;
+  std::set<std::string> alone;  // kinds with a quota for the whole kind
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
     if (!share) continue;
@@ -184,11 +196,12 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
     }
-    // Refuse quotas that break one of three rules:
+    // Refuse quotas that break one of two rules:
     // - A kind with an entry in `attachments.none` has no quota for the whole kind.
     // - A kind has either one quota for the whole kind, or quotas for its items and colours.
-    // - The quotas of a kind add up to at most 1.
-    const bool is_first = !totals.contains(item->kind);
+    auto& entries = entries_by_kind[item->kind];
+    const bool is_first = entries.empty();
+    entries.push_back(&entry);
     if (attachments.fraction_without_item_by_kind.contains(item->kind) && entry.key == item->kind) {
       draft.complaints.add_at(entry.value, concat("attachments.none also sets ", entry.key,
                                                   "; keep only one of the two"));
@@ -198,14 +211,13 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
           concat(
               "expected one quota for the kind, or quotas for its names and colours, found both: ",
               item->kind));
-    } else if ((totals[item->kind] += *share) > 1 + kRounding) {
-      draft.complaints.add_at(
-          entry.value, concat("the quotas of the kind ", item->kind, " add up to more than 1"));
     } else {
       attachments.quotas[entry.key] = *share;
     }
     if (entry.key == item->kind) alone.insert(item->kind);
   }
+  for (const auto& of_kind : entries_by_kind)
+    scale_quotas(of_kind.first, of_kind.second, attachments, draft);
 }
 
 /// Returns a function that writes a mapping from words to shares. For an empty mapping, it writes

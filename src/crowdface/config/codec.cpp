@@ -335,25 +335,29 @@ Codec<PlanePoint> plane_point() {
 
 Codec<std::map<std::string, double>> hair_colours() {
   return {[](const YamlNode& node, ConfigDraft& draft) {
-            constexpr double kRounding = 1e-9;
             std::map<std::string, double> shares;
             std::vector<std::string> names;
+            std::vector<double> values;
             for (const NamedHairColour& known : named_hair_colours())
               names.emplace_back(known.name);
             draft.complaints.expect_map(node, "a mapping from hair colours to shares, {red: 0.3}");
-            double sum = 0;
             for (const YamlEntry& entry : node.entries) {
               const auto share = number(0, 1).read(entry.value, draft);
               if (!contains(names, entry.key)) {
                 draft.complaints.add_at(
                     entry.value, concat("no hair colour is called ", quoted(entry.key),
                                         suggestion(entry.key, names), "; expected ", join(names)));
-              } else if (share && (sum += *share) > 1 + kRounding) {
-                draft.complaints.add_at(entry.value, "the shares add up to more than 1");
               } else if (share) {
                 shares[entry.key] = *share;
+                values.push_back(*share);
               }
             }
+            const auto factor = factor_of_rounded_shares(values);
+            if (!factor) {
+              draft.complaints.add_at(node.entries.back().value,
+                                      "the shares add up to more than 1");
+            }
+            for (auto& share : shares) share.second *= factor.value_or(1);
             return std::optional(shares);
           },
           [](const std::map<std::string, double>& shares, const WriteContext&) {

@@ -82,6 +82,17 @@ const YamlNode* MapReader::require(std::string_view key, std::string_view hint) 
   return find(key);
 }
 
+std::optional<double> factor_of_rounded_shares(const std::vector<double>& shares) {
+  constexpr double kRounding = 1e-9, kMaxRoundingUp = 0.01;
+  double sum = 0, most = 1;
+  for (const double share : shares) {
+    sum += share;
+    if (share > 0) most += kMaxRoundingUp;
+  }
+  if (sum <= 1 + kRounding) return 1;
+  return sum < most - kRounding ? std::optional(1 / sum) : std::nullopt;
+}
+
 std::string plain_number(double value) {
   return format_fixed(value, 0);
 }

@@ -81,6 +81,11 @@ void refuse_repeated(const YamlNode& list, Complaints& out);
 bool is_word(const YamlNode& node, std::string_view word);
 bool has_control_character(std::string_view text);
 
+/// Returns the factor that scales shares to a sum of at most 1. People round shares up to whole
+/// percents (three times 0.34), so the sum may exceed 1 by less than 0.01 for each share above 0;
+/// the factor is then 1 / sum. Returns nothing if the sum is larger.
+std::optional<double> factor_of_rounded_shares(const std::vector<double>& shares);
+
 /// Formats a number, rounded to a whole number, without an exponent: -1000000, not -1e+06.
 std::string plain_number(double value);
 

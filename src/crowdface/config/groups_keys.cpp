@@ -10,8 +10,6 @@
 namespace crowdface {
 namespace {
 
-constexpr double kRounding = 1e-9;
-
 /// Marks a group that has neither a share nor a count. Such groups divide the remaining faces
 /// equally.
 constexpr double kUnsetShare = -1;
@@ -171,26 +169,40 @@ void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   }
 }
 
-/// Divides the remaining share equally among the groups that have neither a share nor a count. Adds
-/// a complaint if the sum of the shares or of the counts is too large.
+/// Divides the remaining share equally among the groups that have neither a share nor a count.
+/// Scales shares whose sum exceeds 1 because they are rounded. Adds a complaint if the sum of the
+/// shares or of the counts is too large.
 void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   auto& groups = draft.config.groups;
   std::uint64_t counted = 0;
   double shared = 0, open = 0;
+  std::vector<double> shares;
   for (const Group& group : groups) {
     counted += group.count.value_or(0);
     if (group.count) continue;
     (group.share == kUnsetShare ? open : shared) += group.share == kUnsetShare ? 1 : group.share;
+    if (group.share != kUnsetShare) shares.push_back(group.share);
   }
-  if (shared > 1 + kRounding) {
+  const auto factor = factor_of_rounded_shares(shares);
+  if (!factor) {
     draft.complaints.add_at(node, concat("the shares sum to ", shared, ", more than 1"));
+  }
+  constexpr double kLargestRest = 0.02, kNoRest = 1e-9;
+  if (open == 0 && shared > 1 - kLargestRest && shared < 1 - kNoRest) {
+    draft.warnings.push_back(concat(node.path, ": the shares sum to ", shared,
+                                    ", so some faces may belong to no group; leave out the share "
+                                    "of one group, which then gets all remaining faces"));
   }
   if (counted > draft.config.crowd.count) {
     draft.complaints.add_at(node, concat("the counts sum to ", counted, ", more than crowd.count, ",
                                          draft.config.crowd.count));
   }
   for (Group& group : groups) {
-    if (group.share == kUnsetShare) group.share = std::max(0.0, 1 - shared) / std::max(open, 1.0);
+    if (group.share == kUnsetShare) {
+      group.share = std::max(0.0, 1 - shared) / std::max(open, 1.0);
+    } else {
+      group.share *= factor.value_or(1);
+    }
   }
 }
 
