@@ -284,7 +284,10 @@ TEST_F(ConfigTest, SharesThatAreRoundedUpAreScaled) {
 
 TEST_F(ConfigTest, SharesThatAreRoundedDownGiveAWarning) {
   const auto warnings = [&](const std::string& shares) {
-    const std::string text = kPlain + "groups: [" + shares + "]\n";
+    const std::string text =
+        "schema: 1\ncrowd: {name: mob, count: 30}\nfaces: {directory: heads, units: cm}\ngroups: "
+        "[" +
+        shares + "]\n";
     const ConfigReading reading = read_partial_config(touch("c.yaml", text), {}, problems_);
     EXPECT_TRUE(reading.is_complete) << told();
     return reading.warnings;
