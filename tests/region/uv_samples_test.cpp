@@ -26,7 +26,7 @@ struct TwoTiles {
 std::string message_of_uvs(const Topology& topology, const TextureCoordinates& uvs,
                            UvTiling tiling) {
   try {
-    gather_uv_samples(topology, uvs, tiling);
+    gather_uv_samples(topology, uvs, tiling, {}, "ann.obj");
   } catch (const InvalidInput& error) {
     return error.what();
   }
@@ -101,8 +101,10 @@ TEST(UvSamples, IsolatedVertexHasNone) {
 TEST(UvSamples, MissingCoordinatesAreNamed) {
   TwoTiles mesh;
   mesh.topology.corner_uvs[5] = kNoIndex;
-  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim),
-              HasSubstr("vertex 3 of face 2 has no texture coordinate"));
+  EXPECT_THAT(
+      message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim),
+      HasSubstr(
+          "ann.obj: masks need texture coordinates: vertex 3 of face 2 has no texture coordinate"));
   mesh.topology.corner_uvs[5] = 2;
   mesh.topology.corner_uvs[1] = kNoIndex;  // vertex 2 still has one in face 2
   EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim), "accepted");
@@ -116,9 +118,11 @@ TEST(UvSamples, UnusableCoordinatesAreRefused) {
   mesh.uvs(3, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne), BrokenPrecondition);
   mesh.uvs(3, 1) = -0.5;
-  EXPECT_THAT(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim),
-              HasSubstr("vertex 4, texture coordinate 0, -0.5: expected texture coordinates inside "
-                        "the UDIM tiles"));
+  EXPECT_THAT(
+      message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kUdim),
+      HasSubstr(
+          "ann.obj: vertex 4, texture coordinate 0, -0.5: expected texture coordinates inside "
+          "the UDIM tiles"));
   EXPECT_EQ(message_of_uvs(mesh.topology, mesh.uvs, UvTiling::kOne), "accepted");
   mesh.topology.corner_uvs[0] = 6;
   EXPECT_THROW(gather_uv_samples(mesh.topology, mesh.uvs, UvTiling::kOne), BrokenPrecondition);

@@ -302,7 +302,8 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
     inputs.regions = load_regions(config, inputs);
     if (config.distance.mask) {
       inputs.distance_weights = mask_values(inputs.head_set.topology, inputs.head_set.uvs,
-                                            MaskSource(*config.distance.mask), skin_of(inputs));
+                                            MaskSource(*config.distance.mask), skin_of(inputs),
+                                            inputs.head_files[0].path.string());
     }
     inputs.max_level = max_level_of(config, inputs.edge_length_mm);
   } catch (const RecoverableError& error) {

@@ -80,7 +80,7 @@ RegionWeights weights_of_masks(const Config& config, const Inputs& inputs) {
   return region_weights(inputs.head_set.topology, inputs.head_set.uvs,
                         {config.regions.mask.begin(), config.regions.mask.end()},
                         static_cast<Index>(config.region_names().size()), skin_of(inputs),
-                        config.region_names());
+                        config.region_names(), inputs.head_files[0].path.string());
 }
 
 struct Neighbours {

@@ -71,7 +71,8 @@ PaintedMasks propose_masks(const HeadSet& heads, const HeadShape& mean,
         "mesh, the same way for all heads, or blend without regions");
   }
   return paint_masks(heads.topology, heads.uvs,
-                     propose_regions(heads.topology, mean, orientation, bands), mean.is_skin, size);
+                     propose_regions(heads.topology, mean, orientation, bands), mean.is_skin, size,
+                     heads.heads[0].name);
 }
 
 }  // namespace crowdface

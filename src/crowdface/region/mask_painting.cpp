@@ -181,13 +181,16 @@ class Canvas {
 
 /// For each UDIM tile, the polygons that have a corner in the tile.
 std::map<int, std::vector<Index>> polygons_by_tile(const Topology& topology,
-                                                   const TextureCoordinates& uvs) {
+                                                   const TextureCoordinates& uvs,
+                                                   const std::string& mesh_name) {
   std::map<int, std::vector<Index>> tiles;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto corners = topology.face_uvs(f);
     Vector2d middle = Vector2d::Zero();
     for (const std::uint32_t uv : corners) {
-      if (uv == kNoIndex) throw InvalidInput(concat("face ", f + 1, " has no texture coordinates"));
+      if (uv == kNoIndex) {
+        throw InvalidInput(concat(mesh_name, ": face ", f + 1, " has no texture coordinates"));
+      }
       middle += uvs.row(uv).transpose() / static_cast<double>(corners.size());
     }
     std::set<int> of_face;
@@ -209,17 +212,17 @@ bool PaintedMasks::is_tiled() const {
 
 PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs,
                          const RegionWeights::Alpha& alpha, const std::vector<bool>& has_priority,
-                         int size) {
+                         int size, const std::string& mesh_name) {
   require(size >= 1 && alpha.rows() == topology.vertex_count && alpha.cols() >= 1, "a mask of ",
           size, " texels for ", alpha.rows(), " vertices");
   if (topology.corner_uvs.empty()) throw InvalidInput("a mask needs texture coordinates");
   const auto vertex_has_priority = [&](std::uint32_t v) {
     return has_priority.empty() || has_priority[v];
   };
-  const UvSamples samples = gather_uv_samples(topology, uvs, UvTiling::kUdim);
+  const UvSamples samples = gather_uv_samples(topology, uvs, UvTiling::kUdim, {}, mesh_name);
   PaintedMasks out;
   out.texels_per_side = size;
-  for (const auto& [tile, faces] : polygons_by_tile(topology, uvs)) {
+  for (const auto& [tile, faces] : polygons_by_tile(topology, uvs, mesh_name)) {
     throw_if_interrupted();
     Canvas canvas(size, alpha.cols());
     const int column = (tile - kFirstTile) % 10, row = (tile - kFirstTile) / 10;

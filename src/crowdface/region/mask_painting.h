@@ -45,11 +45,12 @@ struct PaintedMasks {
 ///                      first corner has priority win; otherwise the polygon with the lower index
 ///                      wins. Only the weights of vertices with priority are matched.
 /// \param size   texels per side, at least 1.
+/// \param mesh_name  name or file of the mesh, for messages.
 /// \throws InvalidInput if there are no texture coordinates, a polygon lacks texture coordinates,
 ///         or a texture coordinate lies outside all UDIM tiles.
 PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs,
                          const RegionWeights::Alpha& alpha, const std::vector<bool>& has_priority,
-                         int size);
+                         int size, const std::string& mesh_name = "the mesh");
 
 struct MaskFiles {
   /// Path of each mask image, as it stands in a config; contains <UDIM> if the masks are tiled.

@@ -374,14 +374,16 @@ bool all_hold_vertex_weights(const std::vector<MaskSource>& masks) {
 
 /// The texture coordinates of all vertices; empty if all masks are files of vertex weights.
 UvSamples samples_for(const Topology& topology, const TextureCoordinates& uvs,
-                      const std::vector<MaskSource>& masks, const std::vector<bool>& is_needed) {
+                      const std::vector<MaskSource>& masks, const std::vector<bool>& is_needed,
+                      const std::string& mesh_name) {
   if (all_hold_vertex_weights(masks)) {
     UvSamples none;
     none.offsets.assign(static_cast<std::size_t>(topology.vertex_count) + 1, 0);
     return none;
   }
   const bool tiled = std::ranges::any_of(masks, [](auto& m) { return m.is_tiled(); });
-  return gather_uv_samples(topology, uvs, tiled ? UvTiling::kUdim : UvTiling::kOne, is_needed);
+  return gather_uv_samples(topology, uvs, tiled ? UvTiling::kUdim : UvTiling::kOne, is_needed,
+                           mesh_name);
 }
 
 }  // namespace
@@ -408,10 +410,10 @@ RegionWeights whole_head_weights(const Topology& topology) {
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions,
                              const std::vector<bool>& is_needed,
-                             const std::vector<std::string>& names) {
+                             const std::vector<std::string>& names, const std::string& mesh_name) {
   require(regions >= 1, "region: weights of ", regions, " regions");
   if (masks.empty() && regions == 1) return whole_head_weights(topology);
-  const UvSamples samples = samples_for(topology, uvs, masks, is_needed);
+  const UvSamples samples = samples_for(topology, uvs, masks, is_needed, mesh_name);
   const std::set<int> used = tiles_of(samples);
   const auto needs_mask = [&](Index v) {
     return is_needed.empty() || is_needed[static_cast<std::size_t>(v)];
@@ -445,8 +447,9 @@ RegionWeights region_weights(const Topology& topology, const TextureCoordinates&
 }
 
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
-                                const MaskSource& mask, const std::vector<bool>& is_needed) {
-  const UvSamples samples = samples_for(topology, uvs, {mask}, is_needed);
+                                const MaskSource& mask, const std::vector<bool>& is_needed,
+                                const std::string& mesh_name) {
+  const UvSamples samples = samples_for(topology, uvs, {mask}, is_needed, mesh_name);
   Problems problems;
   const std::set<int> used = tiles_of(samples);
   const LoadedMask loaded = load(mask, used, used, topology.vertex_count, problems);

@@ -50,6 +50,7 @@ RegionWeights whole_head_weights(const Topology& topology);
 ///                   masks. Tiles that no needed vertex uses may be missing; vertices that lie only
 ///                   in missing tiles belong to the last region.
 /// \param names   names of the regions; empty: assigns channels by order only.
+/// \param mesh_name  name or file of the mesh, for messages.
 /// \throws MissingInput naming every missing image, and every missing tile that a needed vertex
 ///         uses.
 /// \throws InvalidInput if an image cannot be used, there are too few channels, a whole image is
@@ -58,14 +59,16 @@ RegionWeights whole_head_weights(const Topology& topology);
 RegionWeights region_weights(const Topology& topology, const TextureCoordinates& uvs,
                              const std::vector<MaskSource>& masks, Index regions,
                              const std::vector<bool>& is_needed = {},
-                             const std::vector<std::string>& names = {});
+                             const std::vector<std::string>& names = {},
+                             const std::string& mesh_name = "the mesh");
 
 /// Samples the first channel of a mask at every vertex, like region_weights, but does not scale the
 /// values. Returns zero for vertices that no polygon uses. Throws the errors of region_weights.
 /// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex must have
 ///                   texture coordinates.
 std::vector<double> mask_values(const Topology& topology, const TextureCoordinates& uvs,
-                                const MaskSource& mask, const std::vector<bool>& is_needed = {});
+                                const MaskSource& mask, const std::vector<bool>& is_needed = {},
+                                const std::string& mesh_name = "the mesh");
 
 /// Samples one channel of an image bilinearly at (u, v), as in region_weights; coordinates outside
 /// [0, 1] are clamped.

@@ -28,20 +28,21 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
   return count > 0 ? Eigen::RowVector2d(sum / count) : sum;
 }
 
-/// The UDIM number of the tile of a corner. \throws InvalidInput that names the vertex.
-int tile_of(const Eigen::RowVector2d& uv, const Eigen::RowVector2d& mean, std::uint32_t vertex) {
+/// The UDIM number of the tile of a corner. \throws InvalidInput that names the mesh and the vertex.
+int tile_of(const Eigen::RowVector2d& uv, const Eigen::RowVector2d& mean, std::uint32_t vertex,
+            const std::string& mesh_name) {
   try {
     return tile_number(tile_index(uv[0], mean[0]), tile_index(uv[1], mean[1]));
   } catch (const InvalidInput& error) {
-    throw InvalidInput(concat("vertex ", std::uint64_t{vertex} + 1, ", texture coordinate ", uv[0],
-                              ", ", uv[1], ": ", error.what()));
+    throw InvalidInput(concat(mesh_name, ": vertex ", std::uint64_t{vertex} + 1,
+                              ", texture coordinate ", uv[0], ", ", uv[1], ": ", error.what()));
   }
 }
 
 /// Returns the samples of each vertex: one sample for each corner of a polygon at this vertex that
 /// has a texture coordinate, in the order of the corners.
 UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& uvs,
-                            UvTiling tiling) {
+                            UvTiling tiling, const std::string& mesh_name) {
   const auto for_each_sample = [&](const auto& put) {
     for (Index f = 0; f < topology.face_count(); ++f) {
       const auto face_uvs = topology.face_uvs(f);
@@ -50,7 +51,8 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
         if (face_uvs[c] == kNoIndex) continue;
         const Eigen::RowVector2d uv = uvs.row(face_uvs[c]);
         const std::uint32_t vertex = topology.face(f)[c];
-        const int tile = tiling == UvTiling::kOne ? kFirstTile : tile_of(uv, mean, vertex);
+        const int tile =
+            tiling == UvTiling::kOne ? kFirstTile : tile_of(uv, mean, vertex, mesh_name);
         put(vertex, {tile, uv[0], uv[1]});
       }
     }
@@ -60,13 +62,14 @@ UvSamples samples_by_vertex(const Topology& topology, const TextureCoordinates& 
 }
 
 void check_every_used_vertex(const Topology& topology, const UvSamples& samples,
-                             const std::vector<bool>& is_needed) {
+                             const std::vector<bool>& is_needed, const std::string& mesh_name) {
   for (Index f = 0; f < topology.face_count(); ++f) {
     for (const std::uint32_t vertex : topology.face(f)) {
       if (!samples.items_of(vertex).empty() || (!is_needed.empty() && !is_needed[vertex])) continue;
-      throw InvalidInput(concat(
-          "masks need texture coordinates: vertex ", std::uint64_t{vertex} + 1, " of face ", f + 1,
-          " has no texture coordinate (vertex weights, as text or .npy, do not need them)"));
+      throw InvalidInput(
+          concat(mesh_name, ": masks need texture coordinates: vertex ", std::uint64_t{vertex} + 1,
+                 " of face ", f + 1,
+                 " has no texture coordinate (vertex weights, as text or .npy, do not need them)"));
     }
   }
 }
@@ -85,14 +88,15 @@ double tile_index(double coordinate, double polygon_mean) {
 }
 
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs,
-                            UvTiling tiling, const std::vector<bool>& is_needed) {
+                            UvTiling tiling, const std::vector<bool>& is_needed,
+                            const std::string& mesh_name) {
   require(uvs.allFinite() && std::ranges::all_of(topology.corner_uvs,
                                                  [&](std::uint32_t uv) {
                                                    return uv == kNoIndex || uv < uvs.rows();
                                                  }),
           "region: texture coordinates that are not finite or not there");
-  UvSamples corners = samples_by_vertex(topology, uvs, tiling);
-  check_every_used_vertex(topology, corners, is_needed);
+  UvSamples corners = samples_by_vertex(topology, uvs, tiling, mesh_name);
+  check_every_used_vertex(topology, corners, is_needed, mesh_name);
   constexpr Index kBlock = 16384;
   std::vector<std::size_t> kept(static_cast<std::size_t>(topology.vertex_count));
   parallel_for_each(topology.vertex_count, kBlock, [&](Index i) {

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "crowdface/core/compressed_rows.h"
@@ -36,11 +37,13 @@ enum class UvTiling { kOne, kUdim };
 /// empty.
 /// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex must have
 ///                   a texture coordinate.
+/// \param mesh_name  name or file of the mesh, for messages.
 /// \throws InvalidInput if a needed vertex that some polygon uses has no texture coordinate at any
 ///         corner, or if a coordinate lies outside all UDIM tiles (for UvTiling::kUdim). The
-///         message names the vertex.
+///         message names the mesh and the vertex.
 UvSamples gather_uv_samples(const Topology& topology, const TextureCoordinates& uvs,
-                            UvTiling tiling, const std::vector<bool>& is_needed = {});
+                            UvTiling tiling, const std::vector<bool>& is_needed = {},
+                            const std::string& mesh_name = "the mesh");
 
 /// The UDIM numbers of all tiles that contain at least one sample.
 std::set<int> tiles_of(const UvSamples& samples);

@@ -78,7 +78,8 @@ void read_model(const WrapOptions& options, WrapInputs& inputs, Positions& posit
 /// 1 − mask.
 void exclude_ignored_area(const std::string& mask, const ObjFile& file, WrapTemplate& wrap_template,
                           Hasher& digest) {
-  const std::vector<double> ignored = mask_values(file.topology, file.uvs, MaskSource(mask));
+  const std::vector<double> ignored =
+      mask_values(file.topology, file.uvs, MaskSource(mask), {}, file.path.string());
   for (std::size_t v = 0; v < wrap_template.skin.vertices.size(); ++v) {
     const double left = 1 - std::clamp(ignored[wrap_template.skin.vertices[v]], 0.0, 1.0);
     wrap_template.skin.ambient_visibility[v] *= left;
