@@ -67,6 +67,32 @@ TEST(Textures, OfOtherMachinesAreFoundInSubfoldersWhateverTheirCase) {
   EXPECT_TRUE(found.warnings.empty());
 }
 
+// Archives made on macOS hold decomposed names, whatever the material file has.
+TEST(Textures, AreFoundByComposedAndDecomposedNames) {
+  const testing::TemporaryFolder folder;
+  folder.write("a.mtl",
+               "newmtl a\nmap_Kd Kopf_\u00e9.png\nnorm Fu\u0308\u00df/ha\u0323\u0302u.png\n"
+               "map_Pr \ud55c\uae00.png\nnewmtl b\nmap_Kd \u30ac.png\n");
+  const std::vector<std::string> there = {"Kopf_e\u0301.png", "F\u00fc\u00df/h\u1eadu.png",
+                                          "\u1112\u1161\u11ab\u1100\u1173\u11af.png",
+                                          "\u30ab\u3099.png"};
+  for (const std::string& name : there) folder.write(name, "x");
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(names(found),
+            (std::vector<std::string>{"a.mtl", there[0], there[1], there[2], there[3]}));
+  EXPECT_TRUE(found.warnings.empty());
+}
+
+TEST(Textures, OfOtherMachinesMayHaveTiles) {
+  const testing::TemporaryFolder folder;
+  folder.write("a.mtl", "newmtl a\nmap_Kd C:\\proj\\Skin.<UDIM>.png\n");
+  for (const char* name : {"tex/skin.1001.png", "tex/skin.1002.png"}) folder.write(name, "x");
+  const MaterialFiles found = find_material_files(folder / "head.obj", {"a.mtl"});
+  EXPECT_EQ(names(found),
+            (std::vector<std::string>{"a.mtl", "tex/skin.1001.png", "tex/skin.1002.png"}));
+  EXPECT_TRUE(found.warnings.empty());
+}
+
 // Each statement listed the folder, however often it stood there and whatever it named.
 TEST(MaterialFiles, LookForEachNameOnce) {
   const testing::TemporaryFolder folder;

@@ -10,6 +10,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/glb_container.h"
 #include "crowdface/io/gltf_compression.h"
+#include "crowdface/io/texture_search.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -146,12 +147,15 @@ std::string GltfFile::read_uri(const std::string& uri, const std::string& what) 
   const std::filesystem::path file = percent_decoded(uri).value_or(std::string(uri));
   const bool inside = file.is_relative() && !file.lexically_normal().string().starts_with("..");
   if (!inside) fail(concat("its data lie outside its folder, at ", quoted(uri)));
-  if (!is_file(path_.parent_path() / file)) {
-    throw MissingInput(concat((path_.parent_path() / file).string(), ": is missing; ",
-                              path_.string(),
+  const std::filesystem::path folder = path_.parent_path();
+  if (!is_file(folder / file)) {
+    if (const auto found = search_texture(folder, file, path_.stem())) {
+      return read_file(folder / *found);
+    }
+    throw MissingInput(concat((folder / file).string(), ": is missing; ", path_.string(),
                               " keeps its data there (export GLB, which is one file)"));
   }
-  return read_file(path_.parent_path() / file);
+  return read_file(folder / file);
 }
 
 std::string_view GltfFile::buffer(std::size_t number) {

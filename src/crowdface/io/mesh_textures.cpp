@@ -10,6 +10,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/texture_search.h"
+#include "crowdface/io/tile_files.h"
 
 namespace crowdface {
 namespace {
@@ -40,13 +41,14 @@ void read_texture_files(std::vector<std::string> files, const std::filesystem::p
     if (files[t].empty()) continue;
     std::ranges::replace(files[t], '\\', '/');
     const std::filesystem::path named = files[t], folder = path.parent_path();
-    const auto found =
-        is_file(folder / named) ? std::optional(named) : search_texture(folder, named, path.stem());
+    const bool is_tiled = files[t].find(kTileWord) != std::string::npos;
+    const auto found = is_file(folder / named) ? std::optional(named)
+                       : is_tiled              ? std::nullopt
+                                               : search_texture(folder, named, path.stem());
     if (found) {
       mesh.textures[t].bytes = read_file(folder / *found);
       continue;
     }
-    const bool is_tiled = files[t].find("<UDIM>") != std::string::npos;
     mesh.notes.push_back(concat("its texture ", quoted(named.filename().string()),
                                 is_tiled
                                     ? " has several tiles (UDIM) and is not used: an OBJ file "

@@ -8,20 +8,42 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/decomposed_text.h"
+#include "crowdface/io/tile_files.h"
 
 namespace crowdface {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder's entry with this name; if there is none, the first entry whose name differs only in
-/// case.
+/// The file of a texture; if the path contains <UDIM>, the file of the first tile.
+fs::path first_file(const fs::path& path) {
+  return udim_tile_path(path, kFirstTile);
+}
+
+/// Replaces the last number of the first tile in a file name by <UDIM>.
+fs::path with_tile_word(std::string name) {
+  const std::string number = std::to_string(kFirstTile);
+  const std::size_t at = name.rfind(number);
+  if (at != name.npos) name.replace(at, number.size(), kTileWord);
+  return name;
+}
+
+/// Names that differ only in case, or in the normal form of Unicode, have the same key.
+std::string key_of(const fs::path& name) {
+  return lower_case(decomposed(name.string()));
+}
+
+/// The folder's entry with this name; if there is none, the first entry whose name has the same key.
+/// \param name  may contain <UDIM>; so does the result.
 std::optional<fs::path> find_entry(const fs::path& folder, const fs::path& name) {
-  if (path_exists(folder / name)) return name;
-  const std::string wanted = lower_case(name.string());
+  const fs::path file = first_file(name);
+  if (path_exists(folder / file)) return name;
+  const std::string wanted = key_of(file);
   std::error_code error;
   for (const fs::path& entry : list_folder(folder, &error)) {
-    if (lower_case(entry.filename().string()) == wanted) return entry.filename();
+    if (key_of(entry.filename()) != wanted) continue;
+    return file == name ? entry.filename() : with_tile_word(entry.filename().string());
   }
   return std::nullopt;
 }
@@ -33,7 +55,7 @@ std::optional<fs::path> find_below(const fs::path& folder, const std::vector<fs:
     if (!entry) return std::nullopt;
     found /= *entry;
   }
-  return is_file(folder / found) ? std::optional(found) : std::nullopt;
+  return is_file(folder / first_file(found)) ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace
