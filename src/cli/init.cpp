@@ -206,6 +206,23 @@ void refuse_existing(const fs::path& file, bool force) {
   }
 }
 
+/// Returns the names that the new config gives to the heads.
+/// \throws InvalidInput if the command `check` would refuse a name; MissingInput if a file is a
+///         link to a missing file.
+std::vector<std::string> valid_head_names(const std::vector<fs::path>& files) {
+  std::vector<std::string> names;
+  for (const std::string& name : names_of_heads(files)) {
+    const fs::path& file = files[names.size()];
+    if (!path_exists(file)) {
+      throw MissingInput(concat(file.string(), ": is a link to a file that is missing"));
+    }
+    const std::string objection = objection_to_head_name(name, file, names);
+    if (!objection.empty()) throw InvalidInput(objection);
+    names.push_back(name);
+  }
+  return names;
+}
+
 void init(const InitOptions& options) {
   const fs::path heads = options.heads, out = options.out;
   const std::vector<fs::path> files = list_heads(heads);
@@ -231,6 +248,7 @@ void init(const InitOptions& options) {
   refuse_existing(file, options.force);
   // Collect the facts about the heads that the new config states.
   StarterFacts facts;
+  facts.head_names = valid_head_names(files);
   const fs::path here = fs::absolute(file).lexically_normal().parent_path();
   facts.heads_folder = fs::absolute(heads).lexically_normal().lexically_relative(here);
   require_storable_path(facts.heads_folder);
@@ -245,12 +263,6 @@ void init(const InitOptions& options) {
     facts.front = analysis.orientation->front;
   }
   facts.uses_rigid_alignment = analysis.has_misaligned_head;
-  for (const fs::path& head : files) {
-    facts.head_names.push_back(head.stem().string());
-    if (!is_valid_name(facts.head_names.back())) {
-      throw InvalidInput(invalid_head_name_message(facts.head_names.back(), head));
-    }
-  }
   const auto up = analysis.first.col(facts.up.index);
   facts.head_height = up.maxCoeff() - up.minCoeff();
   guess_units(analysis, facts);

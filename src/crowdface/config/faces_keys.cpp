@@ -24,18 +24,9 @@ using Faces = Config::Faces;
 /// invalid, reserved or already used.
 void add_head(const fs::path& file, const std::string& name, const YamlNode& node, Faces& faces,
               ConfigDraft& draft) {
-  const std::string quoted_if_invalid = quoted(file.string());
   expect_file(node, file, draft);
-  if (!is_valid_name(name)) {
-    draft.complaints.add_at(node, invalid_head_name_message(name, file));
-  } else if (name == "all" || name == "target") {
-    draft.complaints.add_at(node,
-                            concat("a head cannot have the name ", quoted(name),
-                                   ", because the word is reserved; rename ", quoted_if_invalid));
-  } else if (contains(faces.names, name)) {
-    draft.complaints.add_at(
-        node, concat("two heads are called ", quoted(name), "; the second is ", quoted_if_invalid));
-  }
+  const std::string objection = objection_to_head_name(name, file, faces.names);
+  if (!objection.empty()) draft.complaints.add_at(node, objection);
   faces.files.push_back(file);
   faces.names.push_back(name);
   faces.tags.emplace_back();

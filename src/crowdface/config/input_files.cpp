@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "crowdface/config/config_values.h"
+#include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
@@ -254,11 +255,23 @@ std::string_view advice_on_backslashes(const fs::path& path) {
   return path.string().find('\\') == std::string::npos ? "" : "; write paths with / instead of \\";
 }
 
-std::string invalid_head_name_message(const std::string& name, const fs::path& file) {
-  return concat("the head's name, ", quoted(name),
-                ", comes from its file name; expected at most 64 letters (a-z), digits, '_', '-' "
-                "and '.'; rename ",
-                quoted(file.string()));
+std::string objection_to_head_name(const std::string& name, const fs::path& file,
+                                   const std::vector<std::string>& other_names) {
+  const std::string quoted_file = quoted(file.string());
+  if (!is_valid_name(name)) {
+    return concat("the head's name, ", quoted(name),
+                  ", comes from its file name; expected at most 64 letters (a-z), digits, '_', '-' "
+                  "and '.'; rename ",
+                  quoted_file);
+  }
+  if (name == "all" || name == "target") {
+    return concat("a head cannot have the name ", quoted(name),
+                  ", because the word is reserved; rename ", quoted_file);
+  }
+  if (contains(other_names, name)) {
+    return concat("two heads are called ", quoted(name), "; the second is ", quoted_file);
+  }
+  return {};
 }
 
 }  // namespace crowdface

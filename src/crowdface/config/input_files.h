@@ -38,8 +38,10 @@ std::string suggested_head_pattern(const std::filesystem::path& folder);
 /// Advice for messages about a path that does not exist: empty unless the path has backslashes.
 std::string_view advice_on_backslashes(const std::filesystem::path& path);
 
-/// Returns the message for a head whose file name gives an invalid head name (see is_valid_name).
-std::string invalid_head_name_message(const std::string& name, const std::filesystem::path& file);
+/// Returns why a head cannot have this name: the name is invalid (see is_valid_name), reserved, or
+/// one of the names of other heads. Empty if the head can have the name.
+std::string objection_to_head_name(const std::string& name, const std::filesystem::path& file,
+                                   const std::vector<std::string>& other_names);
 
 /// Returns the files that match a pattern such as "people/*/neutral.obj", sorted by path. `*`
 /// matches any number of characters except '/', and `?` matches one character. Wildcards do not
