@@ -247,6 +247,37 @@ TEST_F(ConfigTest, GroupsWithoutAnybodyAreRefused) {
   refused("without: [not old]", "name");
 }
 
+// A brief says "an elderly woman with two daughters": nobody asks for the father.
+TEST_F(ConfigTest, OneParentMayBeLeftOut) {
+  const std::string tagged =
+      "schema: 1\ncrowd: {name: mob, count: 3}\nfaces: {directory: heads, units: cm, tags: {ann: "
+      "[female], bob: [male], cyd: [male]}}\n";
+  const auto config = read(tagged +
+                           "families:\n"
+                           "  - {name: girls, members: 2, parents: {mother: drawn}}\n"
+                           "  - {name: boys, members: 1, parents: {mother: mob_girls_mother}}\n"
+                           "  - {name: kids, members: 1, parents: {father: bob}}\n");
+  ASSERT_TRUE(config) << told();
+  const auto parents = [](const Config& of, std::size_t family) {
+    return std::pair(of.families[family].parents.at(0).id, of.families[family].parents.at(1).id);
+  };
+  EXPECT_EQ(parents(*config, 0).first, "girls_mother");
+  EXPECT_THAT(parents(*config, 0).second, testing::AnyOf("bob", "cyd")) << "a head, tagged male";
+  EXPECT_EQ(parents(*config, 1).second, parents(*config, 0).second) << "brothers of the girls";
+  EXPECT_EQ(parents(*config, 2), (std::pair<std::string, std::string>("ann", "bob")));
+  const auto again = read(effective_config(*config, folder_));
+  ASSERT_TRUE(again) << told();
+  EXPECT_EQ(parents(*again, 0), parents(*config, 0));
+  EXPECT_FALSE(read(kPlain + "families: [{name: a, members: 1, parents: {}}]\n"));
+  EXPECT_THAT(told(), HasSubstr("at least one of mother and father"));
+  EXPECT_FALSE(read(kPlain + "families: [{name: a, members: 1, parents: {father: zed}}]\n"));
+  EXPECT_THAT(told(), HasSubstr("found \"zed\""));
+  const auto untagged =
+      read(kPlain + "families: [{name: a, members: 1, parents: {father: bob}}]\n");
+  ASSERT_TRUE(untagged) << told();
+  EXPECT_NE(untagged->families[0].parents.at(0).head, untagged->families[0].parents.at(1).head);
+}
+
 // Six shares of 0.167 were refused, because they sum to 1.002.
 TEST_F(ConfigTest, SharesThatAreRoundedUpAreScaled) {
   const auto scaled = [&](const std::vector<std::string>& shares) {

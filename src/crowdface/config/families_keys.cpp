@@ -7,6 +7,7 @@
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"
+#include "crowdface/core/random.h"
 
 namespace crowdface {
 namespace {
@@ -72,14 +73,40 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   return Parent{std::nullopt, *name};
 }
 
+/// Returns the parent that the config leaves out: a random head, because heads are not in the crowd.
+/// The head has the parent's sex if any head is tagged with this sex. The head depends only on the
+/// other parent, so two families with the same single parent have the same second parent.
+std::optional<Parent> absent_parent(std::string_view role, const Parent& other,
+                                    const ConfigDraft& draft) {
+  const Config::Faces& faces = draft.config.faces;
+  std::vector<Eigen::Index> heads =
+      heads_with_tags({role == word_of(0) ? "female" : "male"}, faces);
+  if (heads.empty()) {
+    for (std::size_t h = 0; h < faces.names.size(); ++h)
+      heads.push_back(static_cast<Eigen::Index>(h));
+  }
+  if (heads.size() > 1) std::erase(heads, other.head.value_or(-1));
+  if (heads.empty())
+    return std::nullopt;  // the heads are unknown, about which there is a complaint
+  const Config::Crowd& crowd = draft.config.crowd;
+  std::string person = other.id;
+  if (person.starts_with(crowd.name + '_')) person.erase(0, crowd.name.size() + 1);
+  const double drawn = random_uniform({crowd.seed, 0, concat("absent parent/", person)});
+  const auto at = static_cast<std::size_t>(drawn * static_cast<double>(heads.size()));
+  const Eigen::Index head = heads[std::min(at, heads.size() - 1)];
+  return Parent{head, faces.names[static_cast<std::size_t>(head)]};
+}
+
 void read_parents(const YamlNode& node, FamilyOptions& family, ConfigDraft& draft) {
-  constexpr const char* kHint = "drawn, a head, a recipe or a member of another family";
   const MapReader map(node, {std::string(word_of(0)), std::string(word_of(1))}, draft.complaints);
-  const YamlNode* mother = map.require(word_of(0), kHint);
-  const YamlNode* father = map.require(word_of(1), kHint);
-  if (mother == nullptr || father == nullptr) return;
-  const auto first = read_parent(*mother, word_of(0), family, draft);
-  const auto second = read_parent(*father, word_of(1), family, draft);
+  const YamlNode *mother = map.find(word_of(0)), *father = map.find(word_of(1));
+  if (node.kind == YamlNode::Kind::kMap && node.entries.empty()) {
+    draft.complaints.add_mismatch(node, "at least one of mother and father");
+  }
+  auto first = mother ? read_parent(*mother, word_of(0), family, draft) : std::nullopt;
+  auto second = father ? read_parent(*father, word_of(1), family, draft) : std::nullopt;
+  if (mother == nullptr && second) first = absent_parent(word_of(0), *second, draft);
+  if (father == nullptr && first) second = absent_parent(word_of(1), *first, draft);
   if (first && second) family.parents = {*first, *second};
 }
 
