@@ -208,11 +208,11 @@ TEST(Init, RefusesNamesAndLinksThatCheckRefuses) {
   const std::string heads = (folder / "heads").string(), config = (folder / "c.yaml").string();
   crowdface(0, {"synth", "-o", heads, "--count", "2", "--vertices", "5000"});
   const fs::path odd = folder / "heads/all.obj";
-  fs::copy(folder / "heads/synth_00.obj", odd);
+  fs::copy(folder / "heads/synth_01.obj", odd);
   crowdface(65, {"init", heads, "-o", config}, {"cannot have the name \"all\"", "rename"});
-  fs::rename(odd, folder / "heads/synth_00.OBJ");
-  crowdface(65, {"init", heads, "-o", config}, {"two heads are called \"synth_00\""});
-  fs::remove(folder / "heads/synth_00.OBJ");
+  fs::rename(odd, folder / "heads/synth_01.OBJ");
+  crowdface(65, {"init", heads, "-o", config}, {"two heads are called \"synth_01\""});
+  fs::remove(folder / "heads/synth_01.OBJ");
   fs::create_symlink("gone.obj", folder / "heads/ann.obj");
   crowdface(66, {"init", heads, "-o", config}, {"ann.obj: is a link to a file that is missing"});
 }
