@@ -74,6 +74,30 @@ TEST(ParseUsda, StandsMeshesWhereTheirTransformsSay) {
   EXPECT_LT((mesh.positions.row(3) - Eigen::RowVector3d(12, 2, 0)).norm(), 1e-9);
 }
 
+// The transform of a prim was ignored if the prim's children stood before it.
+TEST(ParseUsda, OrderOfPropertiesAndChildrenIsIrrelevant) {
+  const FileMesh mesh =
+      mesh_of(concat("def Xform \"head\"\n{\n def Mesh \"skin\" {\n", kSquare,
+                     " double3 xformOp:translate = (0, 1, 0)\n"
+                     " uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n"
+                     " double3 xformOp:scale = (2, 2, 2)\n"
+                     " uniform token[] xformOpOrder = [\"xformOp:scale\"]\n}\n"));
+  EXPECT_EQ(mesh.positions.row(3), Eigen::RowVector3d(2, 4, 1));
+}
+
+TEST(ParseUsda, ResetXformStackIgnoresParents) {
+  const auto mesh_in = [&](const std::string& order) {
+    return mesh_of(
+        concat("def Xform \"head\"\n{\n double3 xformOp:scale = (2, 2, 2)\n"
+               " uniform token[] xformOpOrder = [\"xformOp:scale\"]\n def Xform \"in\"\n{\n"
+               " double3 xformOp:translate = (0, 1, 0)\n uniform token[] xformOpOrder = [",
+               order, "]\n def Mesh \"skin\" {\n", kSquare, "}\n}\n}\n"));
+  };
+  EXPECT_EQ(mesh_in("\"xformOp:translate\"").positions.row(3), Eigen::RowVector3d(2, 4, 1));
+  EXPECT_EQ(mesh_in("\"!resetXformStack!\", \"xformOp:translate\"").positions.row(3),
+            Eigen::RowVector3d(1, 2, 0.5));
+}
+
 TEST(ParseUsda, TurnsLeftHandedFacesAndReadsPrimvars) {
   const FileMesh mesh = square_with(
       "uniform token orientation = \"leftHanded\"\n"
@@ -201,6 +225,28 @@ TEST(ParseUsda, ChoosesTheTextureCoordinatesOfTheMaterial) {
       material("face", "string inputs:varname.connect = </m/face.inputs:uvs>")));
   EXPECT_EQ(first_u(mesh), 1);
   EXPECT_EQ(mesh.uvs(mesh.topology.corner_uvs[3], 0), 2);
+}
+
+// The texture was read, but the transform between its reader and the texture was ignored.
+TEST(ParseUsda, TransformsTextureCoordinatesAsTheMaterialAsks) {
+  const FileMesh mesh = mesh_of(
+      concat("def Mesh \"skin\" {\n", kSquare,
+             "texCoord2f[] primvars:st = [(0.5, 0.25), (1, 0), (0, 1), (1, 1)] (interpolation = "
+             "\"vertex\")\nrel material:binding = </m>\n}\ndef Material \"m\" {\n"
+             "def Shader \"surface\" { uniform token info:id = \"UsdPreviewSurface\"\n"
+             "color3f inputs:diffuseColor.connect = </m/colour.outputs:rgb> }\n"
+             "def Shader \"colour\" { uniform token info:id = \"UsdUVTexture\"\n"
+             "float2 inputs:st.connect = </m/moved.outputs:result>\n"
+             "float4 inputs:scale = (2, 2, 2, 1)\n}\n"
+             "def Shader \"moved\" { uniform token info:id = \"UsdTransform2d\"\n"
+             "float2 inputs:scale = (2, 4)\nfloat inputs:rotation = 90\n"
+             "float2 inputs:translation = (0.5, 0)\n"
+             "float2 inputs:in.connect = </m/reader.outputs:result> }\n"
+             "def Shader \"reader\" { uniform token info:id = \"UsdPrimvarReader_float2\"\n"
+             "string inputs:varname = \"st\" }\n}\n"));
+  // (0.5, 0.25) is scaled to (1, 1), turned to (-1, 1), and moved.
+  EXPECT_LT((mesh.uvs.row(mesh.topology.corner_uvs[0]) - Eigen::RowVector2d(-0.5, 1)).norm(),
+            1e-12);
 }
 
 TEST(ParseUsda, ReadsNoMeshThatUsdHides) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -44,9 +45,10 @@ struct Prim {
   }
 };
 
-/// A Mesh prim and the transform from its axes to the layer's axes.
+/// A Mesh prim and the transform from its axes to the axes of a prim above it, or of the layer.
 struct MeshPrim {
   Eigen::Matrix4d place;
+  bool has_final_place;  ///< whether `place` leads to the layer's axes (see LocalTransform)
   Prim prim;
   bool is_hidden = false;    ///< whether the prim or a parent is inactive or invisible
   bool is_animated = false;  ///< whether the prim or a parent has a property without default value
@@ -112,20 +114,46 @@ Eigen::Matrix4d matrix_of(std::string_view step, const std::vector<double>& numb
   return matrix;
 }
 
-Eigen::Matrix4d place_of(const Prim& prim) {
+/// A transform of texture coordinates, as UsdTransform2d defines it: scale, then rotation, then
+/// translation.
+struct UsdUvTransform {
+  std::array<double, 2> scale = {1, 1}, translation = {0, 0};
+  double degrees = 0;
+  auto operator<=>(const UsdUvTransform&) const = default;  // NOLINT(modernize-use-nullptr)
+};
+
+/// Texture coordinates: the name of a primvar without "primvars:", and a transform.
+struct UvSource {
+  std::string primvar;
+  UsdUvTransform transform;
+  auto operator<=>(const UvSource&) const = default;  // NOLINT(modernize-use-nullptr)
+};
+
+/// The transform that a prim's xformOpOrder describes.
+struct LocalTransform {
+  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
+  bool ignores_parents = false;  ///< whether the matrix leads to the layer's axes
+};
+
+LocalTransform local_transform(const Prim& prim) {
   constexpr std::string_view kInverse = "!invert!";
-  Eigen::Matrix4d place = Eigen::Matrix4d::Identity();
+  LocalTransform local;
   const PrimProperty* order = prim.find("xformOpOrder");
-  if (order == nullptr) return place;
+  if (order == nullptr) return local;
   for (const std::string& step : order->texts) {
+    if (step == "!resetXformStack!") {
+      local = {Eigen::Matrix4d::Identity(), true};
+      continue;
+    }
     const bool is_inverse = step.starts_with(kInverse);
     const std::string_view name = std::string_view(step).substr(is_inverse ? kInverse.size() : 0);
     const PrimProperty* value = prim.find(name);
     if (value == nullptr) continue;
     const Eigen::Matrix4d matrix = matrix_of(name, value->numbers);
-    place = matrix_product(place, is_inverse ? Eigen::Matrix4d(matrix.inverse()) : matrix);
+    local.matrix =
+        matrix_product(local.matrix, is_inverse ? Eigen::Matrix4d(matrix.inverse()) : matrix);
   }
-  return place;
+  return local;
 }
 
 class UsdaReader {
@@ -136,7 +164,7 @@ class UsdaReader {
     for (UsdaToken token = tokens_.next(); token.kind != UsdaToken::Kind::kEnd;
          token = tokens_.next()) {
       if (token.is('(')) tokens_.consume_group();
-      if (is_prim(token)) read_prim(token, Eigen::Matrix4d::Identity(), 0, nullptr);
+      if (is_prim(token)) read_prim(token, 0, nullptr);
     }
     std::vector<std::string> unused;
     bool is_animated = false;
@@ -176,7 +204,7 @@ class UsdaReader {
     return token.is_word("def") || token.is_word("over") || token.is_word("class");
   }
 
-  void read_prim(const UsdaToken& keyword, const Eigen::Matrix4d& above, int depth, Prim* parent) {
+  void read_prim(const UsdaToken& keyword, int depth, Prim* parent) {
     if (depth > kDeepest) fail("its prims are nested too deeply");
     Prim prim;
     UsdaToken token = tokens_.next();
@@ -198,16 +226,11 @@ class UsdaReader {
       return;
     }
     const std::size_t first_mesh = meshes_.size();
-    std::optional<Eigen::Matrix4d> place;
-    const auto placed = [&] {
-      if (!place) place = matrix_product(above, place_of(prim));
-      return *place;
-    };
     std::vector<std::string_view> words;
     for (token = tokens_.next(); !token.is('}'); token = tokens_.next()) {
       if (token.kind == UsdaToken::Kind::kEnd) fail("it ends within a prim");
       if (is_prim(token)) {
-        read_prim(token, placed(), depth + 1, &prim);
+        read_prim(token, depth + 1, &prim);
         words.clear();
       } else if (token.is('=')) {
         read_property(words, prim);
@@ -228,14 +251,20 @@ class UsdaReader {
     is_hidden = is_hidden || text_of(prim, "visibility") == "invisible";
     const bool is_animated = std::ranges::any_of(
         prim.properties, [](const auto& property) { return property.second.is_time_sample; });
+    const LocalTransform local = local_transform(prim);
     for (std::size_t m = first_mesh; m < meshes_.size(); ++m) {
+      if (!meshes_[m].has_final_place) {
+        meshes_[m].place = matrix_product(local.matrix, meshes_[m].place);
+        meshes_[m].has_final_place = local.ignores_parents;
+      }
       meshes_[m].is_hidden = meshes_[m].is_hidden || is_hidden;
       meshes_[m].is_animated = meshes_[m].is_animated || is_animated;
       inherit("purpose", prim, meshes_[m].prim);
       inherit("material:binding", prim, meshes_[m].prim);
     }
     if (prim.type == "Mesh") {
-      meshes_.push_back({placed(), std::move(prim), is_hidden, is_animated});
+      meshes_.push_back(
+          {local.matrix, local.ignores_parents, std::move(prim), is_hidden, is_animated});
       return;
     }
     if (parent != nullptr && prim.type == "NodeGraph") {
@@ -272,6 +301,9 @@ class UsdaReader {
                                                           "faceVertexIndices", "indices"};
     const bool is_plain = name.find('.') == name.npos;  // "points.connect"
     const bool is_primvar = name.starts_with("primvars:");
+    const bool is_uv_transform =
+        type.starts_with("float") &&
+        (name == "inputs:scale" || name == "inputs:translation" || name == "inputs:rotation");
     const bool is_list = name == "xformOpOrder" || name == "material:binding";
     const bool is_text =
         name == "orientation" || name == "visibility" || name == "purpose" || name == "info:id" ||
@@ -279,6 +311,7 @@ class UsdaReader {
         (name.starts_with("inputs:") && (type == "asset" || type == "string" || type == "token"));
     if (is_plain &&
         (std::ranges::find(kNumbers, name) != kNumbers.end() || name.starts_with("xformOp:") ||
+         is_uv_transform ||
          (is_primvar && (is_uv_type(type) || type.starts_with("color3") || type == "int[]")))) {
       property.numbers = tokens_.read_numbers(name);
     } else {
@@ -364,13 +397,30 @@ class UsdaReader {
     return own.empty() ? text_of(material, from.substr(from.rfind('.') + 1)) : own;
   }
 
-  /// The primvar that a texture's UsdPrimvarReader names; empty if there is none.
-  static std::string uv_name(const Prim& material, const Prim& texture) {
+  /// The texture coordinates of a texture. The primvar is empty if no UsdPrimvarReader names one.
+  static UvSource uv_source(const Prim& material, const Prim& texture) {
+    UvSource source;
     const Prim* reader = connected(material, texture, "inputs:st");
     if (reader != nullptr && text_of(*reader, "info:id") == "UsdTransform2d") {
+      source.transform = uv_transform(*reader);
       reader = connected(material, *reader, "inputs:in");
     }
-    return std::string(reader == nullptr ? "" : input_text(material, *reader, "inputs:varname"));
+    if (reader != nullptr) source.primvar = input_text(material, *reader, "inputs:varname");
+    return source;
+  }
+
+  static UsdUvTransform uv_transform(const Prim& shader) {
+    UsdUvTransform transform;
+    const auto numbers = [&](std::string_view input, std::size_t count) {
+      const PrimProperty* found = shader.find(input);
+      return found != nullptr && found->numbers.size() == count ? found->numbers.data() : nullptr;
+    };
+    if (const double* scale = numbers("inputs:scale", 2))
+      std::copy_n(scale, 2, transform.scale.data());
+    if (const double* by = numbers("inputs:translation", 2))
+      std::copy_n(by, 2, transform.translation.data());
+    if (const double* degrees = numbers("inputs:rotation", 1)) transform.degrees = *degrees;
+    return transform;
   }
 
   /// Adds the image files that the preview surface of a material uses.
@@ -382,8 +432,8 @@ class UsdaReader {
                                         std::pair("inputs:roughness", TextureKind::kRoughness)}) {
         const Prim* texture = connected(material, surface, input);
         if (texture == nullptr || text_of(*texture, "info:id") != "UsdUVTexture") continue;
-        std::string& uvs = uvs_of_material_[std::string(material.name)];
-        if (uvs.empty()) uvs = uv_name(material, *texture);
+        UvSource& uvs = uvs_of_material_[std::string(material.name)];
+        if (uvs.primvar.empty()) uvs = uv_source(material, *texture);
         const std::string_view file = input_text(material, *texture, "inputs:file");
         if (file.empty()) continue;
         mesh_.textures.push_back({std::string(material.name), kind, {}});
@@ -393,15 +443,18 @@ class UsdaReader {
     }
   }
 
-  /// The primvar with the texture coordinates of a mesh's polygons that have this material; empty
-  /// if there is none.
-  std::string uvs_of(const Prim& prim, const std::string& material) const {
+  /// The texture coordinates of a mesh's polygons that have this material. The primvar is empty if
+  /// there is none.
+  UvSource uvs_of(const Prim& prim, const std::string& material) const {
     const auto wanted = uvs_of_material_.find(material);
-    std::string best;
+    UvSource best;
+    if (wanted != uvs_of_material_.end()) best.transform = wanted->second.transform;
     for (const auto& [rank, name] : prim.uvs) {
       if (!varies(*prim.find(name), 2)) continue;
-      if (wanted != uvs_of_material_.end() && name == "primvars:" + wanted->second) return name;
-      if (best.empty()) best = name;
+      const bool is_wanted =
+          wanted != uvs_of_material_.end() && name == "primvars:" + wanted->second.primvar;
+      if (is_wanted || best.primvar.empty()) best.primvar = name;
+      if (is_wanted) break;
     }
     return best;
   }
@@ -437,15 +490,15 @@ class UsdaReader {
     const bool is_left = orientation != nullptr && !orientation->texts.empty() &&
                          orientation->texts[0] == "leftHanded";
     const bool is_turned = is_left != (place.topLeftCorner<3, 3>().determinant() < 0);
-    std::map<std::string, std::vector<std::uint32_t>> uv_rows;  // by primvar
+    std::map<UvSource, std::vector<std::uint32_t>> uv_rows;
     const std::vector<std::uint32_t>* rows = nullptr;
     std::size_t begin = 0;
     for (std::size_t f = 0; f < faces; ++f) {
       const std::size_t count = index_of(counts->numbers[f], all.size() - begin + 1);
       if (f == 0 || materials[f] != materials[f - 1]) {
-        const std::string primvar = uvs_of(prim, materials[f]);
-        const auto [known, is_new] = uv_rows.try_emplace(primvar);
-        if (is_new) known->second = add_uvs(prim, primvar, all);
+        const UvSource source = uvs_of(prim, materials[f]);
+        const auto [known, is_new] = uv_rows.try_emplace(source);
+        if (is_new) known->second = add_uvs(prim, source, all);
         rows = &known->second;
       }
       add_face(begin, count, is_turned, all, *rows, first, materials[f]);
@@ -453,16 +506,22 @@ class UsdaReader {
     }
   }
 
-  /// Appends the values of a primvar to the texture coordinates, and returns the row of each
-  /// corner.
-  std::vector<std::uint32_t> add_uvs(const Prim& prim, const std::string& primvar,
+  /// Appends the transformed values of a primvar to the texture coordinates, and returns the row of
+  /// each corner.
+  std::vector<std::uint32_t> add_uvs(const Prim& prim, const UvSource& source,
                                      const std::vector<std::uint32_t>& vertices) {
-    std::vector<std::uint32_t> rows = rows_of_corners(prim, primvar, 2, vertices);
+    std::vector<std::uint32_t> rows = rows_of_corners(prim, source.primvar, 2, vertices);
     if (rows.empty()) return rows;
     for (std::uint32_t& row : rows) row += static_cast<std::uint32_t>(uvs_.size() / 2);
-    const auto& numbers = prim.find(primvar)->numbers;
-    uvs_.insert(uvs_.end(), numbers.begin(),
-                numbers.end() - static_cast<std::ptrdiff_t>(numbers.size() % 2));
+    const auto& numbers = prim.find(source.primvar)->numbers;
+    const UsdUvTransform& by = source.transform;
+    const double angle = by.degrees * std::numbers::pi / 180;
+    const double cos = std::cos(angle), sin = std::sin(angle);
+    for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
+      const double u = numbers[i] * by.scale[0], v = numbers[i + 1] * by.scale[1];
+      uvs_.push_back(cos * u - sin * v + by.translation[0]);
+      uvs_.push_back(sin * u + cos * v + by.translation[1]);
+    }
     return rows;
   }
 
@@ -499,7 +558,7 @@ class UsdaReader {
   UsdaTokens tokens_;
   FileMesh mesh_;
   std::vector<MeshPrim> meshes_;  ///< added to `mesh_` when all materials are known
-  std::map<std::string, std::string> uvs_of_material_;  ///< names of primvars
+  std::map<std::string, UvSource> uvs_of_material_;
   std::vector<double> points_, uvs_, colours_;
   std::vector<std::string> files_;  ///< the file name of each texture
   bool any_colours_ = false;
