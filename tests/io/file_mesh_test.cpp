@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/file_mesh.h"
 
+#include <array>
 #include <cstring>
 #include <map>
 #include <utility>
@@ -307,6 +308,52 @@ TEST(ParseGltf, UnpacksDraco) {
   parts.primitive = begin + "77}}}}";
   expect_error(ExitCode::kBadData, {"Draco", "gltf-transform"}, [&] { mesh_of(parts); });
 }
+
+// Draco meshes kept the pose of their vertices whatever the joints, and lost their colours.
+class DracoColours : public ::testing::TestWithParam<bool> {};
+TEST_P(DracoColours, AndSkinsAreUnpacked) {
+  draco::TriangleSoupMeshBuilder builder;
+  builder.Start(2);
+  const int positions =
+      builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+  const int joints = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_UINT8);
+  const int weights = builder.AddAttribute(draco::GeometryAttribute::GENERIC, 4, draco::DT_FLOAT32);
+  const int colours =
+      builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8, GetParam());
+  const std::array<std::uint8_t, 4> second = {1, 0, 0, 0}, red = {255, 0, 0, 255};
+  const std::array<float, 4> whole = {1, 0, 0, 0};
+  for (std::uint32_t f = 0; f < 2; ++f) {
+    const auto at = [&](std::uint32_t c) { return &kPlaces[3U * kCorners[3 * f + c]]; };
+    const draco::FaceIndex face(f);
+    builder.SetAttributeValuesForFace(positions, face, at(0), at(1), at(2));
+    builder.SetAttributeValuesForFace(joints, face, second.data(), second.data(), second.data());
+    builder.SetAttributeValuesForFace(weights, face, whole.data(), whole.data(), whole.data());
+    builder.SetAttributeValuesForFace(colours, face, red.data(), red.data(), red.data());
+  }
+  const auto packed = builder.Finalize();
+  draco::Encoder encoder;
+  draco::EncoderBuffer buffer;
+  ASSERT_TRUE(encoder.EncodeMeshToBuffer(*packed, &buffer).ok());
+  GltfParts parts = plain_parts();
+  parts.node = R"({"children":[1,2]},{"translation":[0,4,0]},{"mesh":0,"skin":0,"scale":[9,9,9]})";
+  parts.more = R"("skins":[{"joints":[0,1]}],)";
+  parts.data = std::string(buffer.data(), buffer.size());
+  parts.views = concat(R"({"buffer":0,"byteLength":)", parts.data.size(), "}");
+  parts.accessors =
+      R"({"componentType":5126,"type":"VEC3","count":4},{"componentType":5123,"type":"SCALAR","count":6},)"
+      R"({"componentType":5121,"type":"VEC4","count":4,"normalized":true})";
+  const auto id = [&](int attribute) { return packed->attribute(attribute)->unique_id(); };
+  parts.primitive = concat(
+      R"({"attributes":{"POSITION":0,"COLOR_0":2},"indices":1,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":)",
+      id(positions), R"(,"JOINTS_0":)", id(joints), R"(,"WEIGHTS_0":)", id(weights),
+      R"(,"COLOR_0":)", id(colours), "}}}}");
+  const FileMesh mesh = mesh_of(parts);
+  ASSERT_EQ(mesh.positions.rows(), 4);
+  EXPECT_NEAR(mesh.positions.col(1).minCoeff(), 4, 1e-3);
+  ASSERT_EQ(mesh.colours.rows(), 4);
+  EXPECT_LT((mesh.colours.row(0) - Eigen::RowVector3d(1, 0, 0)).norm(), 1e-6);
+}
+INSTANTIATE_TEST_SUITE_P(NormalizedOrNot, DracoColours, ::testing::Bool());
 
 TEST(ParseGltf, TurnsTextureCoordinatesAsMaterialsAsk) {
   GltfParts parts = plain_parts();

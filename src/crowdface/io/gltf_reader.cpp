@@ -210,12 +210,10 @@ class GltfMeshReader {
     part.places = rows("POSITION", 3);
     move_by_targets(json, part.places);
     if (!joint_transforms_.empty() && attributes.contains("JOINTS_0")) {
-      move_by_joints(attributes, part.places);
+      move_by_joints(file_.read_skin_weights(attributes, part.places.size() / 3), part.places);
     }
     if (attributes.contains("COLOR_0")) {
-      const GltfJson& accessor =
-          file_.scene().at("accessors").at(attributes.at("COLOR_0").get<std::size_t>());
-      part.colour_width = accessor.value("type", std::string()) == "VEC4" ? 4 : 3;
+      part.colour_width = colour_width(attributes);
       part.colours = rows("COLOR_0", part.colour_width);
     }
     if (attributes.contains("_VERTEX_ID")) {
@@ -245,8 +243,7 @@ class GltfMeshReader {
 
   /// Places the vertices of a skinned mesh in the rest pose. A vertex without weights follows the
   /// first joint in its list.
-  void move_by_joints(const GltfJson& attributes, std::vector<double>& places) {
-    const GltfSkinWeights by = file_.read_skin_weights(attributes, places.size() / 3);
+  void move_by_joints(const GltfSkinWeights& by, std::vector<double>& places) {
     for (std::size_t p = 0; p < places.size() / 3; ++p) {
       Eigen::Vector3d place = Eigen::Vector3d::Zero();
       double sum = 0;
@@ -273,21 +270,67 @@ class GltfMeshReader {
     return corners;
   }
 
+  /// Number of colour components that the attribute COLOR_0 has.
+  std::size_t colour_width(const GltfJson& attributes) const {
+    const GltfJson& accessor =
+        file_.scene().at("accessors").at(attributes.at("COLOR_0").get<std::size_t>());
+    return accessor.value("type", std::string()) == "VEC4" ? 4 : 3;
+  }
+
+  /// Converts colours to fractions. Draco data may contain the integers that encode the fractions.
+  static std::vector<double> fractions_of_colours(std::vector<double> colours) {
+    constexpr double kMaxByte = 255, kMaxShort = 65535;
+    const double most = colours.empty() ? 0 : *std::ranges::max_element(colours);
+    if (most <= 1) return colours;
+    for (double& colour : colours) colour /= most > kMaxByte ? kMaxShort : kMaxByte;
+    return colours;
+  }
+
   Primitive unpack(const GltfJson& json, const std::string& uv_set) {
     const GltfJson& packed = json["extensions"]["KHR_draco_mesh_compression"];
     const GltfJson& ids = packed.at("attributes");
-    std::vector<DracoAttribute> wanted = {{ids.at("POSITION").get<std::uint32_t>(), 3}};
-    if (ids.contains(uv_set)) wanted.push_back({ids[uv_set].get<std::uint32_t>(), 2});
+    Primitive part;
+    std::vector<DracoAttribute> wanted;
+    std::vector<std::string> names;
+    const auto want = [&](const std::string& name, std::size_t width) {
+      if (!ids.contains(name)) return;
+      wanted.push_back({ids[name].get<std::uint32_t>(), width});
+      names.push_back(name);
+    };
+    ids.at("POSITION");
+    want("POSITION", 3);
+    want(uv_set, 2);
+    if (ids.contains("COLOR_0")) part.colour_width = colour_width(json.at("attributes"));
+    want("COLOR_0", part.colour_width);
+    for (std::size_t set = 0; ids.contains(concat("JOINTS_", set)); ++set) {
+      want(concat("JOINTS_", set), 4);
+      want(concat("WEIGHTS_", set), 4);
+    }
     auto mesh = decode_draco(file_.view(packed.at("bufferView").get<std::size_t>()), wanted);
     if (!mesh) {
       file_.fail(
           "it is compressed with Draco (KHR_draco_mesh_compression) and cannot be unpacked; "
           "gltf-transform copy in.glb out.glb writes it without compression");
     }
-    Primitive part;
-    part.places = std::move(mesh->attributes[0]);
+    GltfSkinWeights skin;
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      std::vector<double>& values = mesh->attributes[a];
+      if (names[a] == "POSITION") part.places = std::move(values);
+      if (names[a] == uv_set) part.uvs = std::move(values);
+      if (names[a] == "COLOR_0") part.colours = fractions_of_colours(std::move(values));
+      if (names[a].starts_with("JOINTS_")) {
+        std::vector<std::uint32_t>& joints = skin.joints.emplace_back();
+        for (const double joint : values) {
+          joints.push_back(static_cast<std::uint32_t>(std::clamp<double>(joint, 0, kNoIndex)));
+        }
+      }
+      if (names[a].starts_with("WEIGHTS_")) skin.weights.push_back(std::move(values));
+    }
     move_by_targets(json, part.places);
-    if (wanted.size() > 1) part.uvs = std::move(mesh->attributes[1]);
+    if (!joint_transforms_.empty() && !skin.joints.empty()) {
+      if (skin.weights.size() != skin.joints.size()) file_.fail("a mesh lacks WEIGHTS_n");
+      move_by_joints(skin, part.places);
+    }
     part.corners = std::move(mesh->corners);
     return part;
   }
