@@ -46,5 +46,20 @@ TEST(ObjColours, OfZBrushAreRead) {
   EXPECT_EQ(move_polypaint_to_vertices("v 1 2 3\n"), std::nullopt);
 }
 
+TEST(ObjColours, OfZBrushBelongToTheirSubtool) {
+  const std::string plain = "v 1 2 3\nf 1 1 1\n", red = "v 1 2 3\nv 4 5 6\n#MRGB ffff0000",
+                    blue = "ff0000ff\nf 1 2 1\n";
+  const auto colours = [](const std::string& text, Eigen::Index vertices) {
+    return obj_colours(move_polypaint_to_vertices(text).value_or(""), vertices);
+  };
+  EXPECT_EQ(colours(plain + red + blue, 3), rows({{255, 255, 255}, {255, 0, 0}, {0, 0, 255}}));
+  EXPECT_EQ(colours(red + blue + plain, 3), rows({{255, 0, 0}, {0, 0, 255}, {255, 255, 255}}));
+  EXPECT_EQ(colours(red + blue + plain + red + blue, 5).row(4), rows({{0, 0, 255}}).row(0));
+  EXPECT_EQ(move_polypaint_to_vertices(plain + plain + plain + red + blue), std::nullopt)
+      << "most vertices have no colour";
+  EXPECT_EQ(move_polypaint_to_vertices(plain + red + "\nf 1 2 1\n"), std::nullopt)
+      << "one colour for two vertices";
+}
+
 }  // namespace
 }  // namespace crowdface
