@@ -102,6 +102,52 @@ TEST(LandmarkLists, TextMayHaveAnotherEncodingAndOtherLineEnds) {
   EXPECT_TRUE(places.contains("Nasenfl\xC3\xBCgel"));
 }
 
+TEST(LandmarkLists, NamesMayHaveAnEncodingOfWindows) {
+  const TemporaryFolder folder;
+  const std::string western = "Nasenfl\xFCgel", gbk = "\xB1\xC7\xBC\xE2", of_gbk = "\u9f3b\u5c16";
+  const auto has_name = [&](const char* file, const std::string& text, const std::string& name) {
+    return read_landmarks(folder.write(file, text)).scan_places.contains(name);
+  };
+  EXPECT_TRUE(has_name("a.json", "{\"" + western + "\": [1, 2, 3]}", "Nasenfl\u00fcgel"));
+  EXPECT_TRUE(has_name("a.yaml", "scan: {" + western + ": 7}\n", "Nasenfl\u00fcgel"));
+  EXPECT_TRUE(has_name("b.csv", gbk + ",1,2,3\n", of_gbk));
+  EXPECT_TRUE(has_name("b.fcsv", "0,1,2,3,0,0,0,1,1,1,0," + gbk + ",,\n", of_gbk));
+  EXPECT_TRUE(has_name("b.json", "{\"" + gbk + "\": [1, 2, 3]}", of_gbk));
+  EXPECT_TRUE(has_name("b.yaml", "scan: {" + gbk + ": 7}\n", of_gbk));
+  EXPECT_TRUE(has_name(
+      "b.pp", "<PickedPoints><point x=\"1\" y=\"2\" z=\"3\" name=\"" + gbk + "\"/></PickedPoints>",
+      of_gbk));
+}
+
+// Points with the axes RAS stood on the mirrored and turned place of the mesh, which has LPS.
+TEST(LandmarkLists, PointsOfSlicerGetTheAxesOfItsMeshes) {
+  expect_chin_and_nose("ras.fcsv",
+                       "# Markups fiducial file version = 4.13\n# CoordinateSystem = RAS\n"
+                       "1,-1,2.5,3,0,0,0,1,1,1,0,chin,,,2,0\n"
+                       "2,0,0,0,0,0,0,1,1,1,0,missing,,,0,0\n"
+                       "3,-4,-5,6,0,0,0,1,1,1,0,nose tip,,,2,0\n");
+  expect_chin_and_nose("old.fcsv",
+                       "# Markups fiducial file version = 4.10\n# CoordinateSystem = 0\n"
+                       "a,1,-2.5,3,0,0,0,1,1,1,0,chin,,\nb,4,5,6,0,0,0,1,1,1,0,nose tip,,\n");
+  const auto markups = [](const char* axes, const char* chin, const char* nose) {
+    return std::string(R"({"markups": [{"type": "Fiducial", )") + axes +
+           R"("controlPoints": [{"label": "chin", "position": )" + chin +
+           R"(, "positionStatus": "defined"}, {"label": "nose tip", "position": )" + nose +
+           R"(}, {"label": "a", "position": [0, 0, 0], "positionStatus": "undefined"},
+              {"label": "b", "position": [], "positionStatus": "missing"}]}]})";
+  };
+  expect_chin_and_nose("lps.mrk.json",
+                       markups(R"("coordinateSystem": "LPS", )", "[1, -2.5, 3]", "[4, 5, 6]"));
+  expect_chin_and_nose("ras.mrk.json",
+                       markups(R"("coordinateSystem": "RAS", )", "[-1, 2.5, 3]", "[-4, -5, 6]"));
+  expect_chin_and_nose("lps.csv",
+                       "label,l,p,s,defined,selected,visible,locked,description\n"
+                       "chin,1,-2.5,3,1,1,1,0,\nnose tip,4,5,6,1,1,1,0,\nm,0,0,0,0,1,1,0,\n");
+  expect_chin_and_nose("ras.csv",
+                       "label,r,a,s,defined,selected,visible,locked,description\n"
+                       "chin,-1,2.5,3,1,1,1,0,\nnose tip,-4,-5,6,1,1,1,0,\n");
+}
+
 TEST(LandmarkLists, VerticesAndNamelessPointsAreTaken) {
   const TemporaryFolder folder;
   const LandmarkFile vertices =

@@ -25,6 +25,21 @@ std::string converted(std::string_view bytes, const char* encoding) {
   return out;
 }
 
+/// Whether most bytes above 127 stand beside each other. In Chinese and Japanese text they do; in
+/// text of western languages most such letters stand between ASCII letters.
+bool has_mostly_pairs(std::string_view bytes) {
+  std::size_t high = 0, beside = 0;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto is_high = [&](std::size_t k) {
+      return k < bytes.size() && static_cast<unsigned char>(bytes[k]) > 127;
+    };
+    if (!is_high(i)) continue;
+    ++high;
+    if (is_high(i + 1) || (i > 0 && is_high(i - 1))) ++beside;
+  }
+  return 2 * beside > high;
+}
+
 }  // namespace
 
 std::vector<std::string> legacy_decodings(std::string_view bytes) {
@@ -48,6 +63,19 @@ std::string plain_text(std::string_view bytes) {
     if (text[i] == '\r' && is_single) text[i] = '\n';
   }
   return text;
+}
+
+std::string decoded_text(std::string_view bytes) {
+  std::string text = plain_text(bytes);
+  if (is_utf8(text)) return text;
+  constexpr const char* kWestern = "WINDOWS-1252";
+  const bool is_eastern = has_mostly_pairs(text);
+  for (const char* encoding :
+       {is_eastern ? "GB18030" : kWestern, is_eastern ? "CP932" : "GB18030", kWestern}) {
+    std::string decoded = converted(text, encoding);
+    if (!decoded.empty()) return decoded;
+  }
+  return converted(text, "ISO-8859-1");
 }
 
 }  // namespace crowdface

@@ -16,4 +16,8 @@ std::vector<std::string> legacy_decodings(std::string_view bytes);
 /// ends into LF. Reads UTF-16 only after a byte-order mark; returns an empty text if it is invalid.
 std::string plain_text(std::string_view bytes);
 
+/// Like plain_text, but also converts text that is not UTF-8: from GBK (GB 18030) or Shift-JIS if
+/// most of its letters beyond ASCII stand beside each other, otherwise from Latin-1 (Windows-1252).
+std::string decoded_text(std::string_view bytes);
+
 }  // namespace crowdface

@@ -8,6 +8,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/legacy_text.h"
 #include "crowdface/pick/landmark_lists.h"
 
 namespace crowdface {
@@ -73,13 +74,17 @@ std::uint32_t nearest_vertex(const Positions& positions, const Eigen::Vector3d& 
 LandmarkFile read_landmarks(const std::filesystem::path& path, LandmarkMesh mesh) {
   Complaints complaints;
   LandmarkFile file;
+  std::optional<YamlNode> root;
   if (is_file(path)) {
-    if (auto list = parse_landmark_list(MappedFile(path).bytes(), path)) {
+    const MappedFile content(path);
+    if (auto list = parse_landmark_list(content.bytes(), path)) {
       (mesh == LandmarkMesh::kScan ? file.scan_places : file.template_places) = std::move(*list);
       return file;
     }
+    root = parse_yaml(decoded_text(content.bytes()), path.string(), complaints);
+  } else {
+    root = read_yaml(path.string(), complaints);
   }
-  const std::optional<YamlNode> root = read_yaml(path.string(), complaints);
   if (root && root->kind != YamlNode::Kind::kMap) {
     complaints.add_mismatch(*root, "a mapping with the keys template and scan");
   } else if (root) {

@@ -30,8 +30,6 @@ class LandmarkList {
     if (places_.size() >= kMaxListed)
       fail(where, concat("expected at most ", kMaxListed, " landmarks"));
     if (name.empty()) name = std::to_string(places_.size() + 1);
-    // Of the decodings, take the last: Windows-1252, which western spreadsheets write.
-    if (const auto decodings = legacy_decodings(name); !decodings.empty()) name = decodings.back();
     LandmarkPlace place;
     place.file_location = concat(path_, where);
     place.is_vertex = numbers.size() == 1;
@@ -96,13 +94,24 @@ void read_picked_points(std::string_view text, LandmarkList& list) {
   }
 }
 
+/// Converts a point from the axes right, anterior, superior to the axes left, posterior, superior,
+/// which the mesh files of 3D Slicer have.
+void turn_to_lps(std::vector<double>& point) {
+  for (std::size_t axis = 0; axis < 2; ++axis) point[axis] = -point[axis];
+}
+
 /// Reads the markups of 3D Slicer before version 4.13: id, x, y, z, orientation, flags, label, ….
+/// Skips points that were not placed.
 void read_fcsv(std::string_view text, LandmarkList& list) {
-  constexpr std::size_t kLabel = 11;
+  constexpr std::size_t kLabel = 11, kStatus = 14;
+  constexpr std::string_view kPlaced = "2";
+  bool is_ras = false;
   std::size_t line_number = 0;
   for (std::string_view line : split_lines(text)) {
     ++line_number;
     line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
+    // Older versions write numbers for the axes, and their mesh files have the same axes.
+    if (line.starts_with("# CoordinateSystem")) is_ras = line.ends_with("RAS");
     if (line.empty() || line.starts_with('#')) continue;
     const std::vector<std::string_view> fields = split(line, ',');
     const std::string where = concat(':', line_number);
@@ -110,7 +119,9 @@ void read_fcsv(std::string_view text, LandmarkList& list) {
     for (std::size_t k = 1; k <= 3 && k < fields.size(); ++k) {
       if (const auto number = parse_double(fields[k])) point.push_back(*number);
     }
+    if (fields.size() > kStatus && !fields[kStatus].empty() && fields[kStatus] != kPlaced) continue;
     if (point.size() != 3) list.fail(where, "expected id, x, y, z, …, as 3D Slicer writes them");
+    if (is_ras) turn_to_lps(point);
     const bool is_labelled = fields.size() > kLabel && !fields[kLabel].empty();
     list.add(std::string(fields[is_labelled ? kLabel : 0]), point, where);
   }
@@ -152,6 +163,8 @@ struct TableColumns {
   std::size_t count = 0;             ///< number of columns; 0 if there is no such header
   std::vector<std::size_t> numbers;  ///< columns of x, y and z, or the column of the vertex
   std::optional<std::size_t> name;
+  std::optional<std::size_t> placed;  ///< column that is 0 if the point was not placed
+  bool is_ras = false;                ///< whether the axes are right, anterior, superior
 };
 
 TableColumns columns_of(const std::vector<std::string_view>& header) {
@@ -163,14 +176,17 @@ TableColumns columns_of(const std::vector<std::string_view>& header) {
     return std::nullopt;
   };
   TableColumns columns;
-  const auto x = find("x"), y = find("y"), z = find("z"), vertex = find("vertex");
-  if (x && y && z) {
+  // 3D Slicer calls the axes by their directions: left, posterior, superior.
+  for (const char* axes : {"xyz", "lps", "ras"}) {
+    const auto x = find({axes, 1}), y = find({axes + 1, 1}), z = find({axes + 2, 1});
+    if (!x || !y || !z || !columns.numbers.empty()) continue;
     columns.numbers = {*x, *y, *z};
-  } else if (vertex) {
-    columns.numbers = {*vertex};
-  } else {
-    return columns;
+    columns.is_ras = axes[0] == 'r';
   }
+  const auto vertex = find("vertex");
+  if (columns.numbers.empty() && vertex) columns.numbers = {*vertex};
+  if (columns.numbers.empty()) return columns;
+  columns.placed = find("defined");
   columns.count = header.size();
   for (const char* word : {"name", "label", "landmark", "marker", "point", "id", "index"}) {
     if (!columns.name) columns.name = find(word);
@@ -200,6 +216,7 @@ std::optional<TableRow> row_by_header(const std::vector<std::string_view>& field
     if (!number) return std::nullopt;
     row.numbers.push_back(*number);
   }
+  if (columns.is_ras) turn_to_lps(row.numbers);
   return row;
 }
 
@@ -251,6 +268,8 @@ void read_table(std::string_view text, LandmarkList& list) {
       continue;
     }
     const std::string where = concat(':', line_number);
+    const auto placed = columns.placed;
+    if (placed && *placed < fields.size() && fields[*placed] == "0") continue;
     const auto row = columns.count > 0 ? row_by_header(fields, columns) : row_by_order(fields);
     // Without other separators, "tip 0 1 2 3" may be a name with blanks, or a point and its error.
     const bool is_ambiguous = separator == ' ' && columns.count == 0 && row && !row->name.empty() &&
@@ -281,7 +300,8 @@ std::vector<double> numbers_of_json(const ListJson& value) {
   return numbers;
 }
 
-void read_json_item(const std::string& key, const ListJson& item, LandmarkList& list) {
+/// \param is_ras  whether the axes are right, anterior, superior
+void read_json_item(const std::string& key, const ListJson& item, bool is_ras, LandmarkList& list) {
   std::string name = key;
   std::vector<double> numbers = numbers_of_json(item);
   if (item.is_object()) {
@@ -295,6 +315,11 @@ void read_json_item(const std::string& key, const ListJson& item, LandmarkList& 
       if (numbers.empty() && item.contains(word)) numbers = numbers_of_json(item[word]);
     }
   }
+  // 3D Slicer: only points with the status `defined` were placed.
+  const bool is_placed =
+      !item.is_object() || !item.contains("positionStatus") || item["positionStatus"] == "defined";
+  if (!is_placed) return;
+  if (is_ras && numbers.size() == 3) turn_to_lps(numbers);
   list.add(name, numbers, name.empty() ? "" : concat(": ", name));
 }
 
@@ -303,11 +328,14 @@ bool read_json(std::string_view text, LandmarkList& list) {
   const ListJson root = parse_shallow_json(text);
   if (root.is_discarded() || (!root.is_object() && !root.is_array())) return false;
   const ListJson* items = &root;
+  bool is_ras = false;
   if (root.is_object()) {
     if (root.contains("template") || root.contains("scan")) return false;
     if (root.contains("markups") && root["markups"].is_array() && !root["markups"].empty() &&
         root["markups"][0].is_object() && root["markups"][0].contains("controlPoints")) {
       items = &root["markups"][0]["controlPoints"];
+      const auto axes = root["markups"][0].find("coordinateSystem");
+      is_ras = axes != root["markups"][0].end() && *axes == "RAS";
     } else {
       for (const char* word : {"landmarks", "points"}) {
         if (root.contains(word) && root[word].is_structured()) items = &root[word];
@@ -315,7 +343,7 @@ bool read_json(std::string_view text, LandmarkList& list) {
     }
   }
   for (const auto& item : items->items()) {
-    read_json_item(items->is_array() ? std::string() : item.key(), item.value(), list);
+    read_json_item(items->is_array() ? std::string() : item.key(), item.value(), is_ras, list);
   }
   return true;
 }
@@ -348,7 +376,7 @@ std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     read_array(bytes, path.string(), list);
     return list.take();
   }
-  const std::string content = plain_text(bytes);
+  const std::string content = decoded_text(bytes);
   if (content.empty() && !bytes.empty()) list.fail("", "expected text in UTF-8 or UTF-16");
   std::string_view text = content;
   text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
