@@ -665,6 +665,9 @@ TEST(ReadMesh, TellsFormatsByWhatTheyHoldAndWhatIsNone) {
   refuse("page.ply", "<html><head>", "web page");
   refuse("pointer.stl", "version https://git-lfs.github.com/spec/v1\n", "Git LFS");
   refuse("packed.ply", "PK\x03\x04zip", "ZIP");
+  std::string archive = std::string("PK\x03\x04").append(22, '\0') + "\x0c" + std::string(3, '\0');
+  refuse("ann.npz", archive + "vertices.npy" + "\x93NUMPY",
+         "numpy.save(\"ann.npy\", numpy.load(\"ann.npz\")[\"vertices\"])");
   refuse("empty.glb", "", "empty");
   refuse("scene.usdc", "PXR-USDC", "usdcat");
   refuse("scene.usdz", "PK\x03\x04zip", "usdz");

@@ -6,6 +6,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/little_endian.h"
 
 namespace crowdface {
 namespace {
@@ -16,6 +17,18 @@ struct Known {
   std::string_view begin;  ///< start of the file, in lower case
   std::string_view what;
 };
+
+/// The name of the first array in NumPy's archive (.npz), which is a ZIP archive of .npy files;
+/// empty if the file is no such archive.
+std::string_view first_npz_array(std::string_view bytes) {
+  constexpr std::size_t kNameLength = 26, kName = 30;  // offsets in the header of a ZIP entry
+  constexpr std::string_view kExtension = ".npy";
+  if (!bytes.starts_with("PK\x03\x04") || bytes.size() < kName) return {};
+  const std::string_view name =
+      bytes.substr(kName, number_at<std::uint16_t>(bytes.data() + kNameLength));
+  return name.ends_with(kExtension) ? name.substr(0, name.size() - kExtension.size())
+                                    : std::string_view();
+}
 
 /// Formats recognised by their exact first bytes.
 constexpr std::array kBinary = {
@@ -68,6 +81,11 @@ void refuse_non_mesh_file(std::string_view bytes, const std::filesystem::path& p
     refuse_file(path, concat("expected a mesh, found ", what));
   };
   if (bytes.empty()) refuse("an empty file");
+  if (const std::string_view array = first_npz_array(bytes); !array.empty()) {
+    const std::string stem = path.stem().string();
+    refuse(concat("an archive of NumPy arrays: save each array alone, such as numpy.save(\"", stem,
+                  ".npy\", numpy.load(\"", stem, ".npz\")[\"", printable(array), "\"])"));
+  }
   for (const Known& known : kBinary) {
     if (bytes.starts_with(known.begin)) refuse(known.what);
   }
