@@ -11,11 +11,6 @@
 #include "crowdface/core/text.h"
 
 namespace crowdface::cli {
-namespace {
-
-constexpr double kAdultFrom = 35, kOldFrom = 55;
-
-}  // namespace
 
 HeadFile text_file(const std::filesystem::path& path, std::string text) {
   return {path, [text = std::move(text)] { return text; }};
@@ -50,20 +45,17 @@ void write_head_files(const std::string& what, const std::vector<HeadFile>& file
   }
 }
 
-std::string_view age_class(double years) {
-  if (years >= kOldFrom) return "old";
-  return years >= kAdultFrom ? "adult" : "young";
-}
-
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view title) {
-  std::string out =
-      concat("# ", title, ". crowdface reads this file beside the heads.\n# young: under ",
-             kAdultFrom, " years; old: ", kOldFrom, " years or more; adult: between.\n",
-             "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
+  std::string out = concat("# ", title, ". crowdface reads this file beside the heads.\n",
+                           "faces:\n  tags:", heads.empty() ? " {}\n" : "\n");
   for (const TaggedHead& head : heads) {
     out += concat("    ", head.name, ": [", head.is_male ? "male" : "female", ", ",
                   age_class(head.age_years), head.extra_tags.empty() ? "" : ", ", head.extra_tags,
-                  "]  # ", format_fixed(head.age_years, 0), " years\n");
+                  "]\n");
+  }
+  if (!heads.empty()) out += "  ages:  # years\n";
+  for (const TaggedHead& head : heads) {
+    out += concat("    ", head.name, ": ", format_fixed(head.age_years, 0), '\n');
   }
   return out;
 }

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crowdface/config/head_tags.h"
 #include "crowdface/io/encoded_file.h"
 
 namespace crowdface::cli {
@@ -35,7 +36,7 @@ HeadFile text_file(const std::filesystem::path& path, std::string text);
 /// CannotCreate if an existing path is not a regular file; IoError.
 void write_head_files(const std::string& what, const std::vector<HeadFile>& files, bool replace);
 
-/// The tags of a generated head, for the config's `faces.tags`.
+/// The tags and age of a generated head, for the config's `faces.tags` and `faces.ages`.
 struct TaggedHead {
   std::string name;
   bool is_male = false;
@@ -43,11 +44,8 @@ struct TaggedHead {
   std::string extra_tags = {};  ///< further tags, separated by ", "; may be empty
 };
 
-/// Returns "young" below 35 years, "adult" from 35 to below 55 years, and "old" from 55 years on.
-std::string_view age_class(double years);
-
-/// Returns YAML text with the section `faces`, which contains only tags, such as [female, old]. The
-/// heads' ages are comments in this text.
+/// Returns YAML text with the section `faces`, which contains only tags, such as [female, old], and
+/// ages.
 /// \param title  first line of the comment at the top, without "# ": a description of the heads.
 std::string format_tags(const std::vector<TaggedHead>& heads, std::string_view title);
 

@@ -69,6 +69,7 @@ std::vector<std::vector<std::string>> read_tags(const std::vector<fs::path>& fil
   faces.names = names;
   faces.tags.resize(names.size());
   read_tags_from_head_folders(faces, draft);
+  add_age_tags(faces);
   throw_if_any(complaints);
   return faces.tags;
 }

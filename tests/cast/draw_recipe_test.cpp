@@ -65,8 +65,8 @@ TEST(Ageing, CanBeTakenBack) {
   casting.sampling.heads_tagged_old = {1, 4};
   const FacePlan young = random_face(casting, 7, 0, distribution_of_group(casting));
   FacePlan face = young;
-  apply_age(face, 0.4, {casting.anchors, casting.tags}, casting.sampling);
-  undo_age(face, {casting.anchors, casting.tags}, casting.sampling);
+  apply_age(face, 0.4, properties_of_heads(casting), casting.sampling);
+  undo_age(face, properties_of_heads(casting), casting.sampling);
   EXPECT_FALSE(face.age);
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     const auto &back = face.recipe.regions[k].weights, &before = young.recipe.regions[k].weights;
@@ -86,7 +86,7 @@ TEST(Ageing, DetailComesFromTheNearestOldHead) {
   const auto aged = [&](Index source, double age) {
     FacePlan face = draw_any_face(casting, 7);
     for (RegionRecipe& region : face.recipe.regions) region.weights = {{source, 1}};
-    apply_age(face, age, {casting.anchors, casting.tags}, casting.sampling);
+    apply_age(face, age, properties_of_heads(casting), casting.sampling);
     return face.recipe.regions[0].weights;
   };
   EXPECT_EQ(aged(0, 0.25), (std::vector<SourceWeight>{{0, 0.75}, {1, 0.25}}));
@@ -99,6 +99,35 @@ TEST(Ageing, DetailComesFromTheNearestOldHead) {
                   {"male"}};
   EXPECT_EQ(aged(0, 1), (std::vector<SourceWeight>{{3, 1}})) << "sex, then tags, then place";
   EXPECT_EQ(aged(4, 1), (std::vector<SourceWeight>{{1, 1}}));
+}
+
+TEST(Ageing, MeetsAnAgeInYears) {
+  CastingOptions casting = example();
+  casting.head_ages_years = {20, 60, 70, 80, 40};
+  casting.sampling.heads_tagged_old = {1, 2, 3};
+  casting.sampling.heads_tagged_young = {0};
+  const HeadProperties heads = properties_of_heads(casting);
+  const auto years_of = [&](std::vector<SourceWeight> weights, double years) {
+    FacePlan face = draw_any_face(casting, 7);
+    for (RegionRecipe& region : face.recipe.regions) region.weights = weights;
+    const Age age = {years, AgeUnit::kYears};
+    apply_age(face, fraction_of_age(age, face, heads, casting.sampling), heads, casting.sampling);
+    double mean = 0;
+    for (const SourceWeight& source : face.recipe.regions[0].weights) {
+      mean += source.weight * casting.head_ages_years[static_cast<std::size_t>(source.head)];
+    }
+    return mean;
+  };
+  constexpr double kRounding = 0.01;  // the age from −1 to 1 is rounded to four decimals
+  EXPECT_NEAR(years_of({{0, 1}}, 50), 50, kRounding);
+  EXPECT_NEAR(years_of({{0, 0.5}, {4, 0.5}}, 35), 35, kRounding);
+  EXPECT_NEAR(years_of({{0, 0.25}, {2, 0.75}}, 30), 30, kRounding) << "old faces become younger";
+  EXPECT_NEAR(years_of({{0, 1}}, 75), 60, kRounding) << "head 1, the old head nearest to head 0";
+  EXPECT_NEAR(years_of({{2, 1}}, 75), 70, kRounding) << "old heads keep their weight";
+  casting.sampling.heads_tagged_old.clear();
+  EXPECT_NEAR(years_of({{0, 1}}, 50), 20, kRounding) << "no old head";
+  casting.head_ages_years.clear();
+  EXPECT_THROW(years_of({{0, 1}}, 50), BrokenPrecondition);
 }
 
 /// Three bands; the skin comes from two heads only and ages, the build does not.
@@ -181,7 +210,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
   casting.sampling.heads_tagged_old = {1};
   const FacePlan young = draw_any_face(casting, 7);
   FacePlan old = young;
-  apply_age(old, 0.8, {casting.anchors, casting.tags}, casting.sampling);
+  apply_age(old, 0.8, properties_of_heads(casting), casting.sampling);
   const auto share_of_old = [](const BandRecipe& band) {
     double share = 0;
     for (const SourceWeight& source : band.weights) share += source.head == 1 ? source.weight : 0;
@@ -198,7 +227,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
       EXPECT_FALSE(band_of(after, b).position);
     }
   }
-  undo_age(old, {casting.anchors, casting.tags}, casting.sampling);
+  undo_age(old, properties_of_heads(casting), casting.sampling);
   EXPECT_FALSE(old.age);
   for (std::size_t k = 0; k < 2; ++k) {
     for (std::size_t b = 0; b < 3; ++b) {

@@ -58,7 +58,7 @@ TEST_F(ConfigTest, GroupsTakeWhatTheyDoNotSayFromSampling) {
   ASSERT_EQ(elderly.sampling.targets.size(), 1U);
   EXPECT_EQ(elderly.sampling.targets[0].head, 0);
   EXPECT_THAT(elderly.sampling.sources, ElementsAre(0));
-  EXPECT_EQ(elderly.sampling.age.high, 0.5);
+  EXPECT_EQ(elderly.sampling.age.range.high, 0.5);
   EXPECT_FALSE(elderly.sampling.max_sources);
   EXPECT_EQ(elderly.sampling.regions[0].extrapolation.low, 1.1);
   EXPECT_EQ(two.count, 2U);
@@ -276,6 +276,61 @@ TEST_F(ConfigTest, OneParentMayBeLeftOut) {
       read(kPlain + "families: [{name: a, members: 1, parents: {father: bob}}]\n");
   ASSERT_TRUE(untagged) << told();
   EXPECT_NE(untagged->families[0].parents.at(0).head, untagged->families[0].parents.at(1).head);
+}
+
+TEST_F(ConfigTest, AgesMayBeInYears) {
+  const auto with_ages = [](const std::string& ages) {
+    return "schema: 1\ncrowd: {name: mob, count: 3}\nfaces: {directory: heads, units: cm, ages: {" +
+           ages + "}}\n";
+  };
+  const std::string all = with_ages("ann: 18, bob: 70.5, cyd: 40");
+  const auto config = read(all +
+                           "sampling: {age: [30 years, 60 years]}\n"
+                           "changes: {mob_0001: {age: 70years}}\n");
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->sampling.age, (AgeRange{{30, 60}, AgeUnit::kYears}));
+  EXPECT_EQ(config->changes.at(0).age, (Age{70, AgeUnit::kYears}));
+  EXPECT_THAT(config->faces.tags,
+              ElementsAre(ElementsAre("young"), ElementsAre("old"), ElementsAre("adult")));
+  EXPECT_THAT(config->sampling.heads_tagged_old, ElementsAre(1));
+  const std::string written = effective_config(*config, folder_);
+  const auto again = read(written);
+  ASSERT_TRUE(again) << told() << written;
+  EXPECT_EQ(effective_config(*again, folder_), written);
+  EXPECT_EQ(again->sampling.age, config->sampling.age);
+  EXPECT_EQ(again->faces.ages_years, config->faces.ages_years);
+
+  const auto refused = [&](const std::string& text, const std::string& phrase) {
+    EXPECT_FALSE(read(text)) << text;
+    EXPECT_THAT(told(), HasSubstr(phrase)) << text;
+  };
+  refused(
+      all + "sampling: {age: 8 years}\n",
+      "the heads are 18 to 70.5 years old; younger faces, found \"8 years\", need heads of this");
+  refused(all + "changes: {mob_0001: {age: 71 years}}\n", "older faces");
+  refused(all + "sampling: {age: [0.5, 60 years]}\n", "or years, such as");
+  refused(all + "sampling: {age: [30 years, 0.5]}\n", "two ages in years");
+  refused(all + "sampling: {age: 60}\n", "found \"60\"");
+  refused(kPlain + "sampling: {age: 60 years}\n", "the age of the head ann is unknown");
+  refused(with_ages("ann: 18") + "sampling: {age: 18 years}\n", "the age of the head bob");
+  refused(with_ages("zed: 18"), "zed");
+  refused(with_ages("ann: old"), "ann");
+}
+
+TEST_F(ConfigTest, AgesOfHeadsAreReadBesideTheHeads) {
+  touch("heads/tags.yaml",
+        "faces:\n  tags: {ann: [female, young]}\n  ages: {ann: 60, bob: 60, cyd: 30}\n");
+  const auto config = read(kPlain);
+  ASSERT_TRUE(config) << told();
+  EXPECT_EQ(config->faces.ages_years.at(2), 30);
+  EXPECT_THAT(config->faces.tags.at(0), ElementsAre("female", "young")) << "an age tag counts";
+  EXPECT_THAT(config->faces.tags.at(1), ElementsAre("old"));
+  const auto own = read(
+      "schema: 1\ncrowd: {name: mob, count: 3}\nfaces: {directory: heads, units: "
+      "cm, ages: {ann: 20, bob: 30, cyd: 40}}\n");
+  ASSERT_TRUE(own) << told();
+  EXPECT_EQ(own->faces.ages_years.at(0), 20) << "the config's ages replace those of the file";
+  EXPECT_THAT(own->faces.tags.at(0), ElementsAre("female", "young"));
 }
 
 // Six shares of 0.167 were refused, because they sum to 1.002.

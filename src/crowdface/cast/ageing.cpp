@@ -9,6 +9,7 @@
 #include "crowdface/cast/substitute_heads.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/require.h"
+#include "crowdface/core/rounded.h"
 
 namespace crowdface {
 namespace {
@@ -27,7 +28,7 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
 /// The heads of one age class (old or young). A face that is aged gets the detail of these heads.
 class AgedHeads {
  public:
-  AgedHeads(double age, const HeadAnchorsAndTags& all, const SamplingOptions& sampling)
+  AgedHeads(double age, const HeadProperties& all, const SamplingOptions& sampling)
       : heads_(age > 0 ? sampling.heads_tagged_old : sampling.heads_tagged_young), all_(all) {
     require(!heads_.empty(), "an age of ", age, " without heads of that age");
   }
@@ -65,10 +66,44 @@ class AgedHeads {
   }
 
   const std::vector<Index>& heads_;
-  const HeadAnchorsAndTags& all_;
+  const HeadProperties& all_;
 };
 
+/// Returns the weighted mean of the ages of the heads that lend the finest detail, over all regions.
+///
+/// \param weights_of  returns the weights of a band.
+template <class WeightsOf>
+double mean_age_years(const FacePlan& face, const HeadProperties& heads,
+                      const WeightsOf& weights_of) {
+  double sum = 0, weight = 0;
+  for (const RegionRecipe& region : face.recipe.regions) {
+    for (const SourceWeight& source : weights_of(band_of(region, band_count(region) - 1))) {
+      sum += source.weight * heads.ages_years[static_cast<std::size_t>(source.head)];
+      weight += source.weight;
+    }
+  }
+  return sum / weight;
+}
+
 }  // namespace
+
+double fraction_of_age(const Age& age, const FacePlan& face, const HeadProperties& heads,
+                       const SamplingOptions& sampling) {
+  if (age.unit == AgeUnit::kFraction) return age.value;
+  require(!heads.ages_years.empty(), "an age of ", age.value, " years without ages of the heads");
+  const double own =
+      mean_age_years(face, heads, [](const BandRecipe& band) { return band.weights; });
+  const double sign = age.value > own ? 1 : -1;
+  if ((sign > 0 ? sampling.heads_tagged_old : sampling.heads_tagged_young).empty()) return 0;
+  const AgedHeads aged(sign, heads, sampling);
+  const double share = aged_fraction(sign, sampling, band_count(sampling) - 1);
+  const double most = mean_age_years(
+      face, heads, [&](const BandRecipe& band) { return aged.with_moved(band.weights, share); });
+  // The mean age is a linear function of the fraction of the weights that apply_age moves.
+  const double change = sign * (most - own);
+  if (change <= 0) return 0;
+  return sign * rounded(std::min(1.0, sign * (age.value - own) / change));
+}
 
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
                                         const std::vector<SourceWeight>& b, double t) {
@@ -82,7 +117,7 @@ std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
   return mixed;
 }
 
-void apply_age(FacePlan& face, double age, const HeadAnchorsAndTags& heads,
+void apply_age(FacePlan& face, double age, const HeadProperties& heads,
                const SamplingOptions& sampling) {
   if (age == 0) return;
   const AgedHeads aged(age, heads, sampling);
@@ -98,7 +133,7 @@ void apply_age(FacePlan& face, double age, const HeadAnchorsAndTags& heads,
   face.age = age;
 }
 
-void undo_age(FacePlan& face, const HeadAnchorsAndTags& heads, const SamplingOptions& sampling) {
+void undo_age(FacePlan& face, const HeadProperties& heads, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
   const AgedHeads aged(*face.age, heads, sampling);

@@ -8,11 +8,12 @@
 
 namespace crowdface {
 
-/// Anchors (positions on the weight plane) and tags of all heads; see CastingOptions. apply_age
-/// finds the nearest old or young head by these values.
-struct HeadAnchorsAndTags {
+/// Properties of all heads; see CastingOptions. apply_age finds the nearest old or young head by the
+/// anchors (positions on the weight plane) and tags.
+struct HeadProperties {
   const std::vector<PlanePoint>& anchors;  ///< the anchor of each head
   const HeadTags& tags;                    ///< the tags of each head, or empty
+  const std::vector<double>& ages_years;   ///< the age of each head, or empty
 };
 
 /// Ages a face. In every region, moves the fraction |age| of each head's weight to the nearest head
@@ -25,13 +26,22 @@ struct HeadAnchorsAndTags {
 ///
 /// \param sampling  parameters of the face's group, or of the crowd.
 /// \throws BrokenPrecondition if no head has the tag.
-void apply_age(FacePlan& face, double age, const HeadAnchorsAndTags& heads,
+void apply_age(FacePlan& face, double age, const HeadProperties& heads,
                const SamplingOptions& sampling);
+
+/// Returns the age from −1 to 1 with which apply_age gives the face an age. An age in years is the
+/// weighted mean of the ages of the heads that lend the finest detail. If old or young heads cannot
+/// give the face this age, returns the value with which the face is nearest to this age.
+///
+/// \param face  a face whose age is 0.
+/// \throws BrokenPrecondition if the age is in years and the ages of the heads are unknown.
+double fraction_of_age(const Age& age, const FacePlan& face, const HeadProperties& heads,
+                       const SamplingOptions& sampling);
 
 /// Undoes apply_age, so that children do not inherit the age of this face. If an age of −1 or 1
 /// moved all of a band's weight, the original weights are lost; the band and the face's age then
 /// stay as they are.
-void undo_age(FacePlan& face, const HeadAnchorsAndTags& heads, const SamplingOptions& sampling);
+void undo_age(FacePlan& face, const HeadProperties& heads, const SamplingOptions& sampling);
 
 /// Mixes the two weights of each head: returns (1 − t)·a + t·b.
 std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,

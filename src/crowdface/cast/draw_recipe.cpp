@@ -259,8 +259,10 @@ FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& man
         draw_region(casting, distribution, k, face.recipe.target, draws, region));
   }
   if (!manual.colours.empty()) face.recipe.colours = normalized_source_weights(manual.colours);
-  apply_age(face, draws.in(manual.age.value_or(sampling.age), "age", ""),
-            {casting.anchors, casting.tags}, sampling);
+  const AgeRange ages = manual.age.value_or(sampling.age);
+  const Age age = {draws.in(ages.range, "age", ""), ages.unit};
+  const HeadProperties heads = properties_of_heads(casting);
+  apply_age(face, fraction_of_age(age, face, heads, sampling), heads, sampling);
   face.recipe.asymmetry = draws.in(manual.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
   face.recipe.mirrored = manual.mirrored.value_or(sampling.mirror == Mirroring::kRandom &&
                                                   draws.unit("mirror", "") < 0.5);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/cast/ageing.h"
 #include "crowdface/cast/diversity.h"
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/cast/family.h"
@@ -41,8 +42,13 @@ struct CastingOptions {
   HeadTags tags = {};                ///< the tags of each head; or empty
   /// distributions that the measurements of the crowd should have
   std::vector<TraitTarget> trait_targets = {};
-  std::vector<FaceChange> changes = {};  ///< changes of single faces that the config requests
+  std::vector<FaceChange> changes = {};      ///< changes of single faces that the config requests
+  std::vector<double> head_ages_years = {};  ///< the age of each head; or empty
 };
+/// Returns the properties of the heads on which ageing depends.
+inline HeadProperties properties_of_heads(const CastingOptions& casting) {
+  return {casting.anchors, casting.tags, casting.head_ages_years};
+}
 
 /// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the
 /// possible targets.

@@ -117,7 +117,7 @@ class FaceChanger {
     }
     if (change.age_step) {
       const double step = *change.age_step == FaceChange::AgeStep::kOlder ? kAgeStep : -kAgeStep;
-      set_age(std::clamp(changed_.face.age.value_or(0) + step, -1.0, 1.0));
+      set_age({std::clamp(changed_.face.age.value_or(0) + step, -1.0, 1.0)});
     }
     if (change.age) set_age(*change.age);
   }
@@ -152,12 +152,12 @@ class FaceChanger {
     const FaceSpace::Point point = judge_.space().point(other.recipe);
     const double age = other.age.value_or(0);
     const SamplingOptions& sampling = sampling_of(other);
-    undo_age(other, {casting_.anchors, casting_.tags}, sampling);
+    undo_age(other, properties_of_heads(casting_), sampling);
     return [=, this, &sampling](std::uint32_t attempt) {
       ManualRecipe open;
       open.id = changed_.face.id;
       open.target = other.recipe.target;
-      open.age = Range{0, 0};
+      open.age = AgeRange{};
       const FacePlan drawn = random_face_plan(casting_, open, key(attempt),
                                               distribution_of_named_group(other.group, casting_));
       const auto at = [&](double share) {
@@ -165,7 +165,7 @@ class FaceChanger {
         face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.level_scale);
         face.recipe.colours = other.recipe.colours;
         face.age = other.age;
-        if (!other.age) apply_age(face, age, {casting_.anchors, casting_.tags}, sampling);
+        if (!other.age) apply_age(face, age, properties_of_heads(casting_), sampling);
         return face;
       };
       const auto is_beyond = [&](const FacePlan& face) {
@@ -185,7 +185,7 @@ class FaceChanger {
     ManualRecipe open;
     open.id = now.id;
     if (!change.locked_bands.empty()) open.target = now.recipe.target;
-    if (!change.group) open.age = Range{now.age.value_or(0), now.age.value_or(0)};
+    if (!change.group) open.age = AgeRange{{now.age.value_or(0), now.age.value_or(0)}};
     const bool only_traits = redraws_only_for_limits(change);
     return [=, this](std::uint32_t attempt) {
       FacePlan drawn = random_face_plan(casting_, open, key(attempt), kind);
@@ -247,11 +247,12 @@ class FaceChanger {
     changed_.is_other_person = true;
   }
 
-  void set_age(double age) {
+  void set_age(const Age& age) {
     const SamplingOptions& sampling = sampling_of(changed_.face);
-    undo_age(changed_.face, {casting_.anchors, casting_.tags}, sampling);
+    const HeadProperties heads = properties_of_heads(casting_);
+    undo_age(changed_.face, heads, sampling);
     changed_.face.age.reset();
-    apply_age(changed_.face, age, {casting_.anchors, casting_.tags}, sampling);
+    apply_age(changed_.face, fraction_of_age(age, changed_.face, heads, sampling), heads, sampling);
   }
 
   /// Notes the head and the earlier face that are nearest to the changed face, with their

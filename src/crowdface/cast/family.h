@@ -43,7 +43,7 @@ struct FamilyOptions {
   /// Whether members are as similar as twins: all are within 0.5 mm of the same face. This face is
   /// not in the crowd.
   bool are_twins = false;
-  Range age = {0, 0};  ///< ages of the members, see apply_age
+  AgeRange age = {};  ///< ages of the members
   /// limits that replace the crowd's or group's limits on the same measurements
   TraitLimits traits = {};
 };

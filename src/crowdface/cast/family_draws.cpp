@@ -107,7 +107,7 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
 
 void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan face,
                                FaceSpace::Point point) {
-  undo_age(face, {casting_.anchors, casting_.tags},
+  undo_age(face, properties_of_heads(casting_),
            sampling_of(face));  // remove the parent's age, because children do not inherit it
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
@@ -246,7 +246,7 @@ BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, st
 FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   ManualRecipe open;
   open.target = family_.target;
-  open.age = Range{0, 0};
+  open.age = AgeRange{};
   FacePlan face = random_face_plan(casting_, open, {0, attempt, concat("family/", family_.name)},
                                    third_contributor_distribution_);
   if (parents_.empty()) {
@@ -281,7 +281,9 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draf
   FacePlan face = draft.random_face;
   face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.level_scale);
   face.mother_share = (1 - t) * from.mother_share + t * draft.random_face.mother_share;
-  apply_age(face, draft.age, {casting_.anchors, casting_.tags}, sampling_of(face));
+  const HeadProperties heads = properties_of_heads(casting_);
+  const SamplingOptions& sampling = sampling_of(face);
+  apply_age(face, fraction_of_age(draft.age, face, heads, sampling), heads, sampling);
   return face;
 }
 
@@ -336,20 +338,21 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   open.id = member_id(casting_.name, family_.name, member);
   open.target = family_.target;
   if (parents_.empty()) open.target = family_plan.founder.recipe.target;
-  open.age = Range{0, 0};
+  open.age = AgeRange{};
   MemberDraft draft;
   draft.random_face = random_face_plan(casting_, open, key, third_contributor_distribution_);
   draft.random_face.family = family_.name;
   if (!parents_.empty()) inherit_from_parents(draft.random_face, key);
   const std::string purpose = concat(key.purpose_prefix, "/how");
   const auto [how_far, how_old] = random_pair({casting_.seed, key.index, purpose, attempt});
-  draft.age = family_.age.low + (family_.age.high - family_.age.low) * how_old;
+  const Range& ages = family_.age.range;
+  draft.age = {ages.low + (ages.high - ages.low) * how_old, family_.age.unit};
   // `how_far` ranges from 0 (smallest distance from the founder) to 1 (largest distance)
   draft.distance_mm = kMinDistanceFraction + (1 - kMinDistanceFraction) * how_far;
   draft.distance_mm *= max_distance_from_founder_mm(family_plan);
   if (family_plan.founder_is_prototype_of_twins) {
     draft.random_face.inherited_from = family_plan.founder.inherited_from;
-    draft.age = family_plan.founder.age.value_or(0);
+    draft.age = {family_plan.founder.age.value_or(0)};
   }
   return draft;
 }
@@ -378,9 +381,9 @@ FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& family_plan,
 FacePlan FamilySampler::twins_prototype(const FamilyPlan& family_plan,
                                         std::uint32_t attempt) const {
   MemberDraft model = member_draft(family_plan, 0, attempt);
-  const double age = std::exchange(model.age, 0);
+  const Age age = std::exchange(model.age, Age{});
   FacePlan face = face_at_chosen_distance(family_plan, model);
-  face.age = age;
+  face.age = fraction_of_age(age, face, properties_of_heads(casting_), sampling_of(face));
   return face;
 }
 

@@ -90,7 +90,8 @@ class FamilySampler {
   /// The random face of one member, the member's age, and the member's distance from the founder.
   struct MemberDraft {
     FacePlan random_face;
-    double age = 0, distance_mm = 0;  ///< distance_mm: distance from the founder
+    Age age;
+    double distance_mm = 0;  ///< distance from the founder
   };
 
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);

@@ -22,6 +22,26 @@ struct Range {
   bool operator==(const Range&) const = default;
 };
 
+/// The unit of an age.
+enum class AgeUnit {
+  kFraction,  ///< from −1 (young) to 1 (old), see apply_age
+  kYears,
+};
+
+/// An age; see fraction_of_age.
+struct Age {
+  double value = 0;
+  AgeUnit unit = AgeUnit::kFraction;
+  bool operator==(const Age&) const = default;
+};
+
+/// A range of ages.
+struct AgeRange {
+  Range range = {0, 0};
+  AgeUnit unit = AgeUnit::kFraction;
+  bool operator==(const AgeRange&) const = default;
+};
+
 /// The distribution of a region's random position on the weight plane: a plane on which each head
 /// has a point (its anchor). The position determines the weights of the heads in the region.
 struct PositionDistribution {
@@ -118,7 +138,7 @@ struct SamplingOptions {
   std::vector<BandSampling> bands;  ///< from coarse to fine; empty: all detail is one band
   /// largest number of heads that may have weight in one band of one region; empty: no limit
   std::optional<int> max_sources;
-  Range age = {0, 0};        ///< range of the ages of sampled faces, see apply_age
+  AgeRange age = {};         ///< range of the ages of sampled faces
   Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
   std::vector<Eigen::Index> heads_tagged_old;  ///< heads with the tag `old`, ascending
@@ -181,7 +201,7 @@ struct ManualRecipe {
   std::vector<Region> regions;  ///< one entry for each region
   /// heads whose textures are blended for the face; empty: not given
   std::vector<WeightedHead> colours = {};
-  std::optional<Range> age;  ///< range of the face's age; empty: as for sampled faces
+  std::optional<AgeRange> age;  ///< range of the face's age; empty: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
   TraitLimits traits = {};  ///< limits on measurements that the random values must meet

@@ -26,16 +26,19 @@ void read_change_of_age(const YamlNode& node, FaceChange& change, ConfigDraft& d
     }
     return;
   }
-  if (node.kind != YamlNode::Kind::kScalar || !parse_double(node.text)) {
-    draft.complaints.add_mismatch(node, "older, younger or a number from -1 to 1");
+  if (node.kind != YamlNode::Kind::kScalar ||
+      node.text.find_first_of("0123456789") == std::string::npos) {
+    draft.complaints.add_mismatch(
+        node, "older, younger or a number from -1 to 1, or years, such as \"70 years\"");
   } else if (const auto own = age().read(node, draft)) {
-    change.age = own->low;
+    change.age = Age{own->range.low, own->unit};
   }
 }
 
 std::string write_change_of_age(const FaceChange& change, const WriteContext& context) {
   if (change.age_step) return std::string(word_of(*change.age_step));
-  return change.age ? age().write({*change.age, *change.age}, context) : "";
+  if (!change.age) return "";
+  return age().write({{change.age->value, change.age->value}, change.age->unit}, context);
 }
 
 void read_wears(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
@@ -152,7 +155,7 @@ const Keys<FaceChange>& change_keys() {
       });
   static const Keys<FaceChange> keys = {
       Key<FaceChange>{"age", read_change_of_age, write_change_of_age}.with_accepted_values(
-          "`older`, `younger` or number, -1 … 1"),
+          "`older`, `younger`, number, -1 … 1, or years (`70 years`)"),
       Key<FaceChange>{"wears", read_wears,
                       [](const FaceChange& change, const WriteContext& context) {
                         return change.attachments

@@ -138,6 +138,73 @@ std::string write_weighted_heads(const std::vector<WeightedHead>& targets,
   return write_heads(heads, context);
 }
 
+std::optional<double> parse_years(std::string_view text) {
+  constexpr std::string_view kUnit = "years";
+  if (!text.ends_with(kUnit)) return std::nullopt;
+  text.remove_suffix(kUnit.size());
+  while (text.ends_with(' ')) text.remove_suffix(1);
+  return parse_double(text);
+}
+
+bool is_age_in_years(const YamlNode& node) {
+  return node.kind == YamlNode::Kind::kScalar && parse_years(node.text);
+}
+
+/// Makes a codec for an age from −1 (young) to 1 (old).
+Codec<double> age_fraction() {
+  Codec<double> codec = number(-1, 1);
+  codec.read = [read = codec.read](const YamlNode& node,
+                                   ConfigDraft& draft) -> std::optional<double> {
+    const bool is_number = node.kind == YamlNode::Kind::kScalar && parse_double(node.text);
+    const auto age = is_number ? parse_double(node.text) : std::nullopt;
+    if (!age || *age < -1 || *age > 1) {
+      return draft.complaints.add_mismatch(node,
+                                           "a number from -1 to 1, or years, such as \"70 years\"");
+    }
+    const auto has = [&](const std::vector<Eigen::Index>& heads, const char* tag) {
+      if (!heads.empty() || !draft.are_tags_known || !draft.are_heads_known) return true;
+      draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
+      return false;
+    };
+    const SamplingOptions& sampling = draft.config.sampling;
+    const bool is_there = *age == 0 || (*age > 0 ? has(sampling.heads_tagged_old, "old")
+                                                 : has(sampling.heads_tagged_young, "young"));
+    return is_there ? read(node, draft) : std::nullopt;
+  };
+  return codec;
+}
+
+/// Makes a codec for an age in years. Refuses an age that is outside the range of the heads' ages.
+Codec<double> age_in_years() {
+  return {[](const YamlNode& node, ConfigDraft& draft) -> std::optional<double> {
+            const auto years =
+                node.kind == YamlNode::Kind::kScalar ? parse_years(node.text) : std::nullopt;
+            if (!years) {
+              return draft.complaints.add_mismatch(
+                  node, "two numbers from -1 to 1 or two ages in years, [20 years, 70 years]");
+            }
+            if (!draft.are_tags_known || !draft.are_heads_known) return years;
+            const Config::Faces& faces = draft.config.faces;
+            const auto unknown = std::ranges::find(faces.ages_years, std::optional<double>());
+            if (unknown != faces.ages_years.end()) {
+              const auto head = static_cast<std::size_t>(unknown - faces.ages_years.begin());
+              draft.complaints.add_at(node, concat("the age of the head ", faces.names[head],
+                                                   " is unknown; write faces.ages for all heads"));
+              return std::nullopt;
+            }
+            const auto [youngest, oldest] = std::ranges::minmax(faces.ages_years);
+            if (*years >= *youngest && *years <= *oldest) return years;
+            const bool is_younger = *years < *youngest;
+            draft.complaints.add_at(
+                node, concat("the heads are ", *youngest, " to ", *oldest, " years old; ",
+                             is_younger ? "younger" : "older", " faces, found ", quoted(node.text),
+                             ", need heads of this age"));
+            return std::nullopt;
+          },
+          [](double years, const WriteContext&) { return concat(format_number(years), " years"); },
+          "years"};
+}
+
 }  // namespace
 
 std::string WriteContext::head(Eigen::Index index) const {
@@ -238,16 +305,19 @@ Codec<Range> range(const Codec<double>& one) {
           concat(one.accepted_values, ", or a range")};
 }
 
-Codec<Range> age() {
-  return restricted(range(number(-1, 1)), [](Range age, const YamlNode& node, ConfigDraft& draft) {
-    const auto has = [&](const std::vector<Eigen::Index>& heads, const char* tag) {
-      if (!heads.empty() || !draft.are_tags_known || !draft.are_heads_known) return true;
-      draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
-      return false;
-    };
-    const bool has_old = age.high <= 0 || has(draft.config.sampling.heads_tagged_old, "old");
-    return (age.low >= 0 || has(draft.config.sampling.heads_tagged_young, "young")) && has_old;
-  });
+Codec<AgeRange> age() {
+  const auto fractions = range(age_fraction()), years = range(age_in_years());
+  return {[=](const YamlNode& node, ConfigDraft& draft) -> std::optional<AgeRange> {
+            const bool is_list = node.kind == YamlNode::Kind::kList && !node.items.empty();
+            const bool in_years = is_age_in_years(is_list ? node.items[0] : node);
+            const auto ages = (in_years ? years : fractions).read(node, draft);
+            if (!ages) return std::nullopt;
+            return AgeRange{*ages, in_years ? AgeUnit::kYears : AgeUnit::kFraction};
+          },
+          [=](const AgeRange& ages, const WriteContext& context) {
+            return (ages.unit == AgeUnit::kYears ? years : fractions).write(ages.range, context);
+          },
+          "number, -1 … 1, or years (`70 years`), or a range of either"};
 }
 
 Codec<Range> asymmetry() {

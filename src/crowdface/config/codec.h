@@ -60,9 +60,10 @@ Codec<double> nonzero(const Codec<double>& codec, const std::string& expected);
 Codec<Range> range(const Codec<double>& value_codec);
 /// Codec for the factor on left-right differences, from 0 to kMaxAsymmetry.
 Codec<Range> asymmetry();
-/// Codec for an age from −1 (young) to 1 (old). Refuses ages below 0 if no head has the tag
-/// `young`, and ages above 0 if no head has the tag `old`.
-Codec<Range> age();
+/// Codec for an age from −1 (young) to 1 (old), for an age in years ("70 years"), or for a range.
+/// Refuses ages below 0 if no head has the tag `young`, ages above 0 if no head has the tag `old`,
+/// and years if the age of a head is unknown or if all heads are younger or all are older.
+Codec<AgeRange> age();
 /// Codec for the extrapolation factor e, from −kMaxExtrapolation to kMaxExtrapolation.
 Codec<Range> extrapolation();
 /// Codec for a smoothness, given as a fraction (0 to 1), as a size with a unit, or as a range of

@@ -117,7 +117,8 @@ struct Config {
     Axis up = {1, 1};
     Axis front = {2, 1};
     Align align = Align::kCheck;
-    std::vector<std::vector<std::string>> tags;  ///< for each head, its tags
+    std::vector<std::vector<std::string>> tags;     ///< for each head, its tags
+    std::vector<std::optional<double>> ages_years;  ///< for each head, its age, if it is known
   } faces;
 
   struct Regions {

@@ -30,6 +30,7 @@ void add_head(const fs::path& file, const std::string& name, const YamlNode& nod
   faces.files.push_back(file);
   faces.names.push_back(name);
   faces.tags.emplace_back();
+  faces.ages_years.emplace_back();
 }
 
 void add_heads(const std::vector<fs::path>& files, const std::vector<const YamlNode*>& nodes,
@@ -140,6 +141,15 @@ std::string write_tags(const Faces& faces, const WriteContext&) {
   return yaml_block_map(heads);
 }
 
+std::string write_ages(const Faces& faces, const WriteContext&) {
+  std::vector<std::string> heads;
+  for (std::size_t i = 0; i < faces.ages_years.size(); ++i) {
+    if (!faces.ages_years[i]) continue;
+    heads.push_back(yaml_entry(write_scalar(faces.names[i]), format_number(*faces.ages_years[i])));
+  }
+  return heads.empty() ? "" : yaml_block_map(heads);
+}
+
 Codec<Axis> axis() {
   return {[](const YamlNode& node, ConfigDraft& draft) {
             const auto axis = node.kind == YamlNode::Kind::kScalar ? parse_axis(node.text)
@@ -209,7 +219,8 @@ const Keys<Faces>& faces_keys() {
             "some heads are in another pose; each is turned and moved onto the first"};
       }),
       Key<Faces>{"tags", read_head_tags, write_tags, {}, starter_tags}.with_accepted_values(
-          "`{head: [tag, …]}`")};
+          "`{head: [tag, …]}`"),
+      Key<Faces>{"ages", read_head_ages, write_ages}.with_accepted_values("`{head: years}`")};
   return keys;
 }
 
@@ -249,10 +260,13 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   }
   read_keys(section, faces_keys(), faces, draft);
   if (node.find("tags") == nullptr) {
+    const auto ages = faces.ages_years;
     read_tags_from_head_folders(faces, draft);
+    if (node.find("ages") != nullptr) faces.ages_years = ages;
   } else {
     warn_of_lost_tags(faces, draft);
   }
+  add_age_tags(faces);
   if (faces.up.index == faces.front.index && draft.complaints.size() == complaints_before) {
     const YamlEntry* front = node.find("front");
     draft.complaints.add_at((front != nullptr ? front : node.find("up"))->value,

@@ -53,6 +53,34 @@ void read_head_tags(const YamlNode& node, Config::Faces& faces, ConfigDraft& dra
   draft.are_tags_known = draft.complaints.size() == complaints_before;
 }
 
+void read_head_ages(const YamlNode& node, Config::Faces& faces, ConfigDraft& draft) {
+  constexpr double kOldest = 150;
+  draft.complaints.expect_map(node, "a mapping from heads to years, {head: 70}");
+  faces.ages_years.resize(faces.names.size());
+  for (const YamlEntry& entry : node.entries) {
+    const auto head = find_head(entry.key, entry.key_place, node.path, draft);
+    const auto years = read_number(entry.value, 0, kOldest, draft.complaints);
+    if (head && years) faces.ages_years[static_cast<std::size_t>(*head)] = *years;
+  }
+}
+
+std::string_view age_class(double years) {
+  constexpr double kAdultFrom = 35, kOldFrom = 55;
+  if (years >= kOldFrom) return "old";
+  return years >= kAdultFrom ? "adult" : "young";
+}
+
+void add_age_tags(Config::Faces& faces) {
+  for (std::size_t h = 0; h < faces.ages_years.size(); ++h) {
+    std::vector<std::string>& tags = faces.tags[h];
+    const auto is_age = [](const std::string& tag) {
+      return tag == "young" || tag == "adult" || tag == "old";
+    };
+    if (!faces.ages_years[h] || std::ranges::any_of(tags, is_age)) continue;
+    tags.emplace_back(age_class(*faces.ages_years[h]));
+  }
+}
+
 void read_tags_from_head_folders(Config::Faces& faces, ConfigDraft& draft) {
   const std::size_t complaints_before = draft.complaints.size();
   std::set<std::filesystem::path> folders;
@@ -63,15 +91,20 @@ void read_tags_from_head_folders(Config::Faces& faces, ConfigDraft& draft) {
     draft.config.tag_and_attachment_files.push_back(file);
     const auto root = read_yaml(file.string(), draft.complaints);
     const YamlEntry* section = root ? root->find("faces") : nullptr;
-    const YamlEntry* tags = section != nullptr ? section->value.find("tags") : nullptr;
-    if (tags == nullptr) {
-      if (root) draft.complaints.add(root->place, "faces.tags is missing: the tags of the heads");
-      continue;
+    bool has_any = false;
+    for (const auto& [key, read] :
+         {std::pair("tags", &read_head_tags), std::pair("ages", &read_head_ages)}) {
+      const YamlEntry* entry = section != nullptr ? section->value.find(key) : nullptr;
+      if (entry == nullptr) continue;
+      has_any = true;
+      YamlNode of_heads = entry->value;
+      std::erase_if(of_heads.entries,
+                    [&](const YamlEntry& head) { return !contains(faces.names, head.key); });
+      read(of_heads, faces, draft);
     }
-    YamlNode of_heads = tags->value;
-    std::erase_if(of_heads.entries,
-                  [&](const YamlEntry& entry) { return !contains(faces.names, entry.key); });
-    read_head_tags(of_heads, faces, draft);
+    if (root && !has_any) {
+      draft.complaints.add(root->place, "faces.tags is missing: the tags of the heads");
+    }
   }
   draft.are_tags_known = draft.complaints.size() == complaints_before;
 }

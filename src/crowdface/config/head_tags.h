@@ -9,9 +9,19 @@ namespace crowdface {
 /// something else in a config.
 void read_head_tags(const YamlNode& node, Config::Faces& faces, ConfigDraft& draft);
 
-/// Reads tags from the key `faces.tags` of the file tags.yaml, in each folder that contains heads.
-/// (`crowdface synth` and `crowdface import` write this file.) Ignores names that are not heads of
-/// the config.
+/// Reads a mapping from heads to their ages in years.
+void read_head_ages(const YamlNode& node, Config::Faces& faces, ConfigDraft& draft);
+
+/// Reads tags and ages from the keys `faces.tags` and `faces.ages` of the file tags.yaml, in each
+/// folder that contains heads. (`crowdface synth` and `crowdface import` write this file.) Ignores
+/// names that are not heads of the config.
 void read_tags_from_head_folders(Config::Faces& faces, ConfigDraft& draft);
+
+/// Returns the tag of an age: "young" below 35 years, "adult" from 35 to below 55 years, and "old"
+/// from 55 years on.
+std::string_view age_class(double years);
+
+/// Gives each head whose age is known the tag of its age, unless the head has such a tag.
+void add_age_tags(Config::Faces& faces);
 
 }  // namespace crowdface

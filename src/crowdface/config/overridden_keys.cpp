@@ -126,9 +126,10 @@ class OverriddenKeys {
       if (band.sources)
         take(concat(node.path, ".bands.", band.name), *band.sources, "sources", tags);
     }
-    if (own.age.high > 0)
+    const bool in_years = own.age.unit == AgeUnit::kYears;
+    if (in_years || own.age.range.high > 0)
       take(node.path + ".age", own.heads_tagged_old, "heads tagged old", remove_age_tags(tags));
-    if (own.age.low < 0)
+    if (in_years || own.age.range.low < 0)
       take(node.path + ".age", own.heads_tagged_young, "heads tagged young", remove_age_tags(tags));
     const auto replaced = [&](const char* key) {
       add_message("sampling.", key, ": does not apply to the group ", config_.groups[g].name,
@@ -174,7 +175,7 @@ class OverriddenKeys {
                     " is not a target of the group ", group.name, ", but ", counted_faces(members),
                     " of the group are built on it");
       }
-      if (group.sampling.age != Range{0, 0} && value_at(node, "age") == nullptr) {
+      if (group.sampling.age != AgeRange{} && value_at(node, "age") == nullptr) {
         add_message(node.path, ": the age of the group ", group.name,
                     " does not apply to its members (", counted_faces(members),
                     "), whose age is 0; write age");
@@ -198,7 +199,7 @@ class OverriddenKeys {
     const bool has_any = std::ranges::any_of(recipe.regions, [&](const auto& region) {
       return has_weights(region) || std::ranges::any_of(region.bands, has_weights);
     });
-    if (!has_any || recipe.age || config_.sampling.age == Range{0, 0}) return;
+    if (!has_any || recipe.age || config_.sampling.age == AgeRange{}) return;
     add_message(node.path, ": sampling.age moves the weights of ", recipe.id,
                 " to other heads (1 face); write age: 0 to keep its weights");
   }

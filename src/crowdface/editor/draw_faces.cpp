@@ -42,7 +42,7 @@ FacePlan sample_one(const CastingOptions& casting, const SampleRequest& request,
   const FacePlan& old = request.original ? *request.original : request.start_face;
   ManualRecipe open;
   open.id = request.start_face.id;
-  open.age = Range{0, 0};
+  open.age = AgeRange{};
   if (keeps_target) open.target = old.recipe.target;
   FacePlan face = random_face_plan(casting, open, {0, attempt, concat("edit/", open.id)},
                                    distribution_of_group(casting));

@@ -125,7 +125,7 @@ FacePlan face_of_json(const Json& recipe, const CastingOptions& casting, const C
     entry.erase("mixture");
   }
   ManualRecipe hand = manual_recipe_of_json(entry, config);
-  if (!hand.age) hand.age = Range{0, 0};
+  if (!hand.age) hand.age = AgeRange{};
   if (!hand.asymmetry) hand.asymmetry = Range{1, 1};
   if (!hand.mirrored) hand.mirrored = false;
   FacePlan face = completed_face_plan(casting, hand);

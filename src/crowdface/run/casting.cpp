@@ -154,6 +154,16 @@ void round_as_planned(std::vector<FacePlan>& crowd) {
   }
 }
 
+/// Returns the age of each head in years; nothing if any age is unknown.
+std::vector<double> ages_of_heads(const Config& config) {
+  std::vector<double> ages;
+  for (const auto& age : config.faces.ages_years) {
+    if (!age) return {};
+    ages.push_back(*age);
+  }
+  return ages;
+}
+
 /// Returns options for trial castings with other minimum distances. The faces that already exist in
 /// the crowd's folder keep their own minimum distance in these trials.
 CastingOptions with_existing_faces(const Config& config, CastingOptions casting) {
@@ -205,7 +215,8 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
           config.groups,
           config.faces.tags,
           config.population.targets,
-          config.changes};
+          config.changes,
+          ages_of_heads(config)};
 }
 
 AttachmentOptions attachment_options(const Config& config) {

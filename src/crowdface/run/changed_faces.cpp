@@ -100,8 +100,8 @@ class ChangedLooks {
       const auto group = std::ranges::find(casting_.groups, face.group.value_or(""), &Group::name);
       const SamplingOptions& sampling =
           group == casting_.groups.end() ? casting_.sampling : group->sampling;
-      undo_age(other, {casting_.anchors, casting_.tags}, sampling);
-      apply_age(other, face.age.value_or(0), {casting_.anchors, casting_.tags}, sampling);
+      undo_age(other, properties_of_heads(casting_), sampling);
+      apply_age(other, face.age.value_or(0), properties_of_heads(casting_), sampling);
     }
     const auto weights = colour_weights(other.recipe, config_.faces.names.size());
     for (std::size_t k = 0; k < weights.size(); ++k) {

@@ -73,9 +73,8 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy,
     advice.emplace_back(line);
   }
   if (remedy.binding_constraint == RejectionReason::kFamily &&
-      std::ranges::any_of(config.families, [](const auto& family) {
-        return family.age != Range{0, 0};
-      })) {
+      std::ranges::any_of(config.families,
+                          [](const auto& family) { return family.age != AgeRange{}; })) {
     advice.emplace_back("a smaller range of age");
   }
   return advice;
