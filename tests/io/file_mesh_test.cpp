@@ -73,6 +73,25 @@ TEST(ParsePly, ReadsTextureCoordinatesOfCorners) {
   EXPECT_EQ(mesh.uvs.row(0), Eigen::RowVector2d(0.5, 0));
 }
 
+TEST(ParsePly, ReadsTexturesThatCommentsName) {
+  const TemporaryFolder folder;
+  folder.write("skin 1.png", "first");
+  folder.write("tex/Eyes.png", "second");
+  const std::string text = "ply\nformat ascii 1.0\ncomment TextureFile skin 1.png\n" + kPlyHead +
+                           "comment TextureFile C:\\scan\\eyes.png\nelement face 3\n"
+                           "property list uchar int vertex_indices\nproperty int texnumber\n"
+                           "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
+                           "3 0 1 2 1\n3 2 1 3 0\n3 2 1 0 0\n";
+  const FileMesh mesh = parse_ply(text, (folder / "head.ply").string());
+  ASSERT_EQ(mesh.materials.size(), 2U);
+  EXPECT_EQ(mesh.materials[0].name, "texture_2");
+  EXPECT_EQ(mesh.materials[1].name, "texture_1");
+  EXPECT_EQ(mesh.materials[1].first_face, 1);
+  ASSERT_EQ(mesh.textures.size(), 2U);
+  EXPECT_EQ(mesh.textures[0].bytes, "first");
+  EXPECT_EQ(mesh.textures[1].bytes, "second");
+}
+
 TEST(ParsePly, SaysWhyItRefuses) {
   const auto refuse = [](const std::string& text, const char* reason) {
     expect_error(ExitCode::kBadData, {reason}, [&] { parse_ply(text, "head.ply"); });

@@ -278,7 +278,7 @@ TEST(ParseUsda, InheritsMaterialsFromParents) {
       mesh_of(concat("def Xform \"a\" {\n rel material:binding = </m/skin>\n def Xform \"b\" {\n"
                      "def Mesh \"face\" {\n",
                      kSquare, "}\n}\n def Mesh \"eyes\" {\n", kSquare,
-                     "rel material:binding = </m/iris>\n}\n}\n"));
+                     "rel material:binding:preview = </m/iris>\n}\n}\n"));
   ASSERT_EQ(mesh.materials.size(), 2U);
   EXPECT_EQ(mesh.materials[0].name, "skin");
   EXPECT_EQ(mesh.materials[1].name, "iris");

@@ -11,6 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/io/foreign_file.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
 
 namespace crowdface {
@@ -79,6 +80,7 @@ class PlyReader {
       }
     }
     finish_uvs();
+    finish_textures();
     if (flat_faces_ > 0) {
       mesh_.notes.push_back(
           concat(flat_faces_, " of its faces have fewer than 3 corners and are left out"));
@@ -123,7 +125,9 @@ class PlyReader {
         end != bytes_.npos && bytes_[end] == '\r' && !bytes_.substr(end + 1).starts_with('\n');
     if (words_of(line()) != std::vector<std::string>{"ply"}) fail("it does not begin with ply");
     for (;;) {
-      const std::vector<std::string> words = words_of(line());
+      const std::string_view text = line();
+      const std::vector<std::string> words = words_of(text);
+      add_texture_file(text);
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") break;
       if (words[0] == "format" && words.size() >= 2) {
@@ -145,6 +149,15 @@ class PlyReader {
         fail("it is a Gaussian splat, which has no surface: export a mesh");
       }
     }
+  }
+
+  /// Metashape and MeshLab name the texture in a comment.
+  void add_texture_file(std::string_view header_line) {
+    constexpr std::string_view kTextureFile = "comment TextureFile ";
+    if (!header_line.starts_with(kTextureFile)) return;
+    header_line.remove_prefix(kTextureFile.size());
+    header_line = header_line.substr(0, header_line.find_last_not_of(" \t\r") + 1);
+    if (!header_line.empty()) texture_files_.emplace_back(header_line);
   }
 
   double value(const Type& type) {
@@ -249,13 +262,15 @@ class PlyReader {
     for (std::uint64_t f = 0; f < element.count; ++f) {
       std::vector<std::int64_t> corners;
       std::vector<double> uvs;
+      double texture = 0;
       for (const Property& property : element.properties) {
         const bool is_corners =
             (faces || strips) && property.count &&
             (property.name == "vertex_indices" || property.name == "vertex_index");
         const bool is_uvs = faces && property.count && property.name == "texcoord";
         if (!property.count) {
-          value(property.type);
+          const double number = value(property.type);
+          if (property.name == "texnumber") texture = number;
         } else if (!is_corners && !is_uvs) {
           skip_list(property);
         }
@@ -276,9 +291,22 @@ class PlyReader {
       if (strips) {
         add_strips(corners);
       } else if (faces) {
+        use_texture(texture);
         add_face(corners, uvs);
       }
     }
+  }
+
+  /// Gives the following polygons the material with this texture.
+  void use_texture(double number) {
+    if (!(number >= 0 && number < static_cast<double>(texture_files_.size()))) return;
+    const std::string material = material_of_texture(static_cast<std::size_t>(number));
+    if (!mesh_.materials.empty() && mesh_.materials.back().name == material) return;
+    mesh_.materials.push_back({material, mesh_.topology.face_count()});
+  }
+
+  static std::string material_of_texture(std::size_t number) {
+    return concat("texture_", number + 1);
   }
 
   void add_face(const std::vector<std::int64_t>& corners, const std::vector<double>& uvs) {
@@ -331,8 +359,16 @@ class PlyReader {
     }
   }
 
+  void finish_textures() {
+    for (std::size_t t = 0; t < texture_files_.size(); ++t) {
+      mesh_.textures.push_back({material_of_texture(t), TextureKind::kColour, {}});
+    }
+    read_texture_files(std::move(texture_files_), name_, mesh_);
+  }
+
   std::string_view bytes_;
   const std::string& name_;
+  std::vector<std::string> texture_files_;
   std::size_t at_ = 0;
   bool ends_in_cr_ = false, has_vertex_uvs_ = false;
   Coding coding_ = Coding::kText;

@@ -304,6 +304,8 @@ class UsdaReader {
     const bool is_uv_transform =
         type.starts_with("float") &&
         (name == "inputs:scale" || name == "inputs:translation" || name == "inputs:rotation");
+    // The binding for previews replaces the binding for all purposes.
+    if (name == "material:binding:preview") name = "material:binding";
     const bool is_list = name == "xformOpOrder" || name == "material:binding";
     const bool is_text =
         name == "orientation" || name == "visibility" || name == "purpose" || name == "info:id" ||
