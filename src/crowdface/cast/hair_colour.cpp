@@ -72,6 +72,11 @@ bool is_shade_of(const HairColour& rounded, const HairColour& named) {
          std::abs(rounded.pheomelanin - named.pheomelanin) < 1.0 / kPheomelaninSteps + kRounding;
 }
 
+bool looks_grey(const HairColour& colour) {
+  constexpr double kGreyFrom = 0.25;
+  return colour.grey_fraction >= kGreyFrom;
+}
+
 bool are_alike(const HairColour& a, const HairColour& b) {
   constexpr double kRounding = 1e-9;
   return std::abs(a.eumelanin - b.eumelanin) < 0.1 + kRounding &&

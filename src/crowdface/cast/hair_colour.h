@@ -46,6 +46,8 @@ HairColour rounded_colour(const HairColour& colour);
 /// Returns whether each pigment of the rounded colour is at most one step away from the same
 /// pigment of `named`. The fraction of grey is not compared.
 bool is_shade_of(const HairColour& rounded, const HairColour& named);
+/// Returns whether white hairs hide the pigments: with a third of white hairs, red hair looks grey.
+bool looks_grey(const HairColour& colour);
 /// Returns whether two colours look the same at first sight.
 bool are_alike(const HairColour& a, const HairColour& b);
 

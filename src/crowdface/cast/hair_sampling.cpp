@@ -52,7 +52,8 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
     return person.empty() ? std::string(what) : concat(what, '/', person);
   };
   std::optional<HairColour> colour = inherited_colour(face, person);
-  if (!colour) colour = configured_colour(face);
+  const double grey = grey_fraction(face, key("hair/grey"));
+  if (!colour) colour = configured_colour(face, looks_grey({0, 0, grey}));
   if (!colour) colour = colour_of_tags(head, key("hair/tone"));
   if (face.family && face.parents.empty()) family_colours_.try_emplace(*face.family, *colour);
   // Vary the colours slightly at random, so that not all brown hair has the same shade of brown.
@@ -63,7 +64,7 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   own.eumelanin += kScatter * own.eumelanin * (scatter[0] - 0.5);
   own.pheomelanin += kScatter * (scatter[1] - 0.5);
   base_colours_[face.id] = own;
-  own.grey_fraction = std::max(own.grey_fraction, grey_fraction(face, key("hair/grey")));
+  own.grey_fraction = std::max(own.grey_fraction, grey);
   return rounded_colour(own);
 }
 
@@ -75,8 +76,8 @@ std::string HairChooser::key_in_hair_colours(const FacePlan& face) const {
 
 /// Returns the colour that `hair_colours` gives the face. The colours are distributed so that, among
 /// the faces with the same key in `entries_of_faces_`, each colour has the fraction that the config
-/// specifies.
-std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face) {
+/// specifies. If a face looks grey, a later face also gets the face's colour.
+std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face, bool is_grey) {
   const std::string entry = key_in_hair_colours(face);
   const auto shares = options_.hair_colours.find(entry);
   if (shares == options_.hair_colours.end() || shares->second.empty()) return std::nullopt;
@@ -95,6 +96,17 @@ std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face) {
                                                   concat("hair colours/", entry));
     }
     chosen = schedule->second[place->second.face_index];
+    // A redrawn face keeps the colour that the rejected face had.
+    const auto [own, is_first] = colour_of_faces_.try_emplace(face.id, chosen);
+    std::deque<int>& hidden = hidden_colours_[entry];
+    if (is_first && is_grey && chosen >= 0 &&
+        colours[static_cast<std::size_t>(chosen)].grey_fraction == 0) {
+      hidden.push_back(chosen);
+    } else if (is_first && !is_grey && chosen < 0 && !hidden.empty()) {
+      own->second = hidden.front();
+      hidden.pop_front();
+    }
+    chosen = own->second;
   } else {
     const std::string purpose = concat("hair/colour/", face.id);
     chosen = random_index(parts, random_uniform({options_.seed, face.index.value_or(0), purpose}));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -39,7 +40,7 @@ class HairChooser {
 
  private:
   std::string key_in_hair_colours(const FacePlan& face) const;
-  std::optional<HairColour> configured_colour(const FacePlan& face);
+  std::optional<HairColour> configured_colour(const FacePlan& face, bool is_grey);
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
   HairColour colour_of_tags(Index head, const std::string& random_number_purpose) const;
@@ -60,6 +61,11 @@ class HairChooser {
   /// this key: the index of the face's colour among the colours of the entry, or −1 if the face has
   /// none of these colours.
   std::map<std::string, std::vector<int>> colour_indices_;
+  /// By key in `hair_colours`: indices of colours that faces have but hide, because they look grey.
+  /// The next faces without a colour, and not grey, also get these colours.
+  std::map<std::string, std::deque<int>> hidden_colours_;
+  /// by the face's id: index of the colour among the colours of the face's entry; or −1
+  std::map<std::string, int> colour_of_faces_;
   /// hair colours without the grey of age, by the face's id
   std::map<std::string, HairColour> base_colours_;
   std::map<std::string, HairColour> family_colours_;  ///< hair colours of families, by family

@@ -67,7 +67,7 @@ class ChangedLooks {
       if (before.hair && face.age != before.age) {
         FacePlan aged = before;
         aged.age = face.age;
-        face.hair = with_attachments(aged).hair;
+        face.hair->grey_fraction = with_attachments(aged).hair->grey_fraction;
       }
     } else {
       face = with_attachments(with_colours(face));

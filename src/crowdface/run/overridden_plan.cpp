@@ -136,7 +136,7 @@ class OverriddenPlan {
     const HairColour colour = *hair_colour_named(name);
     const auto has_it = [&](const FacePlan* face) { return is_shade_of(*face->hair, colour); };
     const auto is_grey = [&](const FacePlan* face) {
-      return has_it(face) && face->hair->grey_fraction > 0.5 && colour.grey_fraction == 0;
+      return has_it(face) && looks_grey(*face->hair) && colour.grey_fraction == 0;
     };
     constexpr double kRounding = 1e-9;
     const double asked = std::floor(share * static_cast<double>(faces.size()) + kRounding);
