@@ -130,6 +130,25 @@ TEST(Ageing, MeetsAnAgeInYears) {
   EXPECT_THROW(years_of({{0, 1}}, 50), BrokenPrecondition);
 }
 
+// A group of people from 30 to 45 had faces with the skulls and grey hair of old heads.
+TEST(Ageing, AnAgeInYearsChoosesTargetsOfThisAge) {
+  CastingOptions casting = example();
+  casting.sampling.heads_tagged_old = {3, 4};
+  casting.sampling.heads_tagged_young = {0};
+  const auto targets_at = [&](double years, std::vector<double> ages) {
+    casting.head_ages_years = std::move(ages);
+    casting.sampling.age = {{years, years}, AgeUnit::kYears};
+    std::set<Index> targets;
+    for (std::uint64_t i = 1; i <= 100; ++i)
+      targets.insert(draw_any_face(casting, i).recipe.target);
+    return targets;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(targets_at(40, {20, 30, 40, 55, 70}), ElementsAre(1, 2, 3));
+  EXPECT_THAT(targets_at(40, {30, 30, 40, 55, 50}), ElementsAre(0, 1, 2, 3, 4));
+  EXPECT_THAT(targets_at(70, {20, 30, 40, 55, 70}), ElementsAre(2, 3, 4)) << "at least three";
+}
+
 /// Three bands; the skin comes from two heads only and ages, the build does not.
 CastingOptions banded_example() {
   CastingOptions casting = example();

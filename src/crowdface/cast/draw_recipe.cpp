@@ -209,6 +209,33 @@ RegionRecipe draw_region(const CastingOptions& casting, const FaceDistribution& 
   return recipe;
 }
 
+/// Returns the targets that suit an age in years: the targets whose age differs by at most 15 years,
+/// but at least the three targets nearest in age.
+std::vector<WeightedHead> targets_of_age(double years, std::vector<WeightedHead> targets,
+                                         const std::vector<double>& ages_years) {
+  constexpr double kMaxDifferenceYears = 15;
+  constexpr std::size_t kFewest = 3;
+  if (targets.size() <= kFewest) return targets;
+  const auto difference = [&](const WeightedHead& target) {
+    return std::abs(ages_years[static_cast<std::size_t>(target.head)] - years);
+  };
+  std::vector<double> differences;
+  for (const WeightedHead& target : targets) differences.push_back(difference(target));
+  std::ranges::sort(differences);
+  const double most = std::max(kMaxDifferenceYears, differences[kFewest - 1]);
+  std::erase_if(targets, [&](const WeightedHead& target) { return difference(target) > most; });
+  return targets;
+}
+
+Index random_target(const std::vector<WeightedHead>& targets, const Age& age,
+                    const std::vector<double>& ages_years, double random_number) {
+  if (age.unit == AgeUnit::kFraction)
+    return weighted_choice(targets, random_number, &WeightedHead::weight).head;
+  return weighted_choice(targets_of_age(age.value, targets, ages_years), random_number,
+                         &WeightedHead::weight)
+      .head;
+}
+
 }  // namespace
 
 std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale) {
@@ -247,11 +274,12 @@ FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& man
   face.notes.attempt = key.attempt;
   require(manual.target || !distribution.targets.empty(),
           "a recipe is drawn on targets, and there is none");
-  face.recipe.target =
-      manual.target
-          ? *manual.target
-          : weighted_choice(distribution.targets, draws.unit("target", ""), &WeightedHead::weight)
-                .head;
+  const AgeRange ages = manual.age.value_or(sampling.age);
+  const Age age = {draws.in(ages.range, "age", ""), ages.unit};
+  face.recipe.target = manual.target
+                           ? *manual.target
+                           : random_target(distribution.targets, age, casting.head_ages_years,
+                                           draws.unit("target", ""));
   for (std::size_t k = 0; k < casting.region_names.size(); ++k) {
     const ManualRecipe::Region& region =
         k < manual.regions.size() ? manual.regions[k] : ManualRecipe::Region{};
@@ -259,8 +287,6 @@ FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& man
         draw_region(casting, distribution, k, face.recipe.target, draws, region));
   }
   if (!manual.colours.empty()) face.recipe.colours = normalized_source_weights(manual.colours);
-  const AgeRange ages = manual.age.value_or(sampling.age);
-  const Age age = {draws.in(ages.range, "age", ""), ages.unit};
   const HeadProperties heads = properties_of_heads(casting);
   apply_age(face, fraction_of_age(age, face, heads, sampling), heads, sampling);
   face.recipe.asymmetry = draws.in(manual.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
