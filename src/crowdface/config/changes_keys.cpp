@@ -155,7 +155,7 @@ const Keys<FaceChange>& change_keys() {
       });
   static const Keys<FaceChange> keys = {
       Key<FaceChange>{"age", read_change_of_age, write_change_of_age}.with_accepted_values(
-          "`older`, `younger`, number, -1 … 1, or years (`70 years`)"),
+          "`older`, `younger`, number, -1 … 1, or `70 years`"),
       Key<FaceChange>{"wears", read_wears,
                       [](const FaceChange& change, const WriteContext& context) {
                         return change.attachments

@@ -317,7 +317,7 @@ Codec<AgeRange> age() {
           [=](const AgeRange& ages, const WriteContext& context) {
             return (ages.unit == AgeUnit::kYears ? years : fractions).write(ages.range, context);
           },
-          "number, -1 … 1, or years (`70 years`), or a range of either"};
+          "number, -1 … 1, or `70 years`, or a range"};
 }
 
 Codec<Range> asymmetry() {
