@@ -227,6 +227,19 @@ TEST_F(ReadConfig, MissingFilesAreMissingInput) {
   EXPECT_THAT(told(), HasSubstr("link.obj\" is missing"));
 }
 
+TEST_F(ReadConfig, MessagesAboutMissingFilesNameTheCause) {
+  const auto told_of = [&](const std::string& mask) {
+    read(kPlain + "regions: {names: [a], mask: " + mask + "}\n");
+    return told();
+  };
+  for (const char* name : {"masks/Kopf.png", "masks/e\u0301.png"}) touch(name, "x");
+  EXPECT_THAT(told_of("masks/kopf.png"), HasSubstr("; did you mean \"Kopf.png\"?"));
+  EXPECT_THAT(told_of("masks/\u00e9.png"), HasSubstr("accents are encoded in another way"));
+  EXPECT_THAT(told_of("m.<udim>.png"), HasSubstr("write <UDIM> in capital letters"));
+  EXPECT_THAT(told_of("masks\\Kopf.png"), HasSubstr("with / instead of \\"));
+  EXPECT_THAT(told_of("masks"), HasSubstr("is a folder; name the file in it"));
+}
+
 TEST_F(ReadConfig, TooFewAndTooManyHeads) {
   touch("one/ann.obj");
   EXPECT_FALSE(read("schema: 1\ncrowd: {name: a, count: 1}\nfaces: {directory: one, units: cm}\n"));

@@ -186,6 +186,8 @@ TEST_F(ImageFiles, OtherContentIsRefusedByName) {
   EXPECT_THAT(message_of(text),
               AllOf(HasSubstr("text.png"), HasSubstr("expected a PNG"), HasSubstr("this is")));
   EXPECT_THAT(message_of(write_bytes("empty.png", "")), HasSubstr("empty file"));
+  EXPECT_THAT(message_of(write_bytes("p.png", "version https://git-lfs.github.com/spec/v1\n")),
+              HasSubstr("git lfs pull"));
   EXPECT_THAT(message_of(write_bytes("x.jpg", "\xff\xd8\xff\xe0 JFIF")),
               HasSubstr("expected a PNG"));
 }

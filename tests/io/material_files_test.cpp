@@ -267,7 +267,8 @@ TEST(MaterialFiles, AreReadAsProgramsWriteThem) {
   for (const std::string& text :
        {"\xef\xbb\xbf" + plain, with_cr,
         std::string("NEWMTL skin\nmap_kd skin.png\nnewmtl eye\nMAP_KD eye.png\n"),
-        std::string("newmtl skin\nmap_Kd \"skin.png\"\nnewmtl eye\nmap_Kd eye.png # brown\n")}) {
+        std::string("newmtl skin\nmap_Kd \"skin.png\"\nnewmtl eye\nmap_Kd eye.png # brown\n"),
+        std::string("newmtl skin\nmap_Kd s%6Bin.png\nnewmtl eye\nmap_Kd eye.png\n")}) {
     const testing::TemporaryFolder folder;
     folder.write("mats/a.mtl", text);
     folder.write("mats/skin.png", "x");

@@ -253,6 +253,10 @@ TEST(RegionWeights, RowsOfVerticesNeedNoTextureCoordinates) {
   EXPECT_EQ(weights("w.csv", "\xEF\xBB\xBFrest;face\r\n0;1\r\n0,5;0,5\r\n3;1\r\n").alpha,
             plain.alpha);
   EXPECT_EQ(weights("w.csv", "\"rest\",\"face\"\n0,1\n.5,.5\n3,1\n").alpha, plain.alpha);
+  EXPECT_EQ(weights("cr.csv", "rest,face\r0,1\r.5,.5\r3,1\r").alpha, plain.alpha);
+  std::string utf16 = "\xff\xfe";
+  for (const char c : std::string("rest\tface\r\n0\t1\r\n.5\t.5\r\n3\t1\r\n")) utf16 += {c, '\0'};
+  EXPECT_EQ(weights("u.txt", utf16).alpha, plain.alpha);
   // pandas numbers the rows from 0, R from 1.
   EXPECT_EQ(weights("w.csv", ",rest,face\n0,0,1\n1,.5,.5\n2,3,1\n").alpha, plain.alpha);
   EXPECT_EQ(weights("w.txt", "\"rest\" \"face\"\n\"1\" 0 1\n\"2\" .5 .5\n\"3\" 3 1\n").alpha,

@@ -25,10 +25,11 @@ bool expect_file(const YamlNode& node, const std::filesystem::path& file, Config
     draft.complaints.add_mismatch(node, "a file name without '/' at its end");
     return false;
   }
-  if (path_exists(file)) return true;
-  draft.complaints.add_at(
-      node, concat(what, quoted(file.string()), " is missing", advice_on_backslashes(file)),
-      ExitCode::kMissingInput);
+  if (path_exists(file) && !is_folder(file)) return true;
+  const std::string found =
+      is_folder(file) ? " is a folder; name the file in it" : " is missing" + advice_on_path(file);
+  draft.complaints.add_at(node, concat(what, quoted(file.string()), found),
+                          ExitCode::kMissingInput);
   return false;
 }
 

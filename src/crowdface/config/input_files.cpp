@@ -15,6 +15,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/decomposed_text.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/tile_files.h"
 
@@ -40,7 +41,7 @@ std::vector<fs::path> visible_files(const fs::path& folder,
       &error);
   if (!error) return files;
   throw MissingInput(concat("the folder ", quoted(folder.string()),
-                            " cannot be read: ", error.message(), advice_on_backslashes(folder)));
+                            " cannot be read: ", error.message(), advice_on_path(folder)));
 }
 
 /// Returns whether a file's extension belongs to a format in which meshes may be stored.
@@ -251,8 +252,23 @@ std::string suggested_head_pattern(const fs::path& folder) {
   return {};
 }
 
-std::string_view advice_on_backslashes(const fs::path& path) {
-  return path.string().find('\\') == std::string::npos ? "" : "; write paths with / instead of \\";
+std::string advice_on_path(const fs::path& path) {
+  const std::string text = path.string();
+  if (text.find('\\') != text.npos) return "; write paths with / instead of \\";
+  if (text.find("<udim>") != text.npos) return "; write <UDIM> in capital letters";
+  const auto key = [](const fs::path& name) { return lower_case(decomposed(name.string())); };
+  std::error_code ignored;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  for (const fs::path& entry : list_folder(folder, &ignored)) {
+    const std::string name = entry.filename().string();
+    if (key(name) != key(path.filename())) continue;
+    return decomposed(name) == decomposed(path.filename().string())
+               ? "; a file has this name, but its accents are encoded in another way (as macOS "
+                 "does): "
+                 "rename the file"
+               : concat("; did you mean ", quoted(name), "?");
+  }
+  return {};
 }
 
 std::string objection_to_head_name(const std::string& name, const fs::path& file,

@@ -37,9 +37,10 @@ std::optional<std::string> unused_materials_warning(const NamedTextures& named, 
     if (colours->second.contains(material)) return std::nullopt;
     if (!material.empty()) used.push_back(quoted(material));
   }
-  return concat(
-      "the textures of its material files are not shown: no polygon uses their materials ",
-      join(textured), used.empty() ? " (usemtl)" : "; its materials are ", join(used));
+  const std::string not_shown = "the textures of its material files are not shown: ";
+  if (textured.empty()) return concat(not_shown, "no statement newmtl stands before them");
+  return concat(not_shown, "no polygon uses their materials ", join(textured),
+                used.empty() ? " (usemtl)" : "; its materials are ", join(used));
 }
 
 /// Returns the UDIM tile of a polygon. The polygon's centroid determines the tile, so that corners

@@ -54,47 +54,64 @@ constexpr std::array kBinary = {
     Known{"\xff\xd8\xff"sv, "a picture"},
     Known{"%PDF"sv, "a PDF document"}};
 
-/// Formats recognised by the start of the text, ignoring case, leading whitespace and a byte-order
-/// mark.
-constexpr std::array kText = {
+/// Files that a browser, a server or Git stored instead of the wanted file. Recognised by the start
+/// of the text, ignoring case, leading whitespace and a byte-order mark.
+constexpr std::array kNotDownloaded = {
     Known{"<!doctype"sv,
           "a web page, which a browser saved instead of the file: download the raw file"},
     Known{"<html"sv,
           "a web page, which a browser saved instead of the file: download the raw file"},
     Known{"<head"sv,
           "a web page, which a browser saved instead of the file: download the raw file"},
-    Known{"<?xml"sv,
-          "XML and no mesh: if it is a web page or a server's answer, download the raw file; if "
-          "it is COLLADA, export OBJ, FBX or GLB"},
     Known{"version https://git-lfs"sv,
           "a pointer of Git LFS and not the file itself: fetch it (git lfs pull)"},
     Known{"404"sv, "the answer of a web server that has no such file: check the address"},
     Known{"403"sv,
           "the answer of a web server that refused the file: log in and download it again"},
-    Known{"{\"error"sv, "the answer of a web server and no mesh: download the file again"},
-    Known{"{\"message"sv, "the answer of a web server and no mesh: download the file again"}};
+    Known{"{\"error"sv, "the answer of a web server and not the file: download it again"},
+    Known{"{\"message"sv, "the answer of a web server and not the file: download it again"}};
+
+/// The start of a text in lower case, without leading whitespace and a byte-order mark.
+std::string start_of_text(std::string_view bytes) {
+  constexpr std::size_t kLooked = 200;
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
+  return lower_case(bytes.substr(0, kLooked));
+}
 
 }  // namespace
+
+std::string_view describe_failed_download(std::string_view bytes) {
+  const std::string text = start_of_text(bytes);
+  for (const Known& known : kNotDownloaded) {
+    if (text.starts_with(known.begin)) return known.what;
+  }
+  return {};
+}
+
+std::string describe_numpy_archive(std::string_view bytes, const std::filesystem::path& path) {
+  const std::string_view array = first_npz_array(bytes);
+  if (array.empty()) return {};
+  const std::string stem = path.stem().string();
+  return concat("an archive of NumPy arrays: save each array alone, such as numpy.save(\"", stem,
+                ".npy\", numpy.load(\"", stem, ".npz\")[\"", printable(array), "\"])");
+}
 
 void refuse_non_mesh_file(std::string_view bytes, const std::filesystem::path& path) {
   const auto refuse = [&](std::string_view what) {
     refuse_file(path, concat("expected a mesh, found ", what));
   };
   if (bytes.empty()) refuse("an empty file");
-  if (const std::string_view array = first_npz_array(bytes); !array.empty()) {
-    const std::string stem = path.stem().string();
-    refuse(concat("an archive of NumPy arrays: save each array alone, such as numpy.save(\"", stem,
-                  ".npy\", numpy.load(\"", stem, ".npz\")[\"", printable(array), "\"])"));
-  }
+  if (const std::string found = describe_numpy_archive(bytes, path); !found.empty()) refuse(found);
   for (const Known& known : kBinary) {
     if (bytes.starts_with(known.begin)) refuse(known.what);
   }
-  constexpr std::size_t kLooked = 200;
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
-  const std::string text = lower_case(bytes.substr(0, kLooked));
-  for (const Known& known : kText) {
-    if (text.starts_with(known.begin)) refuse(known.what);
+  if (const auto found = describe_failed_download(bytes); !found.empty()) refuse(found);
+  if (start_of_text(bytes).starts_with("<?xml")) {
+    refuse(
+        "XML and no mesh: if it is a web page or a server's answer, download the raw file; if it "
+        "is "
+        "COLLADA, export OBJ, FBX or GLB");
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace crowdface {
@@ -10,6 +11,14 @@ namespace crowdface {
 /// scenes of modelling programs.
 /// \throws InvalidInput with the kind of file found and how to obtain the mesh.
 void refuse_non_mesh_file(std::string_view bytes, const std::filesystem::path& path);
+
+/// Describes a file that a browser, a server or Git stored instead of the wanted file, and says how
+/// to obtain the wanted file. Empty for other files.
+std::string_view describe_failed_download(std::string_view bytes);
+
+/// Describes NumPy's archive of arrays (.npz), and says how to save its arrays. Empty for other
+/// files.
+std::string describe_numpy_archive(std::string_view bytes, const std::filesystem::path& path);
 
 /// Returns advice for an error message: how to correct a mesh file that contains `word` where a
 /// finite number is expected. For example, "1,5" contains a decimal comma. Empty if the cause is

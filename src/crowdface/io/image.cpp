@@ -13,6 +13,7 @@
 #include "crowdface/core/memory.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/foreign_file.h"
 #include "crowdface/io/image_codec.h"
 #include "crowdface/io/image_container.h"
 #include "crowdface/io/png_codec.h"
@@ -30,11 +31,15 @@ std::string checked_format(const path& file, std::string_view bytes, const Image
   std::string format = image_format(bytes);
   if (limits.allows_jpeg && bytes.starts_with(kJpegStart)) format = "jpeg";
   if (format.empty()) {
-    const std::string found =
-        bytes.empty() ? "an empty file"
-        : bytes.starts_with(kJpegStart)
-            ? "a JPEG image, whose values are inexact: paint it again and save it as PNG"
-            : concat("a file that begins with ", quoted(bytes.substr(0, 8)), ": save it as PNG");
+    std::string found = describe_numpy_archive(bytes, file);
+    if (found.empty()) found = describe_failed_download(bytes);
+    if (bytes.empty()) found = "an empty file";
+    if (bytes.starts_with(kJpegStart)) {
+      found = "a JPEG image, whose values are inexact: paint it again and save it as PNG";
+    }
+    if (found.empty()) {
+      found = concat("a file that begins with ", quoted(bytes.substr(0, 8)), ": save it as PNG");
+    }
     refuse_file(file, concat("expected a PNG, ", limits.allows_jpeg ? "JPEG, " : "",
                              "TIFF or OpenEXR image, found ", found));
   }

@@ -276,7 +276,8 @@ class Collector {
   }
 
   /// All names that the text may mean: the text decoded from each possible encoding, the unchanged
-  /// text, and the text without a comment at its end and without quotation marks.
+  /// text, the text without a comment at its end and without quotation marks, and the text without
+  /// percent escapes.
   static std::vector<std::string> possible_names(std::string_view text) {
     std::vector<std::string> names = legacy_decodings(text);
     names.emplace_back(text);
@@ -285,6 +286,8 @@ class Collector {
     if (bare.size() > 2 && bare.front() == '"' && bare.back() == '"')
       bare = bare.substr(1, bare.size() - 2);
     if (bare != text && !bare.empty()) names.emplace_back(bare);
+    const auto decoded = percent_decoded(bare);
+    if (decoded && *decoded != bare) names.push_back(*decoded);
     return names;
   }
 

@@ -156,7 +156,10 @@ LoadedMask load(const MaskSource& source, const std::set<int>& used, const std::
       if (rows != static_cast<std::size_t>(vertices)) {
         problems.add(ExitCode::kBadData,
                      concat("mask ", source.path(), ": expected a row for each of ", vertices,
-                            " vertices, found ", rows));
+                            " vertices, found ", rows,
+                            mask.weights->rows.width() == static_cast<std::size_t>(vertices)
+                                ? ": save its transpose"
+                                : ""));
       }
     } catch (const RecoverableError& error) {
       problems.add(error);

@@ -8,6 +8,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/legacy_text.h"
 #include "crowdface/region/mask_source.h"
 
 namespace crowdface {
@@ -38,9 +39,8 @@ VertexWeights read_rows(const std::filesystem::path& path) {
   NpyArray& rows = weights.rows;
   std::size_t line_number = 0, count = 0, width = 0;
   const MappedFile file(path);
-  std::string_view bytes = file.bytes();
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);  // a byte order mark
-  for (const std::string_view line : split_lines(bytes)) {
+  const std::string content = plain_text(file.bytes());
+  for (const std::string_view line : split_lines(content)) {
     ++line_number;
     std::string text(line.substr(0, line.find('#')));
     // If there are semicolons, read commas as decimal points: spreadsheets that write decimal
