@@ -394,7 +394,13 @@ TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {
   refused("groups: [{name: a, share: 0.7}, {name: b, share: 0.7}]\n", "more than 1");
   refused("groups: [{name: a, share: 0.7, count: 1}]\n", "not both");
   refused("groups: [{name: a, count: 1000}]\n", "the counts sum to 1000");
-  refused("groups: [{name: a, tags: [purple]}]\n", "no head has all of these tags");
+  refused("groups: [{name: a, tags: [purple]}]\n", "these tags; no head has any tag");
+  EXPECT_FALSE(read(kTagged + "groups: [{name: a, tags: [elderly]}]\n"));
+  EXPECT_THAT(told(),
+              HasSubstr("no head has all of these tags; the heads have the tags female, old"));
+  refused(
+      "groups: [{name: a}]\nfamilies: [{name: k, members: 1, parents: {mother: a, father: ann}}]\n",
+      "\"a\" is a group; write {group: a}");
   refused("families: [{name: k, members: 1, group: nobody}]\n", "no group is called \"nobody\"");
 }
 

@@ -2,6 +2,7 @@
 #include "crowdface/config/config_draft.h"
 
 #include <algorithm>
+#include <set>
 
 #include "crowdface/config/config_values.h"
 #include "crowdface/config/input_files.h"
@@ -59,6 +60,16 @@ std::vector<Eigen::Index> heads_with_tags(const std::vector<std::string>& tags,
   return heads;
 }
 
+std::string known_tags(const Config::Faces& faces) {
+  constexpr std::size_t kMost = 30;
+  std::set<std::string> tags;
+  for (const auto& of_head : faces.tags) tags.insert(of_head.begin(), of_head.end());
+  if (tags.empty()) return "; no head has any tag, see faces.tags";
+  std::vector<std::string> shown(tags.begin(), tags.end());
+  if (shown.size() > kMost) shown.resize(kMost);
+  return concat("; the heads have the tags ", join(shown), tags.size() > kMost ? ", …" : "");
+}
+
 std::vector<std::string> remove_age_tags(std::vector<std::string> tags) {
   std::erase_if(tags,
                 [](const auto& tag) { return tag == "young" || tag == "adult" || tag == "old"; });
@@ -91,8 +102,9 @@ std::vector<Eigen::Index> find_heads(const std::string& name, const YamlPlace& p
   if (heads.empty() && draft.are_heads_known && draft.are_tags_known) {
     for (const auto& head_tags : tags)
       known.insert(known.end(), head_tags.begin(), head_tags.end());
+    const std::string similar = suggestion(name, known);
     draft.complaints.add(place, concat(path, ": no head and no tag is called ", quoted(name),
-                                       suggestion(name, known)));
+                                       similar.empty() ? known_tags(draft.config.faces) : similar));
   }
   return heads;
 }

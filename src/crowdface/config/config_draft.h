@@ -44,6 +44,8 @@ bool has_tags(const std::vector<std::string>& head_tags, const std::vector<std::
 /// Returns the heads that have all of these tags, ascending.
 std::vector<Eigen::Index> heads_with_tags(const std::vector<std::string>& tags,
                                           const Config::Faces& faces);
+/// Returns "; the heads have the tags adult, female, …" for messages about unknown tags.
+std::string known_tags(const Config::Faces& faces);
 /// Removes the tags that name an age: young, adult, old.
 std::vector<std::string> remove_age_tags(std::vector<std::string> tags);
 

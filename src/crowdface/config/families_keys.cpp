@@ -66,7 +66,10 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   const auto& recipes = draft.config.recipes;
   const bool known = std::ranges::find(recipes, *name, &ManualRecipe::id) != recipes.end() ||
                      is_face_of_family(*name, draft.config);
-  if (!known && draft.are_heads_known) {
+  const auto& groups = draft.config.groups;
+  if (std::ranges::find(groups, *name, &Group::name) != groups.end() && !known) {
+    draft.complaints.add_at(node, concat(quoted(*name), " is a group; write {group: ", *name, '}'));
+  } else if (!known && draft.are_heads_known) {
     draft.complaints.add_at(node, concat("expected drawn, a head, a recipe's id or a member of ",
                                          "an earlier family (smith_01), found ", quoted(*name)));
   }

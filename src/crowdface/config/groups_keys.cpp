@@ -35,7 +35,8 @@ void read_group_tags(const YamlNode& node, Group& group, ConfigDraft& draft) {
   for (const Eigen::Index head : group.sampling.sources)
     group.sampling.targets.push_back({head, 1});
   if (group.sampling.targets.empty() && draft.are_heads_known && draft.are_tags_known) {
-    draft.complaints.add_at(node, "no head has all of these tags");
+    draft.complaints.add_at(
+        node, concat("no head has all of these tags", known_tags(draft.config.faces)));
   }
   const auto of_any_age = heads_with_tags(remove_age_tags(*tags), draft.config.faces);
   restrict_old_and_young_heads(group.sampling,
@@ -94,7 +95,8 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   for (const std::string& tag : *tags) {
     const std::vector<Eigen::Index> tagged = heads_with_tags({tag}, draft.config.faces);
     if (known && tagged.empty()) {
-      draft.complaints.add_at(node, concat("no head has the tag ", quoted(tag)));
+      draft.complaints.add_at(
+          node, concat("no head has the tag ", quoted(tag), known_tags(draft.config.faces)));
     }
     const auto is_tagged = [&](Eigen::Index head) { return contains(tagged, head); };
     std::erase_if(sampling.targets, [&](const auto& target) { return is_tagged(target.head); });
