@@ -119,6 +119,43 @@ TEST(LandmarkLists, NamesMayHaveAnEncodingOfWindows) {
       of_gbk));
 }
 
+// One landmark that was hidden on the scan refused the whole file.
+TEST(LandmarkLists, LandmarksWithoutAPositionAreIgnored) {
+  const std::string points = "chin,1,-2.5,3\nnose tip,4,5,6\n";
+  for (const char* row : {"ear,,,\n", "ear,NA,NA,NA\n", "ear,nan,nan,nan\n"}) {
+    expect_chin_and_nose("a.csv", points + row);
+    expect_chin_and_nose("b.csv", "name,x,y,z\n" + points + row);
+  }
+  expect_chin_and_nose("c.csv", ",name,x,y,z\n0,chin,1,-2.5,3\n1,ear,,,\n2,nose tip,4,5,6\n");
+  expect_chin_and_nose("d.json", R"({"chin": [1, -2.5, 3], "nose tip": [4, 5, 6], "ear": null})");
+  expect_chin_and_nose("e.json", R"([{"name": "chin", "coord": [1, -2.5, 3]},
+      {"name": "ear", "coord": null}, {"name": "nose tip", "coord": [4, 5, 6]}])");
+}
+
+// A landmark "Nose tip" of the scan was ignored without a word.
+TEST(MatchLandmarks, NamesMayDifferInCaseAndBlanks) {
+  LandmarkFile file;
+  const auto add = [](auto& places, const char* name, double x) {
+    places[name].point = Eigen::Vector3d(x, 0, 0);
+  };
+  for (const char* name : {"nose_tip", "chin", "Ear", "ear", "lid"})
+    add(file.template_places, name, 0);
+  add(file.scan_places, "Nose Tip", 1);
+  add(file.scan_places, "chin", 2);
+  add(file.scan_places, "CHIN", 3);
+  add(file.scan_places, "ear", 4);
+  const Positions origin = Positions::Zero(1, 3);
+  std::map<std::string, double> found;
+  for (const WrapLandmark& landmark : match_landmarks(file, origin, Scan())) {
+    found[landmark.name] = landmark.scan_position.x();
+  }
+  EXPECT_EQ(found, (std::map<std::string, double>{{"chin", 2}, {"ear", 4}, {"nose_tip", 1}}));
+}
+
+TEST(LandmarkLists, NamesMayEndInAColon) {
+  expect_chin_and_nose("a.txt", "chin:\t1\t-2.5\t3\nnose tip:\t4\t5\t6\n");
+}
+
 // Points with the axes RAS stood on the mirrored and turned place of the mesh, which has LPS.
 TEST(LandmarkLists, PointsOfSlicerGetTheAxesOfItsMeshes) {
   expect_chin_and_nose("ras.fcsv",
@@ -140,6 +177,10 @@ TEST(LandmarkLists, PointsOfSlicerGetTheAxesOfItsMeshes) {
                        markups(R"("coordinateSystem": "LPS", )", "[1, -2.5, 3]", "[4, 5, 6]"));
   expect_chin_and_nose("ras.mrk.json",
                        markups(R"("coordinateSystem": "RAS", )", "[-1, 2.5, 3]", "[-4, -5, 6]"));
+  expect_chin_and_nose("two.mrk.json", R"({"markups": [
+      {"coordinateSystem": "LPS", "controlPoints": [{"label": "chin", "position": [1, -2.5, 3]}]},
+      {"coordinateSystem": "RAS", "controlPoints": [{"label": "nose tip", "position": [-4, -5, 6]}]}
+      ]})");
   expect_chin_and_nose("lps.csv",
                        "label,l,p,s,defined,selected,visible,locked,description\n"
                        "chin,1,-2.5,3,1,1,1,0,\nnose tip,4,5,6,1,1,1,0,\nm,0,0,0,0,1,1,0,\n");

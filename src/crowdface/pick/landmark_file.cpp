@@ -8,6 +8,7 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/decomposed_text.h"
 #include "crowdface/io/legacy_text.h"
 #include "crowdface/pick/landmark_lists.h"
 
@@ -53,6 +54,15 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
     places[entry.key] = place;
   }
   return places;
+}
+
+/// Names that differ only in case, blanks, hyphens, underscores or Unicode's normal form have the
+/// same key.
+std::string key_of(std::string_view name) {
+  std::string key = lower_case(decomposed(name));
+  std::ranges::replace_if(
+      key, [](char c) { return c == ' ' || c == '-' || c == '.'; }, '_');
+  return key;
 }
 
 std::uint32_t vertex_of(const LandmarkFile::Place& place, Index count, const char* what) {
@@ -111,12 +121,22 @@ Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan) {
 
 std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
                                           const Positions& template_positions, const Scan& scan) {
+  std::map<std::string, const LandmarkFile::Place*> scan_places_by_key;
+  for (const auto& [name, place] : file.scan_places) {
+    if (!file.template_places.contains(name)) scan_places_by_key.emplace(key_of(name), &place);
+  }
   std::vector<WrapLandmark> landmarks;
   for (const auto& [name, place] : file.template_places) {
-    const auto on_scan = file.scan_places.find(name);
-    if (on_scan == file.scan_places.end()) continue;
+    const auto same_name = file.scan_places.find(name);
+    const LandmarkFile::Place* on_scan = nullptr;
+    if (same_name != file.scan_places.end()) {
+      on_scan = &same_name->second;
+    } else if (const auto similar = scan_places_by_key.extract(key_of(name))) {
+      on_scan = similar.mapped();
+    }
+    if (on_scan == nullptr) continue;
     landmarks.push_back(
-        {name, template_vertex(place, template_positions), scan_point(on_scan->second, scan)});
+        {name, template_vertex(place, template_positions), scan_point(*on_scan, scan)});
   }
   return landmarks;
 }

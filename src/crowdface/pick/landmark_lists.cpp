@@ -2,7 +2,9 @@
 #include "crowdface/pick/landmark_lists.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,7 @@ class LandmarkList {
   void add(std::string name, const std::vector<double>& numbers, const std::string& where) {
     if (places_.size() >= kMaxListed)
       fail(where, concat("expected at most ", kMaxListed, " landmarks"));
+    name.resize(name.find_last_not_of(": ") + 1);  // "chin: 1 2 3"
     if (name.empty()) name = std::to_string(places_.size() + 1);
     LandmarkPlace place;
     place.file_location = concat(path_, where);
@@ -145,6 +148,13 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
+/// Whether a field of a table says that a value is missing.
+bool is_missing_value(std::string_view field) {
+  constexpr std::array<std::string_view, 5> kWords = {"", "na", "nan", "n/a", "null"};
+  const std::string word = lower_case(field);
+  return std::ranges::find(kWords, word) != kWords.end();
+}
+
 /// Splits a line into fields. Removes quotes around fields, and empty fields at the end of the line.
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
@@ -193,6 +203,22 @@ TableColumns columns_of(const std::vector<std::string_view>& header) {
   }
   if (!columns.name && columns.numbers[0] > 0) columns.name = 0;
   return columns;
+}
+
+/// Whether a row has the name of a landmark that has no position.
+bool was_not_placed(std::string_view line, const std::vector<std::string_view>& fields,
+                    const TableColumns& columns) {
+  if (columns.placed && *columns.placed < fields.size() && fields[*columns.placed] == "0") {
+    return true;
+  }
+  const auto is_missing = [&](std::size_t column) {
+    return column >= fields.size() || is_missing_value(fields[column]);
+  };
+  if (columns.count > 0) return std::ranges::all_of(columns.numbers, is_missing);
+  constexpr std::ptrdiff_t kSeparators = 3;  // name, x, y, z
+  const auto values = std::span(fields).subspan(1);
+  return std::ranges::count(line, separator_of(line)) >= kSeparators &&
+         std::ranges::all_of(values, is_missing_value);
 }
 
 /// A row of a table.
@@ -268,8 +294,7 @@ void read_table(std::string_view text, LandmarkList& list) {
       continue;
     }
     const std::string where = concat(':', line_number);
-    const auto placed = columns.placed;
-    if (placed && *placed < fields.size() && fields[*placed] == "0") continue;
+    if (was_not_placed(line, fields, columns)) continue;
     const auto row = columns.count > 0 ? row_by_header(fields, columns) : row_by_order(fields);
     // Without other separators, "tip 0 1 2 3" may be a name with blanks, or a point and its error.
     const bool is_ambiguous = separator == ' ' && columns.count == 0 && row && !row->name.empty() &&
@@ -302,6 +327,7 @@ std::vector<double> numbers_of_json(const ListJson& value) {
 
 /// \param is_ras  whether the axes are right, anterior, superior
 void read_json_item(const std::string& key, const ListJson& item, bool is_ras, LandmarkList& list) {
+  if (item.is_null()) return;  // the landmark was not placed
   std::string name = key;
   std::vector<double> numbers = numbers_of_json(item);
   if (item.is_object()) {
@@ -311,8 +337,11 @@ void read_json_item(const std::string& key, const ListJson& item, bool is_ras, L
         break;
       }
     }
-    for (const char* word : {"position", "point", "coordinates", "xyz", "vertex", "index"}) {
-      if (numbers.empty() && item.contains(word)) numbers = numbers_of_json(item[word]);
+    for (const char* word : {"position", "point", "coordinates", "coords", "coord", "location",
+                             "xyz", "vertex", "index"}) {
+      if (!numbers.empty() || !item.contains(word)) continue;
+      if (item[word].is_null()) return;
+      numbers = numbers_of_json(item[word]);
     }
   }
   // 3D Slicer: only points with the status `defined` were placed.
@@ -323,27 +352,30 @@ void read_json_item(const std::string& key, const ListJson& item, bool is_ras, L
   list.add(name, numbers, name.empty() ? "" : concat(": ", name));
 }
 
+/// Reads a list of points of 3D Slicer.
+void read_markup(const ListJson& markup, LandmarkList& list) {
+  if (!markup.is_object() || !markup.contains("controlPoints")) return;
+  const bool is_ras = markup.contains("coordinateSystem") && markup["coordinateSystem"] == "RAS";
+  for (const ListJson& point : markup["controlPoints"]) read_json_item("", point, is_ras, list);
+}
+
 /// \return false if the text has a key `template` or `scan` (see read_landmarks), or is not JSON.
 bool read_json(std::string_view text, LandmarkList& list) {
   const ListJson root = parse_shallow_json(text);
   if (root.is_discarded() || (!root.is_object() && !root.is_array())) return false;
   const ListJson* items = &root;
-  bool is_ras = false;
   if (root.is_object()) {
     if (root.contains("template") || root.contains("scan")) return false;
-    if (root.contains("markups") && root["markups"].is_array() && !root["markups"].empty() &&
-        root["markups"][0].is_object() && root["markups"][0].contains("controlPoints")) {
-      items = &root["markups"][0]["controlPoints"];
-      const auto axes = root["markups"][0].find("coordinateSystem");
-      is_ras = axes != root["markups"][0].end() && *axes == "RAS";
-    } else {
-      for (const char* word : {"landmarks", "points"}) {
-        if (root.contains(word) && root[word].is_structured()) items = &root[word];
-      }
+    if (root.contains("markups") && root["markups"].is_array()) {
+      for (const ListJson& markup : root["markups"]) read_markup(markup, list);
+      return true;
+    }
+    for (const char* word : {"landmarks", "points"}) {
+      if (root.contains(word) && root[word].is_structured()) items = &root[word];
     }
   }
   for (const auto& item : items->items()) {
-    read_json_item(items->is_array() ? std::string() : item.key(), item.value(), is_ras, list);
+    read_json_item(items->is_array() ? std::string() : item.key(), item.value(), false, list);
   }
   return true;
 }
