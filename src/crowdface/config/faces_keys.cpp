@@ -91,7 +91,7 @@ bool read_file_list(const YamlNode& node, std::vector<fs::path>& files,
     is_valid = false;
     if (file)
       draft.complaints.add_mismatch(
-          item, "a file whose name ends in .obj, .ply, .glb, .gltf, .fbx or .npy");
+          item, "a file whose name ends in .obj, .ply, .glb, .gltf, .fbx, .usda or .npy");
   }
   return is_valid;
 }

@@ -113,6 +113,8 @@ std::string left_out_meshes_message(const fs::path& folder) {
     }
   }
   if (others.empty()) return {};
+  // No pattern reads files of other formats than those of heads.
+  const bool has_heads = std::ranges::any_of(others, is_head_file);
   constexpr std::size_t kNamed = 5;
   const std::size_t count = others.size();
   if (count > kNamed) {
@@ -122,9 +124,12 @@ std::string left_out_meshes_message(const fs::path& folder) {
   return concat(
       quoted(folder.string()), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
       count,
-      "): the heads of a folder are its OBJ files, or the files of the most frequent format; ",
-      "to read other formats too, write files: \"", (folder.filename() / "*").string(),
-      "\", or convert the files with crowdface convert");
+      has_heads
+          ? concat("): the heads of a folder are its OBJ files, or the files of the most frequent "
+                   "format; to read other formats too, write files: \"",
+                   (folder.filename() / "*").string(),
+                   "\", or convert the files with crowdface convert")
+          : "): no format of heads; export the heads as OBJ");
 }
 
 std::vector<fs::path> files_matching(const fs::path& pattern) {
