@@ -72,6 +72,24 @@ TEST(HairSampling, ARedrawnFaceKeepsTheColourOfTheRejectedFace) {
   }
 }
 
+// An age of 45 years, which moved a third of the weights to old heads, made hair half grey.
+TEST(HairSampling, GreyDependsOnTheYears) {
+  const auto mean_grey = [](double years) {
+    std::vector<FacePlan> crowd = mixed_ages(60);
+    for (FacePlan& face : crowd) {
+      face.age = 0.5;
+      face.age_years = years;
+    }
+    double sum = 0;
+    for (const HairColour& colour : colours_of(crowd, 0)) sum += colour.grey_fraction;
+    return sum / 60;
+  };
+  EXPECT_EQ(mean_grey(30), 0);
+  EXPECT_LT(mean_grey(45), 0.1);
+  EXPECT_NEAR(mean_grey(57), 0.35, 0.1);
+  EXPECT_GT(mean_grey(70), 0.9);
+}
+
 TEST(HairSampling, NobodyLosesAColourIfAllFacesHaveOne) {
   const std::vector<HairColour> colours = colours_of(mixed_ages(30), 1);
   EXPECT_TRUE(std::ranges::all_of(colours, is_red));

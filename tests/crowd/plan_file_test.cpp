@@ -64,6 +64,20 @@ TEST(PlanFile, ReadsBackToTheBit) {
             format_plan_line(face, kNames, kSettings));
 }
 
+TEST(PlanFile, AgesStandAfterTheAttempt) {
+  FacePlan face = example();
+  face.age = 0.5;
+  face.age_years = 45.5;
+  const std::string text = format_plan_line(face, kNames, kSettings);
+  EXPECT_NE(text.find(R"("attempt":0,"age":0.5,"age_years":45.5,)"), text.npos);
+  const PlanLine line = parse_plan_line(text, kNames, "plan:1");
+  EXPECT_EQ(line.face.age, face.age);
+  EXPECT_EQ(line.face.age_years, face.age_years);
+  const std::string table = whole_text(table_text({face, example()}, kNames));
+  EXPECT_NE(table.find(",age,age_years\r\n"), table.npos);
+  EXPECT_NE(table.find(",0.5,45.5\r\n"), table.npos);
+}
+
 TEST(PlanFile, ColoursOfAFacesOwnStandBesideItsTarget) {
   FacePlan face = example();
   face.recipe.colours = {{0, 0.25}, {2, 0.75}};

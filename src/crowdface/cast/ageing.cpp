@@ -133,6 +133,13 @@ void apply_age(FacePlan& face, double age, const HeadProperties& heads,
   face.age = age;
 }
 
+void apply_age(FacePlan& face, const Age& age, const HeadProperties& heads,
+               const SamplingOptions& sampling) {
+  apply_age(face, fraction_of_age(age, face, heads, sampling), heads, sampling);
+  face.age_years.reset();
+  if (age.unit == AgeUnit::kYears) face.age_years = rounded(age.value);
+}
+
 void undo_age(FacePlan& face, const HeadProperties& heads, const SamplingOptions& sampling) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;

@@ -38,6 +38,10 @@ void apply_age(FacePlan& face, double age, const HeadProperties& heads,
 double fraction_of_age(const Age& age, const FacePlan& face, const HeadProperties& heads,
                        const SamplingOptions& sampling);
 
+/// Applies an age to a face whose age is 0. Sets FacePlan::age_years if the age is in years.
+void apply_age(FacePlan& face, const Age& age, const HeadProperties& heads,
+               const SamplingOptions& sampling);
+
 /// Undoes apply_age, so that children do not inherit the age of this face. If an age of −1 or 1
 /// moved all of a band's weight, the original weights are lost; the band and the face's age then
 /// stay as they are.

@@ -287,8 +287,7 @@ FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& man
         draw_region(casting, distribution, k, face.recipe.target, draws, region));
   }
   if (!manual.colours.empty()) face.recipe.colours = normalized_source_weights(manual.colours);
-  const HeadProperties heads = properties_of_heads(casting);
-  apply_age(face, fraction_of_age(age, face, heads, sampling), heads, sampling);
+  apply_age(face, age, properties_of_heads(casting), sampling);
   face.recipe.asymmetry = draws.in(manual.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
   face.recipe.mirrored = manual.mirrored.value_or(sampling.mirror == Mirroring::kRandom &&
                                                   draws.unit("mirror", "") < 0.5);

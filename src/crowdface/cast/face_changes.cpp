@@ -165,6 +165,7 @@ class FaceChanger {
         face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.level_scale);
         face.recipe.colours = other.recipe.colours;
         face.age = other.age;
+        face.age_years = other.age_years;
         if (!other.age) apply_age(face, age, properties_of_heads(casting_), sampling);
         return face;
       };
@@ -185,7 +186,8 @@ class FaceChanger {
     ManualRecipe open;
     open.id = now.id;
     if (!change.locked_bands.empty()) open.target = now.recipe.target;
-    if (!change.group) open.age = AgeRange{{now.age.value_or(0), now.age.value_or(0)}};
+    const Age age = now.age_years ? Age{*now.age_years, AgeUnit::kYears} : Age{now.age.value_or(0)};
+    if (!change.group) open.age = AgeRange{{age.value, age.value}, age.unit};
     const bool only_traits = redraws_only_for_limits(change);
     return [=, this](std::uint32_t attempt) {
       FacePlan drawn = random_face_plan(casting_, open, key(attempt), kind);
@@ -252,7 +254,7 @@ class FaceChanger {
     const HeadProperties heads = properties_of_heads(casting_);
     undo_age(changed_.face, heads, sampling);
     changed_.face.age.reset();
-    apply_age(changed_.face, fraction_of_age(age, changed_.face, heads, sampling), heads, sampling);
+    apply_age(changed_.face, age, heads, sampling);
   }
 
   /// Notes the head and the earlier face that are nearest to the changed face, with their

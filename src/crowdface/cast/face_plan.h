@@ -39,7 +39,8 @@ struct FacePlan {
   std::optional<std::string> family;
   std::optional<std::string> group;
   Recipe recipe;
-  std::optional<double> age;  ///< age from −1 to 1; empty if the face was not aged
+  std::optional<double> age;        ///< age from −1 to 1; empty if the face was not aged
+  std::optional<double> age_years;  ///< the wanted age, if it was given in years
   /// mother and father, if the face's family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
   /// one entry for each band of each region, region by region: name of the parent from whom the

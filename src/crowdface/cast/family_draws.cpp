@@ -281,9 +281,8 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draf
   FacePlan face = draft.random_face;
   face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.level_scale);
   face.mother_share = (1 - t) * from.mother_share + t * draft.random_face.mother_share;
-  const HeadProperties heads = properties_of_heads(casting_);
-  const SamplingOptions& sampling = sampling_of(face);
-  apply_age(face, fraction_of_age(draft.age, face, heads, sampling), heads, sampling);
+  apply_age(face, draft.age, properties_of_heads(casting_), sampling_of(face));
+  if (draft.age_years_of_twins) face.age_years = draft.age_years_of_twins;
   return face;
 }
 
@@ -353,6 +352,7 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   if (family_plan.founder_is_prototype_of_twins) {
     draft.random_face.inherited_from = family_plan.founder.inherited_from;
     draft.age = {family_plan.founder.age.value_or(0)};
+    draft.age_years_of_twins = family_plan.founder.age_years;
   }
   return draft;
 }
@@ -384,6 +384,7 @@ FacePlan FamilySampler::twins_prototype(const FamilyPlan& family_plan,
   const Age age = std::exchange(model.age, Age{});
   FacePlan face = face_at_chosen_distance(family_plan, model);
   face.age = fraction_of_age(age, face, properties_of_heads(casting_), sampling_of(face));
+  if (age.unit == AgeUnit::kYears) face.age_years = age.value;
   return face;
 }
 

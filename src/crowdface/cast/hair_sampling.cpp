@@ -31,6 +31,13 @@ int random_index(const std::vector<double>& shares, double drawn) {
   return -1;
 }
 
+/// Converts an age in years to the scale of HairChooser::apparent_age.
+double apparent_age_of(double years) {
+  constexpr double kYoungYears = 25, kOldYears = 66, kYoung = 0.15, kOld = 0.85;
+  return std::clamp(kYoung + (years - kYoungYears) * (kOld - kYoung) / (kOldYears - kYoungYears),
+                    kYoung, 1.0);
+}
+
 }  // namespace
 
 HairChooser::HairChooser(HairOptions options, const std::vector<FacePlan>& crowd)
@@ -159,10 +166,10 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
   return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
 }
 
-/// Returns the apparent age of a face, from 0 (young) to 1 (old): the weighted mean of the heads'
-/// ages, which are estimated from the heads' tags. As in a face's textures, half of the weight goes
-/// to the target, the other half to the heads that lend the finest detail.
-double HairChooser::apparent_age(const Recipe& recipe) const {
+/// Returns the mean age, from 0 (young) to 1 (old), of the heads that a face is blended from. The
+/// ages of the heads are estimated from the heads' tags. As in a face's textures, half of the weight
+/// goes to the target, the other half to the heads that lend the finest detail.
+double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
   const auto of_head = [&](Index head) {
     const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
     return contains(tags, "old")     ? 0.85
@@ -183,19 +190,24 @@ double HairChooser::apparent_age(const Recipe& recipe) const {
   return detail_weight > 0 ? (of_target + detail / detail_weight) / 2 : of_target;
 }
 
-/// Returns the fraction of grey hair at the face's age.
-double HairChooser::grey_fraction(const FacePlan& face,
-                                  const std::string& random_number_purpose) const {
-  const double apparent = apparent_age(face.recipe);
+/// Returns the apparent age of a face, from 0 (young) to 1 (old).
+double HairChooser::apparent_age(const FacePlan& face) const {
+  if (face.age_years) return apparent_age_of(*face.age_years);
+  const double of_heads = mean_age_of_heads(face.recipe);
   // The face's age moves the apparent age towards old or young. The square root makes grey hair
   // visible at age 0.5 already.
   const double age = face.age.value_or(0);
   const double way = std::sqrt(std::min(1.0, std::abs(age)));
-  const double aged = apparent + way * ((age < 0 ? 0.15 : std::max(0.9, apparent)) - apparent);
+  return of_heads + way * ((age < 0 ? 0.15 : std::max(0.9, of_heads)) - of_heads);
+}
+
+/// Returns the fraction of grey hair at the face's age.
+double HairChooser::grey_fraction(const FacePlan& face,
+                                  const std::string& random_number_purpose) const {
   // Each person's hair begins to turn grey at a random age, but never while the person is young.
   const double begin =
       random_uniform({options_.seed, face.index.value_or(0), random_number_purpose}) - 0.5;
-  return smooth_step(0.5, 1.0, aged + 0.2 * begin);
+  return smooth_step(0.5, 1.0, apparent_age(face) + 0.2 * begin);
 }
 
 }  // namespace crowdface

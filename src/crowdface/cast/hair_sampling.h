@@ -44,7 +44,8 @@ class HairChooser {
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
   HairColour colour_of_tags(Index head, const std::string& random_number_purpose) const;
-  double apparent_age(const Recipe& recipe) const;
+  double mean_age_of_heads(const Recipe& recipe) const;
+  double apparent_age(const FacePlan& face) const;
   double grey_fraction(const FacePlan& face, const std::string& random_number_purpose) const;
 
   HairOptions options_;

@@ -155,6 +155,10 @@ void add_identity_columns(const std::vector<FacePlan>& crowd, const PlanNames& n
                      [](Face face) { return face.family.has_value(); }});
   columns.push_back({"age", [](Face face) { return format_number(face.age.value_or(0)); },
                      [](Face face) { return face.age.has_value(); }});
+  columns.push_back(
+      {"age_years",
+       [](Face face) { return face.age_years ? format_number(*face.age_years) : std::string(); },
+       [](Face face) { return face.age_years.has_value(); }});
   const auto has_tag = [](const HeadTags& all, const std::string& tag) {
     return std::ranges::any_of(all, [&](const auto& own) { return contains(own, tag); });
   };

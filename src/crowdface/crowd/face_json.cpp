@@ -70,6 +70,7 @@ Json face_to_json(const FacePlan& face, const PlanNames& names, const Digest& se
   if (face.recipe.mirrored) json["mirrored"] = true;
   json["attempt"] = face.notes.attempt;
   if (face.age) json["age"] = *face.age;
+  if (face.age_years) json["age_years"] = *face.age_years;
   if (!face.parents.empty()) {
     json["parents"] = {{"mother", face.parents[0]}, {"father", face.parents[1]}};
     if (face.mother_share > 0) json["mother_share"] = rounded(face.mother_share);

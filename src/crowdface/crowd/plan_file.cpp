@@ -61,6 +61,7 @@ class LineReader {
       face.recipe.regions.push_back(region(member(regions, name), name));
     }
     if (const Json* age = found(json, "age")) face.age = number(*age, "age");
+    if (const Json* years = found(json, "age_years")) face.age_years = number(*years, "age_years");
     if (const Json* parents = found(json, "parents")) {
       face.parents = {text(*parents, "mother"), text(*parents, "father")};
     }

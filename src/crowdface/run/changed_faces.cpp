@@ -67,6 +67,7 @@ class ChangedLooks {
       if (before.hair && face.age != before.age) {
         FacePlan aged = before;
         aged.age = face.age;
+        aged.age_years = face.age_years;
         face.hair->grey_fraction = with_attachments(aged).hair->grey_fraction;
       }
     } else {
