@@ -312,25 +312,23 @@ class GltfMeshReader {
           "it is compressed with Draco (KHR_draco_mesh_compression) and cannot be unpacked; "
           "gltf-transform copy in.glb out.glb writes it without compression");
     }
+    std::map<std::string, std::vector<double>> values;
+    for (std::size_t a = 0; a < names.size(); ++a)
+      values[names[a]] = std::move(mesh->attributes[a]);
+    part.places = std::move(values["POSITION"]);
+    part.uvs = std::move(values[uv_set]);
+    part.colours = fractions_of_colours(std::move(values["COLOR_0"]));
     GltfSkinWeights skin;
-    for (std::size_t a = 0; a < names.size(); ++a) {
-      std::vector<double>& values = mesh->attributes[a];
-      if (names[a] == "POSITION") part.places = std::move(values);
-      if (names[a] == uv_set) part.uvs = std::move(values);
-      if (names[a] == "COLOR_0") part.colours = fractions_of_colours(std::move(values));
-      if (names[a].starts_with("JOINTS_")) {
-        std::vector<std::uint32_t>& joints = skin.joints.emplace_back();
-        for (const double joint : values) {
-          joints.push_back(static_cast<std::uint32_t>(std::clamp<double>(joint, 0, kNoIndex)));
-        }
+    for (std::size_t set = 0; ids.contains(concat("JOINTS_", set)); ++set) {
+      std::vector<std::uint32_t>& joints = skin.joints.emplace_back();
+      for (const double joint : values[concat("JOINTS_", set)]) {
+        joints.push_back(static_cast<std::uint32_t>(std::clamp<double>(joint, 0, kNoIndex)));
       }
-      if (names[a].starts_with("WEIGHTS_")) skin.weights.push_back(std::move(values));
+      skin.weights.push_back(std::move(values[concat("WEIGHTS_", set)]));
+      if (skin.weights.back().empty()) file_.fail("a mesh lacks WEIGHTS_n");
     }
     move_by_targets(json, part.places);
-    if (!joint_transforms_.empty() && !skin.joints.empty()) {
-      if (skin.weights.size() != skin.joints.size()) file_.fail("a mesh lacks WEIGHTS_n");
-      move_by_joints(skin, part.places);
-    }
+    if (!joint_transforms_.empty() && !skin.joints.empty()) move_by_joints(skin, part.places);
     part.corners = std::move(mesh->corners);
     return part;
   }
