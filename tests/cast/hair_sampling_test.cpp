@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/hair_sampling.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/core/text.h"
