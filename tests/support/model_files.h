@@ -2,6 +2,7 @@
 // Tiny stand-ins for the morphable models that users bring, in the models' own file formats.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -25,12 +26,14 @@ struct MakeHumanStandIn {
 };
 MakeHumanStandIn write_makehuman(const std::filesystem::path& package);
 
-/// Adds what heads of that package wear: eyes (each with a clear cornea before it), lashes, teeth, tongue, brows,
+/// Adds what heads of that package wear: eyes (each with a clear cornea before it), teeth, tongue, brows, lashes,
 /// hair and beards, squares all; and skins of one colour each, which skin_grey tells.
 void write_makehuman_wardrobe(const std::filesystem::path& package);
 /// The sRGB value of all texels of a skin, by the name of its folder.
 int skin_grey(const std::string& folder);
-/// Of the squares: their vertices hang on the vertices 8, 9 and 10 of the base mesh, by 1/2, 1/4 and 1/4.
+/// Of the squares: their vertices hang on these vertices of the base mesh, in the tube's upper rows, by 1/2, 1/4 and
+/// 1/4.
+inline constexpr std::array<std::uint32_t, 3> kAttachmentAnchors = {88, 89, 90};
 inline constexpr double kAttachmentSide = 0.1;
 
 /// A grid with eyeballs and teeth in place of ICT's neutral mesh, and `modes` identity modes: mode k

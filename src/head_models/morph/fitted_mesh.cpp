@@ -92,32 +92,6 @@ Positions FittedMesh::fitted_to(const Positions& base) const {
   return out;
 }
 
-void FittedMesh::anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base) {
-  require(rows.size() >= 3, "fitted mesh: ", rows.size(),
-          " vertices to hold to, at least 3 needed");
-  const Positions places = fitted_to(base);
-  for (Index v = 0; v < places.rows(); ++v) {
-    std::vector<std::pair<double, std::uint32_t>> near;
-    for (const std::uint32_t row : rows) {
-      near.emplace_back((base.row(row) - places.row(v)).norm(), row);
-    }
-    std::ranges::partial_sort(near, near.begin() + 3);
-    // Use inverse-distance weights; adding kSoft (decimetres) to distances avoids a division by
-    // zero.
-    constexpr double kSoft = 0.005;
-    Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) sum += 1 / (near[k].first + kSoft);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double weight = 1 / (near[k].first + kSoft) / sum;
-      anchors[static_cast<std::size_t>(v)][k] = near[k].second;
-      weights(v, static_cast<Index>(k)) = weight;
-      mean += weight * base.row(near[k].second);
-    }
-    offsets.row(v) = places.row(v) - mean;
-  }
-}
-
 void FittedMesh::keep_faces(const std::vector<bool>& faces) {
   Topology kept;
   for (Index f = 0; f < topology.face_count(); ++f) {

@@ -44,10 +44,6 @@ struct FittedMesh {
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.
   Positions fitted_to(const Positions& base) const;
-  /// Replaces the anchors of each vertex by the three nearest base-mesh vertices in `rows`. Adapts
-  /// the offsets so that the mesh fitted to `base` stays the same.
-  /// \param rows  base-mesh vertices, at least three.
-  void anchor_to(const std::vector<std::uint32_t>& rows, const Positions& base);
   /// Keeps the marked polygons. Removes all other polygons, and the vertices that no kept polygon
   /// uses.
   /// \param faces  #F, true to keep.

@@ -12,17 +12,20 @@
 namespace crowdface {
 namespace {
 
-constexpr double kYoung = 25, kOld = 90;  // ages in years of MakeHuman's young and old targets
+// Ages in years at which MakeHuman's young and old targets apply fully.
+constexpr double kYoung = 25, kOld = 80;
+constexpr double kUnaged = 38;  // age in years at which `Control::aged` changes nothing
 constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
 /// A measure of the face with two morph targets, one to decrease and one to increase the measure.
 /// '*' in `stem` stands for l and r (left and right), whose values differ slightly. `spread` is the
-/// standard deviation. `aged` is the change of the mean per 20 years of age above 45. `weight` is
-/// the change of the mean for the heaviest body.
+/// standard deviation. `aged` is the change of the mean per 20 years of age above kUnaged. `weight` is
+/// the change of the mean for the heaviest body. `female` is the change of the mean for women: with
+/// the targets of the sexes alone, many women have the face of a man. `mean` is the mean of all.
 struct Control {
   std::string_view stem, less, more;
   double spread;
-  double aged = 0, weight = 0;
+  double aged = 0, weight = 0, female = 0, mean = 0;
 };
 
 // clang-format off
@@ -34,79 +37,79 @@ constexpr Control kControls[] = {
     {"head/head-", "angle-in", "angle-out", 0.0675},
     {"head/head-", "skinny", "fat", 0.135, 0, 0.5},
     {"head/head-", "age-less", "age-more", 0.113, 0.35},
-    {"head/head-", "oval", "square", 0.158},
+    {"head/head-", "oval", "square", 0.158, 0, 0, -0.2},
     {"head/head-", "invertedtriangular", "triangular", 0.158},
     {"head/head-", "rectangular", "round", 0.135, 0, 0.2},
     {"forehead/forehead-", "nubian-less", "nubian-more", 0.03},
     {"forehead/forehead-", "scale-vert-less", "scale-vert-more", 0.1},
     {"forehead/forehead-", "temple-in", "temple-out", 0.225},
     {"forehead/forehead-", "trans-depth-backward", "trans-depth-forward", 0.15},
-    {"eyebrows/eyebrows-", "angle-down", "angle-up", 0.21, -0.15},
-    {"eyebrows/eyebrows-", "trans-depth-less", "trans-depth-more", 0.15},
-    {"eyebrows/eyebrows-", "trans-vert-less", "trans-vert-more", 0.24, -0.1},
+    {"eyebrows/eyebrows-", "angle-down", "angle-up", 0.21, 0, 0, 0, 0.4},
+    {"eyebrows/eyebrows-", "trans-depth-less", "trans-depth-more", 0.15, 0, 0, -0.5},
+    {"eyebrows/eyebrows-", "trans-vert-less", "trans-vert-more", 0.24, 0, 0, 0.3, 0.2},
     {"eyes/*-eye-", "bag-min", "bag-max", 0.21, 0.35},
     {"eyes/*-eye-", "bag-in", "bag-out", 0.21, 0.2},
     {"eyes/*-eye-", "bag-height-min", "bag-height-max", 0.18},
     {"eyes/*-eye-", "corner1-down", "corner1-up", 0.27},
     {"eyes/*-eye-", "corner2-down", "corner2-up", 0.27, -0.15},
     {"eyes/*-eye-", "epicanthus-in", "epicanthus-out", 0.15},
-    {"eyes/*-eye-", "eyefold-angle-down", "eyefold-angle-up", 0.24, -0.2},
+    {"eyes/*-eye-", "eyefold-angle-down", "eyefold-angle-up", 0.24, -0.1},
     {"eyes/*-eye-", "eyefold-concave", "eyefold-convex", 0.18},
-    {"eyes/*-eye-", "eyefold-down", "eyefold-up", 0.21, -0.25},
+    {"eyes/*-eye-", "eyefold-down", "eyefold-up", 0.21, -0.1},
     {"eyes/*-eye-", "height1-min", "height1-max", 0.21},
-    {"eyes/*-eye-", "height2-min", "height2-max", 0.24, -0.1},
+    {"eyes/*-eye-", "height2-min", "height2-max", 0.24, -0.1, 0, 0.1},
     {"eyes/*-eye-", "height3-min", "height3-max", 0.21},
     {"eyes/*-eye-", "move-in", "move-out", 0.24},
     {"eyes/*-eye-", "move-down", "move-up", 0.15},
     {"eyes/*-eye-", "push1-in", "push1-out", 0.18},
     {"eyes/*-eye-", "push2-in", "push2-out", 0.18},
-    {"eyes/*-eye-", "size-small", "size-big", 0.27},
+    {"eyes/*-eye-", "size-small", "size-big", 0.27, 0, 0, 0.25},
     {"nose/nose-", "compression-uncompress", "compression-compress", 0.15},
     {"nose/nose-", "curve-concave", "curve-convex", 0.24},
     {"nose/nose-", "flaring-decr", "flaring-incr", 0.24},
     {"nose/nose-", "greek-lessgreek", "greek-moregreek", 0.27},
     {"nose/nose-", "height-min", "height-max", 0.18},
-    {"nose/nose-", "hump-lesshump", "hump-morehump", 0.27},
+    {"nose/nose-", "hump-lesshump", "hump-morehump", 0.27, 0, 0, -0.2},
     {"nose/nose-", "nostril-width-min", "nostril-width-max", 0.24},
     {"nose/nose-", "nostrils-angle-down", "nostrils-angle-up", 0.21},
     {"nose/nose-", "point-up", "point-down", 0.08, 0.05},
     {"nose/nose-", "point-width-less", "point-width-more", 0.27, 0.1},
     {"nose/nose-", "scale-depth-decr", "scale-depth-incr", 0.12},
-    {"nose/nose-", "scale-horiz-decr", "scale-horiz-incr", 0.24, 0.1},
-    {"nose/nose-", "scale-vert-decr", "scale-vert-incr", 0.21, 0.15},
+    {"nose/nose-", "scale-horiz-decr", "scale-horiz-incr", 0.24, 0.1, 0, -0.2},
+    {"nose/nose-", "scale-vert-decr", "scale-vert-incr", 0.21, 0.15, 0, -0.15},
     {"nose/nose-", "septumangle-decr", "septumangle-incr", 0.12},
     {"nose/nose-", "trans-vert-up", "trans-vert-down", 0.18},
-    {"nose/nose-", "volume-point", "volume-potato", 0.14, 0.1},
-    {"nose/nose-", "width1-min", "width1-max", 0.24},
+    {"nose/nose-", "volume-point", "volume-potato", 0.14, 0.1, 0, -0.1},
+    {"nose/nose-", "width1-min", "width1-max", 0.24, 0, 0, -0.2},
     {"nose/nose-", "width2-min", "width2-max", 0.24},
     {"nose/nose-", "width3-min", "width3-max", 0.24},
-    {"mouth/mouth-", "angles-down", "angles-up", 0.15, -0.1},
+    {"mouth/mouth-", "angles-down", "angles-up", 0.15, 0, 0, 0, 0.42},
     {"mouth/mouth-", "cupidsbow-decr", "cupidsbow-incr", 0.27, -0.1},
     {"mouth/mouth-", "cupidsbow-width-min", "cupidsbow-width-max", 0.24},
     {"mouth/mouth-", "laugh-lines-out", "laugh-lines-in", 0.18, 0.35},
     {"mouth/mouth-", "lowerlip-ext-down", "lowerlip-ext-up", 0.18},
     {"mouth/mouth-", "lowerlip-height-min", "lowerlip-height-max", 0.18, -0.12},
     {"mouth/mouth-", "lowerlip-middle-down", "lowerlip-middle-up", 0.15},
-    {"mouth/mouth-", "lowerlip-volume-deflate", "lowerlip-volume-inflate", 0.24, -0.25},
+    {"mouth/mouth-", "lowerlip-volume-deflate", "lowerlip-volume-inflate", 0.2, -0.25, 0, 0.1},
     {"mouth/mouth-", "lowerlip-width-min", "lowerlip-width-max", 0.18},
     {"mouth/mouth-", "philtrum-volume-decrease", "philtrum-volume-increase", 0.24},
     {"mouth/mouth-", "scale-depth-decr", "scale-depth-incr", 0.21},
-    {"mouth/mouth-", "scale-horiz-decr", "scale-horiz-incr", 0.24},
+    {"mouth/mouth-", "scale-horiz-decr", "scale-horiz-incr", 0.18},
     {"mouth/mouth-", "scale-vert-decr", "scale-vert-incr", 0.21, -0.15},
     {"mouth/mouth-", "trans-up", "trans-down", 0.15},
     {"mouth/mouth-", "trans-backward", "trans-forward", 0.1},
-    {"mouth/mouth-", "upperlip-height-min", "upperlip-height-max", 0.21, -0.2},
+    {"mouth/mouth-", "upperlip-height-min", "upperlip-height-max", 0.21, -0.2, 0, 0.15},
     {"mouth/mouth-", "upperlip-middle-down", "upperlip-middle-up", 0.15},
-    {"mouth/mouth-", "upperlip-volume-deflate", "upperlip-volume-inflate", 0.24, -0.25},
+    {"mouth/mouth-", "upperlip-volume-deflate", "upperlip-volume-inflate", 0.2, -0.25, 0, 0.1},
     {"mouth/mouth-", "upperlip-width-min", "upperlip-width-max", 0.18},
-    {"chin/chin-", "bones-in", "bones-out", 0.18},
+    {"chin/chin-", "bones-in", "bones-out", 0.18, 0, 0, -0.2},
     {"chin/chin-", "cleft-out", "cleft-in", 0.21},
-    {"chin/chin-", "height-min", "height-max", 0.168},
-    {"chin/chin-", "jaw-drop-less", "jaw-drop-more", 0.21, 0.15},
+    {"chin/chin-", "height-min", "height-max", 0.168, 0, 0, -0.2},
+    {"chin/chin-", "jaw-drop-less", "jaw-drop-more", 0.21, 0.15, 0, -0.25},
     {"chin/chin-", "prognathism-less", "prognathism-more", 0.18},
-    {"chin/chin-", "prominent-less", "prominent-more", 0.21},
-    {"chin/chin-", "width-min", "width-max", 0.24},
-    {"cheek/*-cheek-", "bones-in", "bones-out", 0.24},
+    {"chin/chin-", "prominent-less", "prominent-more", 0.21, 0, 0, -0.15},
+    {"chin/chin-", "width-min", "width-max", 0.24, 0, 0, -0.35},
+    {"cheek/*-cheek-", "bones-in", "bones-out", 0.24, 0, 0, 0.15},
     {"cheek/*-cheek-", "inner-deflate", "inner-inflate", 0.21, -0.1},
     {"cheek/*-cheek-", "trans-vert-down", "trans-vert-up", 0.18, -0.15},
     {"cheek/*-cheek-", "volume-deflate", "volume-inflate", 0.21, -0.2, 0.3},
@@ -121,8 +124,8 @@ constexpr Control kControls[] = {
     {"ears/*-ear-", "width-min", "width-max", 0.245},
     {"ears/*-ear-", "wing-in", "wing-out", 0.245},
     {"neck/neck-", "double-less", "double-more", 0.175, 0.15, 0.5},
-    {"neck/neck-", "scale-horiz-less", "scale-horiz-more", 0.175, 0, 0.2},
-    {"neck/neck-", "scale-depth-less", "scale-depth-more", 0.14, 0, 0.2},
+    {"neck/neck-", "scale-horiz-less", "scale-horiz-more", 0.175, 0, 0.2, -0.1},
+    {"neck/neck-", "scale-depth-less", "scale-depth-more", 0.14, 0, 0.2, -0.1},
     {"asym/asym-", "brown-1-l", "brown-1-r", 0.2},
     {"asym/asym-", "brown-2-l", "brown-2-r", 0.2},
     {"asym/asym-", "cheek-1-l", "cheek-1-r", 0.2},
@@ -196,25 +199,26 @@ MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index)
     sum += person.ancestry[a];
   }
   for (double& share : person.ancestry) share /= sum;
-  const auto amount = [&](std::string_view purpose) {
-    return std::clamp(0.5 + 0.17 * random_normal({seed, index, purpose}), 0.1, 0.9);
+  const auto amount = [&](std::string_view purpose, double mean) {
+    return std::clamp(mean + 0.17 * random_normal({seed, index, purpose}), 0.1, 0.9);
   };
-  person.muscle = amount("makehuman/muscle");
-  person.weight = amount("makehuman/weight");
+  person.muscle = amount("makehuman/muscle", person.is_male ? 0.6 : 0.4);
+  person.weight = amount("makehuman/weight", 0.5);
   return person;
 }
 
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index) {
   std::vector<TargetWeight> out;
-  // Mix in up to 20 % of the targets of the other sex.
-  const double mixed = random_between({seed, index, "makehuman/sex_share"}, 0, 0.2);
+  // From 20 % beyond the targets of the person's own sex to 5 % of those of the other sex.
+  const double mixed = random_between({seed, index, "makehuman/sex_share"}, -0.2, 0.05);
   add_person(person, person.is_male ? 1 - mixed : mixed, out);
   for (const Control& control : kControls) {
     const std::string purpose = concat("makehuman/", control.stem, control.more);
     const double both = control.spread * random_normal({seed, index, purpose}) +
-                        control.aged * (person.age_years - 45) / 20 +
-                        control.weight * (2 * person.weight - 1);
+                        control.aged * (person.age_years - kUnaged) / 20 +
+                        control.weight * (2 * person.weight - 1) + control.mean +
+                        (person.is_male ? 0 : control.female);
     for (const char side : sides_of(control)) {
       const std::string own = concat(purpose, "/", side);
       const double uneven = sides_of(control).size() > 1 ? 0.25 * control.spread : 0;

@@ -130,13 +130,6 @@ Positions MakeHumanHeads::to_head_frame(const Positions& decimetres, const Posit
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
 }
 
-std::vector<std::uint32_t> MakeHumanHeads::skin_rows() const {
-  std::vector<std::uint32_t> rows =
-      vertices_of_material(mesh_.head.topology, mesh_.materials, {"skin"});
-  for (std::uint32_t& row : rows) row = mesh_.head_rows[row];
-  return rows;
-}
-
 void MakeHumanHeads::add_parts(std::vector<FittedPart> parts) {
   // Keep the polygons of the skin, which is the first material.
   const Topology& naked = mesh_.head.topology;
@@ -184,6 +177,25 @@ Positions MakeHumanHeads::append_parts(const Positions& base) const {
 
 Positions MakeHumanHeads::fitted_to_neutral(const FittedMesh& mesh) const {
   return to_head_frame(mesh.fitted_to(mesh_.file_positions), mesh_.file_positions);
+}
+
+std::vector<double> MakeHumanHeads::lip_weights() const {
+  // The lips are what the targets for fuller lips move most.
+  constexpr double kOutside = 0.25, kInside = 0.6;  // as fractions of the largest displacement
+  const std::vector<std::uint32_t>& rows = parts_.empty() ? mesh_.head_rows : skin_rows_;
+  Positions moved = Positions::Zero(static_cast<Index>(rows.size()), 3);
+  for (const char* target :
+       {"mouth/mouth-upperlip-volume-inflate", "mouth/mouth-lowerlip-volume-inflate"}) {
+    targets_.add_displacements({target, 1}, rows, moved);
+  }
+  const double largest = moved.rowwise().norm().maxCoeff();
+  std::vector<double> weights(static_cast<std::size_t>(neutral_.positions.rows()), 0);
+  for (Index v = 0; largest > 0 && v < moved.rows(); ++v) {
+    const double share = moved.row(v).norm() / largest;
+    weights[static_cast<std::size_t>(v)] =
+        std::clamp((share - kOutside) / (kInside - kOutside), 0.0, 1.0);
+  }
+  return weights;
 }
 
 Mesh MakeHumanHeads::body() const {

@@ -49,10 +49,11 @@ class MakeHumanHeads : public HeadModel {
 
   /// Returns all vertices of the base mesh, including helpers and joints, in decimetres.
   const Positions& base_positions() const { return mesh_.file_positions; }
-  /// Returns the rows of the head's skin in base_positions(), ascending.
-  std::vector<std::uint32_t> skin_rows() const;
   /// Fits a mesh to the average head and returns its vertices in the coordinate frame of the heads.
   Positions fitted_to_neutral(const FittedMesh& mesh) const;
+
+  /// Returns how much each vertex of neutral() belongs to the lips: #V, 0 … 1.
+  std::vector<double> lip_weights() const;
 
   /// Returns the average body below the heads. The vertices of the body's open rim coincide with
   /// the vertices of the neutral head's rim. The body's texture coordinates refer to the heads'

@@ -12,6 +12,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/random.h"
+#include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 
@@ -25,11 +26,11 @@ struct AgeShare {
   double share;
 };
 
-/// Returns the blending weights of the package's skins for a person's age. The skins show people of
-/// 27, 48 and 68 years. The weights are interpolated linearly between these ages.
+/// Returns the blending weights of the package's skins for a person's age, interpolated linearly
+/// between 27, 42 and 64 years. The skins are said to show people of 27, 48 and 68 years, but look younger.
 std::array<AgeShare, 3> age_shares(double years) {
-  const double middle = std::clamp((years - 27) / (48 - 27), 0.0, 1.0);
-  const double old = std::clamp((years - 48) / (68 - 48), 0.0, 1.0);
+  const double middle = std::clamp((years - 27) / (42 - 27), 0.0, 1.0);
+  const double old = std::clamp((years - 42) / (64 - 42), 0.0, 1.0);
   return {{{"young", 1 - middle}, {"middleage", middle - old}, {"old", old}}};
 }
 
@@ -46,12 +47,20 @@ fs::path skin_picture(const fs::path& file) {
 struct EyeColour {
   std::string_view name;
   std::array<double, 3> share;  ///< probabilities for African, Asian and Caucasian ancestry
+  IrisLook look;
 };
-constexpr auto kEyeColours = std::to_array<EyeColour>({{"brown", {0.9, 0.85, 0.25}},
-                                                       {"brownlight", {0.1, 0.15, 0.25}},
-                                                       {"green", {0, 0, 0.15}},
-                                                       {"grey", {0, 0, 0.17}},
-                                                       {"blue", {0, 0, 0.18}}});
+constexpr auto kEyeColours =
+    std::to_array<EyeColour>({{"brown", {0.9, 0.85, 0.25}, {"brownlight", 2.2, 0.1}},
+                              {"brownlight", {0.1, 0.15, 0.25}, {"brownlight", 1.35, 0.15}},
+                              {"green", {0, 0, 0.15}, {"green", 1.4, 0.35}},
+                              {"grey", {0, 0, 0.17}, {"grey", 1.6, 0}},
+                              {"blue", {0, 0, 0.18}, {"blue", 1.3, 0.4}}});
+
+const EyeColour& eye_colour(std::string_view name) {
+  const auto* found = std::ranges::find(kEyeColours, name, &EyeColour::name);
+  require(found != kEyeColours.end(), "no eye colour ", name);
+  return *found;
+}
 
 fs::path proxy(const fs::path& package, std::string_view kind, std::string_view name) {
   return package / "public/data/proxies" / kind / name / concat(name, ".json");
@@ -108,36 +117,51 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 }
 
 struct Wearable {
-  std::string_view folder, kind, tags;
+  std::string_view name, folder, kind, tags;
   double share = 1;
   bool young = false;  ///< whether old people never wear the attachment
+  /// How the mesh of the package is changed.
+  bool is_mirrored = false;
+  double end = -HUGE_VAL;  ///< height in centimetres above the eyes at which hair is cut
 };
 // For hair, the tags "male" and "female" come from the package. For brows, the thickness of the
 // brows determines these tags.
-constexpr auto kWearables = std::to_array<Wearable>({{"eyebrow001", "brow", "male"},
-                                                     {"eyebrow002", "brow", "female"},
-                                                     {"eyebrow003", "brow", "male"},
-                                                     {"eyebrow004", "brow", "male"},
-                                                     {"eyebrow005", "brow", "female"},
-                                                     {"eyebrow006", "brow", "female"},
-                                                     {"eyebrow007", "brow", "female"},
-                                                     {"eyebrow008", "brow", "male"},
-                                                     {"eyebrow009", "brow", "male", 0.4},
-                                                     {"eyebrow010", "brow", "female"},
-                                                     {"eyebrow011", "brow", ""},
-                                                     {"eyebrow012", "brow", "male", 0.4},
-                                                     {"afro01", "hair", "african", 3},
-                                                     {"bob01", "hair", "female"},
-                                                     {"bob02", "hair", "female"},
-                                                     {"Braid01", "hair", "female"},
-                                                     {"long01", "hair", "female", 1, true},
-                                                     {"ponytail01", "hair", "female"},
-                                                     {"short01", "hair", "male"},
-                                                     {"short02", "hair", "male"},
-                                                     {"short03", "hair", "female"},
-                                                     {"short04", "hair", "male"},
-                                                     {"Full_beard", "beard", "male"},
-                                                     {"Moustache", "beard", "male"}});
+constexpr auto kWearables = std::to_array<Wearable>({
+    {"eyebrow001", "eyebrow001", "brow", "male"},
+    {"eyebrow002", "eyebrow002", "brow", "female"},
+    {"eyebrow003", "eyebrow003", "brow", "male"},
+    {"eyebrow004", "eyebrow004", "brow", "male"},
+    {"eyebrow005", "eyebrow005", "brow", "female"},
+    {"eyebrow006", "eyebrow006", "brow", "female"},
+    {"eyebrow007", "eyebrow007", "brow", "female"},
+    {"eyebrow008", "eyebrow008", "brow", "male"},
+    {"eyebrow009", "eyebrow009", "brow", "male", 0.4},
+    {"eyebrow010", "eyebrow010", "brow", "female"},
+    {"eyebrow011", "eyebrow011", "brow", ""},
+    {"eyebrow012", "eyebrow012", "brow", "male", 0.4},
+    {"lashes_short", "Eyelashes01", "lashes", "male"},
+    {"lashes_long", "eyelashes02", "lashes", "female"},
+    {"lashes_dense", "eyelashes03", "lashes", "female", 2},
+    {"afro01", "afro01", "hair", "african"},
+    {"bob01", "bob01", "hair", "female"},
+    {"bob01_left", "bob01", "hair", "female", 1, false, true},
+    {"bob02", "bob02", "hair", "female"},
+    {"bob02_left", "bob02", "hair", "female", 1, false, true},
+    {"braid01", "Braid01", "hair", "female", 1, false, false, -12},
+    {"braid01_left", "Braid01", "hair", "female", 1, false, true, -12},
+    {"long01", "long01", "hair", "female", 1, true},
+    {"shoulder01", "long01", "hair", "female", 1, false, false, -11},
+    {"chin01", "long01", "hair", "female", 1, false, false, -8},
+    {"ponytail01", "ponytail01", "hair", "female", 0.4, true},
+    {"short01", "short01", "hair", "male"},
+    {"short02", "short02", "hair", "male"},
+    {"short02_left", "short02", "hair", "male", 1, false, true},
+    {"short03", "short03", "hair", "female", 0.3, true},
+    {"short03_left", "short03", "hair", "female", 0.3, true, true},
+    {"short04", "short04", "hair", "male"},
+    {"full_beard", "Full_beard", "beard", "male"},
+    {"moustache", "Moustache", "beard", "male"},
+});
 
 struct HairShare {
   std::string_view name;
@@ -156,19 +180,32 @@ constexpr auto kHairShares = std::to_array<HairShare>({{"black", {0.9, 0.8, 0.06
 std::vector<MakeHumanAttachment> makehuman_attachments(const fs::path& package) {
   std::vector<MakeHumanAttachment> out;
   for (const Wearable& wearable : kWearables) {
-    const bool brow = wearable.kind == "brow";
-    out.push_back({lower_case(wearable.folder), std::string(wearable.kind),
-                   proxy(package, brow ? "eyebrows" : "hair", wearable.folder),
-                   words_of(std::string(wearable.tags)), wearable.young, wearable.share});
+    const std::string_view folder = wearable.kind == "brow"     ? "eyebrows"
+                                    : wearable.kind == "lashes" ? "eyelashes"
+                                                                : "hair";
+    out.push_back({std::string(wearable.name), std::string(wearable.kind),
+                   proxy(package, folder, wearable.folder), words_of(std::string(wearable.tags)),
+                   wearable.young, wearable.share, wearable.is_mirrored, wearable.end});
   }
   return out;
+}
+
+/// Returns the shares of ancestry for the colours of hair and eyes. Light colours are recessive, so
+/// that they need mostly Caucasian ancestry.
+std::array<double, 3> ancestry_of_colours(const MakeHumanPerson& person) {
+  std::array<double, 3> shares = person.ancestry;
+  shares[2] *= std::clamp((person.ancestry[2] - 0.5) / 0.3, 0.0, 1.0);
+  const double sum = shares[0] + shares[1] + shares[2];
+  for (double& share : shares) share /= sum;
+  return shares;
 }
 
 std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                   std::uint64_t index) {
   double left = random_uniform({seed, index, "makehuman/hair"});
+  const std::array<double, 3> ancestry = ancestry_of_colours(person);
   for (const HairShare& colour : kHairShares) {
-    for (std::size_t a = 0; a < 3; ++a) left -= person.ancestry[a] * colour.share[a];
+    for (std::size_t a = 0; a < 3; ++a) left -= ancestry[a] * colour.share[a];
     if (left < 0) return std::string(colour.name);
   }
   return std::string(kHairShares[0].name);
@@ -207,18 +244,39 @@ double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t i
   return std::clamp(1 + 0.1 * random_normal({seed, index, "makehuman/tone"}), 0.75, 1.25);
 }
 
+double makehuman_skin_detail_factor(const MakeHumanPerson& person) {
+  const auto shares = age_shares(person.age_years);
+  return 1 + shares[1].share + (person.is_male ? 1.2 : 0.6) * shares[2].share;
+}
+
+std::array<double, 3> makehuman_lip_tint(const MakeHumanPerson& person, std::uint64_t seed,
+                                         std::uint64_t index) {
+  if (person.is_male) return {1, 1, 1};
+  const auto drawn = random_pair({seed, index, "makehuman/lips"});
+  const bool lipstick = drawn[0] < 1.0 / 3;
+  const double strength = lipstick ? 0.6 + 0.6 * drawn[1] : 0.2 + 0.2 * drawn[1];
+  constexpr std::array<double, 3> kDensities = {0.1, 1, 0.75};
+  std::array<double, 3> tint{};
+  for (std::size_t c = 0; c < 3; ++c) tint[c] = std::exp(-strength * kDensities[c]);
+  return tint;
+}
+
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index) {
   double left = random_uniform({seed, index, "makehuman/eyes"});
+  const std::array<double, 3> ancestry = ancestry_of_colours(person);
   for (const EyeColour& colour : kEyeColours) {
-    for (std::size_t a = 0; a < 3; ++a) left -= person.ancestry[a] * colour.share[a];
+    for (std::size_t a = 0; a < 3; ++a) left -= ancestry[a] * colour.share[a];
     if (left < 0) return std::string(colour.name);
   }
   return std::string(kEyeColours[0].name);
 }
 
-MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& base,
-                                    const std::vector<std::uint32_t>& skin) {
+IrisLook makehuman_iris_look(const std::string& colour) {
+  return eye_colour(colour).look;
+}
+
+MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& base) {
   MakeHumanParts parts;
   const fs::path eyes_file = proxy(package, "eyes", "HighPolyEyes");
   const FittedMesh eyes = read_free(eyes_file, base.rows());
@@ -227,7 +285,7 @@ MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& ba
   parts.eyes_licence = eyes.licence;
   for (const EyeColour& colour : kEyeColours) {
     if (std::ranges::none_of(eyes.pictures, [&](const FittedMesh::Picture& picture) {
-          return picture.name == colour.name && !picture.path.empty();
+          return picture.name == colour.look.picture && !picture.path.empty();
         })) {
       refuse_file(eyes_file, concat("expected a picture of ", colour.name, " eyes, found none"));
     }
@@ -240,8 +298,6 @@ MakeHumanParts read_makehuman_parts(const fs::path& package, const Positions& ba
     licence = mesh.licence;
     parts.fitted_parts.push_back({material, std::move(mesh)});
   };
-  add("eyelashes", "Eyelashes01", "eyelashes", parts.lashes, parts.lashes_licence);
-  parts.fitted_parts.back().mesh.anchor_to(skin, base);
   add("teeth", "Teeth_Base", "teeth", parts.teeth, parts.teeth_licence);
   add("tongue", "tongue01", "tongue", parts.tongue, parts.tongue_licence);
   return parts;

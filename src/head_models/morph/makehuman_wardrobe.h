@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "head_models/morph/makehuman_controls.h"
@@ -26,10 +28,28 @@ std::vector<WeightedSkin> makehuman_skin_shares(const std::filesystem::path& pac
 /// Returns a random factor, 0.75 to 1.25, on the optical density of a person's skin textures.
 double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t index);
 
+/// Returns a factor on the detail of a person's skin texture. The wrinkles of old people in the
+/// package are faint.
+double makehuman_skin_detail_factor(const MakeHumanPerson& person);
+
+/// Returns factors on the light (red, green, blue) that a person's lips reflect: women's lips are
+/// redder than in the package's textures, and a third of the women wear lipstick.
+std::array<double, 3> makehuman_lip_tint(const MakeHumanPerson& person, std::uint64_t seed,
+                                         std::uint64_t index);
+
 /// Returns a person's random eye colour: the name of a material of the package's eyes. "brown" has
 /// a probability of 0.9 for African, 0.85 for Asian and 0.25 for Caucasian ancestry.
 std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t seed,
                                  std::uint64_t index);
+
+/// How irises of an eye colour are made from a texture of the package.
+struct IrisLook {
+  std::string_view picture;  ///< name of the material whose texture is used
+  double darkening;          ///< factor on the optical density
+  double greying;            ///< 0: keep the colour … 1: grey
+};
+/// \param colour  a result of makehuman_eye_colour
+IrisLook makehuman_iris_look(const std::string& colour);
 
 /// Returns the random hair colour of a person's youth, before greying: a name of
 /// named_hair_colours. Only people with Caucasian ancestry can get light or red hair.
@@ -38,28 +58,26 @@ std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t s
 
 /// The parts that all heads have in addition to skin.
 struct MakeHumanParts {
-  std::vector<FittedPart> fitted_parts;  ///< eyeball_r, eyeball_l, eyelashes, teeth, tongue
+  std::vector<FittedPart> fitted_parts;  ///< eyeball_r, eyeball_l, teeth, tongue
   std::vector<FittedMesh::Picture> eye_colours;
-  std::filesystem::path lashes, teeth, tongue;  ///< texture of each part
-  AssetLicence eyes_licence, lashes_licence, teeth_licence, tongue_licence;
+  std::filesystem::path teeth, tongue;  ///< texture of each part
+  AssetLicence eyes_licence, teeth_licence, tongue_licence;
 };
 
-/// Reads eyes, lashes, teeth and tongue. Leaves out the corneas, which are transparent in the
-/// texture. Anchors the lashes to the skin, because some targets move the base mesh's helpers for
-/// lashes by metres.
+/// Reads eyes, teeth and tongue. Leaves out the corneas, which are transparent in the texture.
 /// \param base  vertices of the base mesh.
-/// \param skin  vertices of the head's skin, as row indices of `base`.
 /// \throws MissingInput; InvalidInput, also if an asset's licence is not free.
-MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const Positions& base,
-                                    const std::vector<std::uint32_t>& skin);
+MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const Positions& base);
 
-/// A mesh of the package that some heads wear: hair, a brow, a beard.
+/// A mesh of the package that some heads wear: hair, a brow, lashes, a beard.
 struct MakeHumanAttachment {
   std::string name, kind;
   std::filesystem::path file;        ///< path in the package
   std::vector<std::string> tags;     ///< tags that a head needs to wear the attachment
   bool excludes_old_people = false;  ///< whether old people never wear the attachment
   double relative_frequency = 1;     ///< relative frequency among attachments of the same kind
+  bool is_mirrored = false;          ///< whether left and right are exchanged
+  double end;                        ///< height at which hair is cut, in centimetres above the eyes
 };
 
 /// Returns the package's attachments that have a named author and a contemporary style, brows

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "head_models/morph/makehuman_grooming.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/normals.h"
+#include "crowdface/mesh/triangles.h"
+
+namespace crowdface {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// The triangles of a mesh, for finding the outermost point on a line.
+class OuterSurface {
+ public:
+  explicit OuterSurface(const Mesh& mesh)
+      : positions_(mesh.positions), triangles_(triangles_of(mesh.topology)) {
+    for (const Triangle& triangle : triangles_) {
+      Eigen::AlignedBox3d box;
+      for (const std::uint32_t v : triangle) box.extend(positions_.row(v).transpose());
+      centres_.push_back(box.center());
+      radii_.push_back(box.diagonal().norm() / 2);
+    }
+  }
+
+  /// Returns the largest t at which the line origin + t · direction meets the mesh.
+  /// \param direction  of length 1
+  std::optional<double> outermost(const Vector3d& origin, const Vector3d& direction) const {
+    std::optional<double> found;
+    // Coordinates across the line: a triangle meets the line if it contains the origin there.
+    const Vector3d u = direction.unitOrthogonal(), v = direction.cross(u);
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      const Triangle& triangle = triangles_[i];
+      if ((centres_[i] - origin).cross(direction).squaredNorm() > radii_[i] * radii_[i]) continue;
+      std::array<Vector2d, 3> across;
+      std::array<double, 3> along{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3d place = positions_.row(triangle[k]).transpose() - origin;
+        across[k] = {place.dot(u), place.dot(v)};
+        along[k] = place.dot(direction);
+      }
+      const auto twice_area = [](const Vector2d& a, const Vector2d& b) {
+        return a.x() * b.y() - a.y() * b.x();
+      };
+      const double whole = twice_area(across[1] - across[0], across[2] - across[0]);
+      if (whole == 0) continue;
+      std::array<double, 3> share{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        share[k] = twice_area(across[(k + 1) % 3], across[(k + 2) % 3]) / whole;
+      }
+      if (std::ranges::min(share) < 0) continue;
+      const double t = share[0] * along[0] + share[1] * along[1] + share[2] * along[2];
+      found = std::max(found.value_or(t), t);
+    }
+    return found;
+  }
+
+ private:
+  const Positions& positions_;
+  std::vector<Triangle> triangles_;
+  std::vector<Vector3d> centres_;  ///< of the triangles' bounding spheres
+  std::vector<double> radii_;
+};
+
+/// A quantity that is given at some heights, ascending, and interpolated linearly between these.
+template <class Value>
+struct Profile {
+  std::vector<double> heights;
+  std::vector<Value> values;
+
+  Value at(double height) const {
+    const auto above = std::ranges::upper_bound(heights, height) - heights.begin();
+    if (above == 0) return values.front();
+    const auto next = static_cast<std::size_t>(above);
+    if (next == heights.size()) return values.back();
+    const double t = (height - heights[next - 1]) / (heights[next] - heights[next - 1]);
+    return (1 - t) * values[next - 1] + t * values[next];
+  }
+};
+
+/// A position as angle about, height along and distance from the head's vertical axis.
+struct RoundTheHead {
+  static constexpr double kAxisZ = -6;
+  double degrees;  ///< 0 to the front, negative on the right side (x < 0)
+  double height, radius;
+
+  static RoundTheHead of(const Vector3d& p) {
+    return {std::atan2(p.x(), p.z() - kAxisZ) / kDegree, p.y(), std::hypot(p.x(), p.z() - kAxisZ)};
+  }
+  Vector3d origin() const { return {0, height, kAxisZ}; }
+  Vector3d direction() const {
+    return {std::sin(degrees * kDegree), 0, std::cos(degrees * kDegree)};
+  }
+  Vector3d position() const { return origin() + radius * direction(); }
+};
+
+/// Finds the range of angles in front of the face that is free of hair: (begin, end) in degrees, by
+/// height. The widest range without vertices counts. Where hair covers the face, the range is empty
+/// and lies at the parting.
+Profile<Vector2d> range_without_hair(const Positions& hair) {
+  constexpr double kLowest = -20, kHighest = 7, kRow = 0.5;
+  constexpr double kSide = 75;      // the sides of the face, in degrees
+  constexpr double kNarrowest = 6;  // smaller gaps lie between strands
+  constexpr double kParting = 46;
+  Profile<Vector2d> free;
+  for (int row = 0; kLowest + row * kRow <= kHighest; ++row) {
+    const double height = kLowest + row * kRow;
+    std::vector<double> angles = {-kSide, kSide};
+    for (Index v = 0; v < hair.rows(); ++v) {
+      const auto place = RoundTheHead::of(hair.row(v));
+      const bool near = std::abs(place.height - height) < 1.5 * kRow;
+      if (near && std::abs(place.degrees) < kSide) angles.push_back(place.degrees);
+    }
+    std::ranges::sort(angles);
+    Vector2d widest(kParting, kParting);
+    for (std::size_t k = 1; k < angles.size(); ++k) {
+      const double width = angles[k] - angles[k - 1];
+      if (width > std::max(kNarrowest, widest.y() - widest.x())) {
+        widest = {angles[k - 1], angles[k]};
+      }
+    }
+    free.heights.push_back(height);
+    free.values.push_back(widest);
+  }
+  return free;
+}
+
+}  // namespace
+
+Positions combed_aside(const Positions& hair, const Mesh& head) {
+  constexpr double kBehind = -70;  // where hair stays in place, in degrees
+  // Where the swept hair may end in front, by height: beside the eye up to the brow, and at the
+  // parting from the upper forehead on.
+  const Profile<double> allowed = {{1.6, 3, 4.5, 6.5}, {-42, -25, 10, 46}};
+  const Profile<Vector2d> free = range_without_hair(hair);
+  if (free.at(0).x() <= allowed.at(0)) return hair;  // the eyes are free
+  const OuterSurface surface(head);
+  Positions combed = hair;
+  for (Index v = 0; v < hair.rows(); ++v) {
+    const auto before = RoundTheHead::of(hair.row(v));
+    const Vector2d range = free.at(before.height);
+    const double begin = range.x(), end = range.y();
+    const double target = std::min(begin, allowed.at(before.height));
+    if (begin <= target || before.degrees <= kBehind || before.degrees >= end) continue;
+    RoundTheHead after = before;
+    after.degrees =
+        before.degrees <= begin
+            ? kBehind + (before.degrees - kBehind) * (target - kBehind) / (begin - kBehind)
+            : target + (before.degrees - begin) * (end - target) / (end - begin);
+    const auto skin_before = surface.outermost(before.origin(), before.direction());
+    const auto skin_after = surface.outermost(after.origin(), after.direction());
+    if (skin_before && skin_after) {
+      constexpr double kGap = 0.3;
+      const double gap = before.radius - *skin_before;
+      after.radius = *skin_after + (gap > 0 ? std::max(gap, kGap) : gap);
+    }
+    combed.row(v) = after.position();
+  }
+  return combed;
+}
+
+Positions levelled_brows(const Positions& brows, const Mesh& head) {
+  constexpr double kSteepest = 3;  // degrees
+  constexpr double kRise = 0.15;   // centimetres
+  const OuterSurface surface(head);
+  const auto front = [&](double x, double y) {
+    return surface.outermost({x, y, 0}, Vector3d::UnitZ());
+  };
+  Positions level = brows;
+  for (const double side : {-1.0, 1.0}) {
+    std::vector<Index> rows;
+    for (Index v = 0; v < brows.rows(); ++v) {
+      if (side * brows(v, 0) > 0) rows.push_back(v);
+    }
+    if (rows.empty()) continue;
+    // The slope of the inner two thirds, by least squares; brows fall again further outside.
+    std::ranges::sort(rows, {}, [&](Index v) { return std::abs(brows(v, 0)); });
+    const std::vector<Index> inner(rows.begin(),
+                                   rows.begin() + std::ptrdiff_t(rows.size() + 2) * 2 / 3);
+    const Eigen::VectorXd x = side * brows(inner, 0), y = brows(inner, 1);
+    const Eigen::VectorXd from_mean = x.array() - x.mean();
+    const double slope =
+        from_mean.squaredNorm() == 0 ? 0 : from_mean.dot(y) / from_mean.squaredNorm();
+    const double turn = side * std::min(0.0, kSteepest * kDegree - std::atan(slope));
+    const Eigen::Rotation2Dd rotation(turn);
+    const Positions all = brows(rows, kAllColumns);
+    const Vector2d centre(all.col(0).mean(), all.col(1).mean());
+    for (const Index v : rows) {
+      const Vector2d before(brows(v, 0), brows(v, 1));
+      const Vector2d after = centre + rotation * (before - centre) + Vector2d(0, kRise);
+      const auto skin_before = front(before.x(), before.y()),
+                 skin_after = front(after.x(), after.y());
+      level.row(v).head<2>() = after;
+      if (skin_before && skin_after) level(v, 2) += *skin_after - *skin_before;
+    }
+  }
+  return level;
+}
+
+Mesh with_cap(const Mesh& hair, const Mesh& head, Index skin_faces, const Eigen::RowVector2d& uv) {
+  constexpr double kLowest = -6;       // the cap ends above the neck
+  constexpr double kThickness = 0.05;  // centimetres
+  const Positions normals = vertex_normals(head.topology, head.positions);
+  const OuterSurface surface(hair);
+  std::vector<bool> covered(static_cast<std::size_t>(head.positions.rows()), false);
+  for (Index v = 0; v < head.positions.rows(); ++v) {
+    if (head.positions(v, 1) < kLowest) continue;
+    const auto distance = surface.outermost(head.positions.row(v), normals.row(v));
+    covered[static_cast<std::size_t>(v)] = distance && *distance > kThickness;
+  }
+  // Gives `value` to the neighbours of all vertices that have this value.
+  const auto spread = [&](bool value) {
+    std::vector<bool> wider = covered;
+    for (Index f = 0; f < skin_faces; ++f) {
+      const auto corners = head.topology.face(f);
+      if (std::ranges::none_of(corners, [&](std::uint32_t v) { return covered[v] == value; })) {
+        continue;
+      }
+      for (const std::uint32_t v : corners) wider[v] = value;
+    }
+    covered = std::move(wider);
+  };
+  // Close slits of up to four polygons, and keep one row of polygons away from the edge of the hair.
+  constexpr int kClosed = 2, kMargin = 1;
+  for (int i = 0; i < kClosed; ++i) spread(true);
+  for (int i = 0; i < kClosed + kMargin; ++i) spread(false);
+  Mesh capped = hair;
+  std::vector<std::uint32_t> rows(covered.size(), kNoIndex);
+  std::vector<Eigen::RowVector3d> added;
+  const auto corner_uv = static_cast<std::uint32_t>(hair.uvs.rows());
+  for (Index f = 0; f < skin_faces; ++f) {
+    const auto corners = head.topology.face(f);
+    if (!std::ranges::all_of(corners, [&](std::uint32_t v) { return covered[v]; })) continue;
+    std::vector<std::uint32_t> of_cap;
+    for (const std::uint32_t v : corners) {
+      if (rows[v] == kNoIndex) {
+        rows[v] = static_cast<std::uint32_t>(hair.positions.rows()) +
+                  static_cast<std::uint32_t>(added.size());
+        added.push_back(head.positions.row(v) + kThickness * normals.row(v));
+      }
+      of_cap.push_back(rows[v]);
+    }
+    capped.topology.add_face(of_cap, std::vector(of_cap.size(), corner_uv));
+  }
+  capped.positions.conservativeResize(hair.positions.rows() + static_cast<Index>(added.size()), 3);
+  for (std::size_t i = 0; i < added.size(); ++i) {
+    capped.positions.row(hair.positions.rows() + static_cast<Index>(i)) = added[i];
+  }
+  capped.topology.vertex_count = capped.positions.rows();
+  capped.uvs.conservativeResize(hair.uvs.rows() + 1, 2);
+  capped.uvs.bottomRows(1) = uv;
+  return capped;
+}
+
+Mesh cut_below(const Mesh& hair, double height) {
+  Mesh cut;
+  for (Index f = 0; f < hair.topology.face_count(); ++f) {
+    const auto corners = hair.topology.face(f);
+    const bool removed = std::ranges::all_of(
+        corners, [&](std::uint32_t v) { return hair.positions(v, 1) < height; });
+    if (!removed) cut.topology.add_face(corners, hair.topology.face_uvs(f));
+  }
+  const auto rows = renumber(cut.topology.corner_vertices, hair.positions.rows());
+  const auto uv_rows = renumber(cut.topology.corner_uvs, hair.uvs.rows());
+  cut.topology.vertex_count = static_cast<Index>(rows.size());
+  cut.positions = hair.positions(rows, kAllColumns);
+  cut.positions.col(1) = cut.positions.col(1).cwiseMax(height);
+  cut.uvs = hair.uvs(uv_rows, kAllColumns);
+  return cut;
+}
+
+Mesh mirrored(const Mesh& mesh) {
+  Mesh other{{}, mesh.positions, mesh.uvs};
+  other.positions.col(0) *= -1;
+  // A mirrored polygon shows its back; the opposite order of corners turns it round.
+  for (Index f = 0; f < mesh.topology.face_count(); ++f) {
+    const auto corners = mesh.topology.face(f), uvs = mesh.topology.face_uvs(f);
+    other.topology.add_face(std::vector(corners.rbegin(), corners.rend()),
+                            std::vector(uvs.rbegin(), uvs.rend()));
+  }
+  other.topology.vertex_count = mesh.topology.vertex_count;
+  return other;
+}
+
+}  // namespace crowdface
