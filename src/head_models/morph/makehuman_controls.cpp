@@ -14,7 +14,7 @@ namespace {
 
 // Ages in years at which MakeHuman's young and old targets apply fully.
 constexpr double kYoung = 25, kOld = 80;
-constexpr double kUnaged = 38;  // age in years at which `Control::aged` changes nothing
+constexpr double kUnaged = 33;  // age in years at which `Control::aged` changes nothing
 constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
 /// A measure of the face with two morph targets, one to decrease and one to increase the measure.
