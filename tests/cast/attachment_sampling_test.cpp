@@ -81,6 +81,25 @@ TEST(AttachmentDraw, FollowsSharesAndNone) {
   EXPECT_FALSE(shares.contains("wig"));
 }
 
+TEST(AttachmentDraw, LeavesOutWhatCoversTheEyes) {
+  AttachmentOptions draw = draw_of({{"fringe", "hair", {}, 1, {}}, {"bob", "hair", {}, 1, {}}});
+  draw.covers_eyes = [](const std::string& item, const FacePlan& face) {
+    return item == "fringe" && *face.index % 2 == 0;
+  };
+  std::vector<FacePlan> crowd = crowd_of(40);
+  choose_attachments(draw, {}, crowd);
+  for (const FacePlan& face : crowd) {
+    ASSERT_EQ(face.attachments.size(), 1U);
+    if (*face.index % 2 == 0) {
+      EXPECT_EQ(face.attachments[0], "bob");
+    }
+  }
+  EXPECT_GE(count(crowd, "fringe"), 10U);
+  draw.covers_eyes = [](const std::string&, const FacePlan&) { return true; };
+  choose_attachments(draw, {}, crowd);
+  EXPECT_EQ(count(crowd, "fringe") + count(crowd, "bob"), 0U);
+}
+
 TEST(AttachmentDraw, GivesAtMostOneOfAKind) {
   const AttachmentOptions draw = draw_of({{"bob", "hair", {}, 1, {}}, {"bun", "hair", {}, 1, {}}});
   for (std::uint64_t i = 1; i < 100; ++i) {

@@ -188,7 +188,17 @@ class AttachmentChooser {
     const auto drawn = random_pair({options_.seed, face.index.value_or(0), purpose});
     if (!apply_quotas(kind, face, drawn[0], items)) return nullptr;
     match_colours(kind, face, placed, items);
-    if (items[0]->tint == Tint::kNone) return random_underused_item(items, face, drawn[1]);
+    while (!items.empty()) {
+      const AttachmentItem* chosen = choose_from(items, face, drawn[1]);
+      if (!options_.covers_eyes || !options_.covers_eyes(chosen->name, face)) return chosen;
+      std::erase(items, chosen);
+    }
+    return nullptr;
+  }
+
+  /// Chooses one of the items that suit a face.
+  const AttachmentItem* choose_from(Items items, const FacePlan& face, double drawn) const {
+    if (items[0]->tint == Tint::kNone) return random_underused_item(items, face, drawn);
     avoid_neighbours(face, items);
     if (face.index) {
       keep_least_worn(all_wearer_counts_, items);
@@ -196,7 +206,7 @@ class AttachmentChooser {
                own != wearer_counts_.end()) {
       keep_least_worn(own->second, items);
     }
-    return weighted_choice(items, drawn[1], &AttachmentItem::relative_frequency);
+    return weighted_choice(items, drawn, &AttachmentItem::relative_frequency);
   }
 
   /// Returns whether two successive faces must not look alike: both are sampled, both are members

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -31,6 +32,9 @@ struct AttachmentOptions {
   /// heads. Children inherit their parents' colours.
   std::map<std::string, std::map<std::string, double>> hair_colours = {};
   std::set<std::string> twin_families = {};  ///< names of the families whose members are twins
+  /// Whether an item with this name would cover the eyes of a face too much; empty: never. Faces do
+  /// not get such items, and wear nothing of a kind if all items that suit them cover the eyes.
+  std::function<bool(const std::string& item, const FacePlan& face)> covers_eyes = {};
 };
 
 /// Sets the attachments of each face: the names of at most one item of each kind, in the order of

@@ -237,6 +237,7 @@ AttachmentOptions attachment_options(const Config& config) {
 
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                      const MeshDefectFinder& find_mesh_defects,
+                     const std::function<bool(const std::string&, const FacePlan&)>& covers_eyes,
                      const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
   const FaceSpace& space = judged_in.face_space;
@@ -287,13 +288,15 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
   if (config.textures.colours == ColourWeights::kSampled) {
     choose_colours(colour_options(config), result.crowd);
   }
+  AttachmentOptions attachments = attachment_options(config);
+  attachments.covers_eyes = covers_eyes;
   if (!config.attachments.items.empty()) {
-    choose_attachments(attachment_options(config), crowd.group_indices, result.crowd,
-                       crowd.rejected, crowd.crowd_size_at_rejection);
+    choose_attachments(attachments, crowd.group_indices, result.crowd, crowd.rejected,
+                       crowd.crowd_size_at_rejection);
   }
   choose_skin(config, inputs, result.crowd);
-  replace_changed_faces(config, casting, attachment_options(config), colour_options(config),
-                        crowd.group_indices, crowd.changed, result.crowd);
+  replace_changed_faces(config, casting, attachments, colour_options(config), crowd.group_indices,
+                        crowd.changed, result.crowd);
   if (traits) {
     measure_faces(*traits, result.crowd);
     measure_faces(*traits, crowd.rejected);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -79,10 +80,13 @@ AttachmentOptions attachment_options(const Config& config);
 
 /// Chooses the recipes of all faces ("casts" the crowd).
 /// \param find_mesh_defects  judges a candidate's whole mesh; empty: meshes are not judged
+/// \param covers_eyes  see AttachmentOptions; may be empty
 /// \param cache    see casting_space
 /// \throws Unsatisfiable if the constraints cannot be met; the message names the constraint that
 ///     prevented more faces, the number of faces that were cast, and a change that would help.
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
-                     const MeshDefectFinder& find_mesh_defects, const std::filesystem::path& cache);
+                     const MeshDefectFinder& find_mesh_defects,
+                     const std::function<bool(const std::string&, const FacePlan&)>& covers_eyes,
+                     const std::filesystem::path& cache);
 
 }  // namespace crowdface

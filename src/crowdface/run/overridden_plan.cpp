@@ -13,7 +13,7 @@
 namespace crowdface {
 namespace {
 
-using Attachment = Config::Attachment;
+using AttachmentEntry = Config::Attachment;
 
 /// The faces that one warning names, with a remark about each face.
 class NamedFaces {
@@ -36,7 +36,7 @@ class NamedFaces {
   std::vector<std::string> faces_;
 };
 
-bool may_wear(const Attachment& item, const std::vector<std::string>& tags) {
+bool may_wear(const AttachmentEntry& item, const std::vector<std::string>& tags) {
   const auto has = [&](const std::string& tag) { return contains(tags, tag); };
   return std::ranges::all_of(item.tags, has) && std::ranges::none_of(item.excluded_tags, has);
 }
@@ -69,9 +69,9 @@ class OverriddenPlan {
   }
 
  private:
-  std::vector<const Attachment*> worn_by(const FacePlan& face) const {
-    std::vector<const Attachment*> worn;
-    for (const Attachment& item : config_.attachments.items) {
+  std::vector<const AttachmentEntry*> worn_by(const FacePlan& face) const {
+    std::vector<const AttachmentEntry*> worn;
+    for (const AttachmentEntry& item : config_.attachments.items) {
       if (contains(face.attachments, item.name)) worn.push_back(&item);
     }
     return worn;
@@ -88,7 +88,7 @@ class OverriddenPlan {
         if (!face.index) continue;
         ++sizes[face.group.value_or("")];
         const bool wears =
-            std::ranges::any_of(worn_by(face), [&, &called = word](const Attachment* item) {
+            std::ranges::any_of(worn_by(face), [&, &called = word](const AttachmentEntry* item) {
               return matches_kind_name_or_colour(*item, called);
             });
         reached += wears ? 1 : 0;
@@ -156,13 +156,13 @@ class OverriddenPlan {
     const FacePlan& face = *found->second;
     const auto worn = worn_by(face);
     const auto head = static_cast<std::size_t>(typical_head(face.recipe, config_.faces.tags));
-    for (const Attachment* item : worn) {
+    for (const AttachmentEntry* item : worn) {
       if (!change.attachments || !contains(*change.attachments, item->name)) continue;
       if (may_wear(*item, config_.faces.tags[head])) continue;
       not_for_head_.add(face.id, concat(item->name, ", ", config_.faces.names[head]));
     }
-    const bool has_tint =
-        std::ranges::any_of(worn, [](const Attachment* item) { return item->tint != Tint::kNone; });
+    const bool has_tint = std::ranges::any_of(
+        worn, [](const AttachmentEntry* item) { return item->tint != Tint::kNone; });
     if (change.hair && !has_tint) without_tint_.add(face.id, *change.hair);
     if (!change.group || face.group != change.group) return;
     const auto group = std::ranges::find(config_.groups, *change.group, &Group::name);

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "crowdface/cast/face_plan.h"
+#include "crowdface/config/config.h"
+#include "crowdface/heads/face_attachments.h"
+#include "crowdface/parts/head_axes.h"
+#include "crowdface/pictures/attachment_surfaces.h"
+#include "crowdface/run/face_builder.h"
+
+namespace crowdface {
+
+/// Measures how much of a face's irises hair covers, as seen from the front. Measures only items of
+/// the kind "hair" that come near an eye on the head for which they were made; the heads need
+/// eyeballs as separate parts. Not thread-safe.
+class IrisCover {
+ public:
+  /// The largest covered fraction of an iris with which casting lets a face wear a haircut.
+  static constexpr double kMost = 0.1;
+
+  /// \param builder  called once, when the first item has to be measured
+  /// \param config, inputs  must outlive this object.
+  IrisCover(const Config& config, const Inputs& inputs,
+            std::function<const FaceBuilder&()> builder);
+
+  /// Returns the larger fraction of an iris that the item covers on the finished face: 0 … 1.
+  /// Partly transparent hair counts partly.
+  double covered_fraction(const std::string& item, const FacePlan& face);
+
+ private:
+  struct Eye {
+    Eigen::Vector3d centre;
+    double radius;  ///< of the eyeball
+  };
+  /// Returns the eyes of a mesh in the topology of the heads. \param positions  #V by 3
+  std::vector<Eye> eyes_of(const Positions& positions) const;
+  double covered_fraction(const Eye& eye, const PlacedAttachment& hair) const;
+
+  const Config& config_;
+  const Inputs& inputs_;
+  HeadAxes axes_;
+  std::function<const FaceBuilder&()> builder_;
+  std::vector<std::string> items_near_eyes_;
+  std::unique_ptr<const FaceAttachments> attachments_;  ///< set by the first measurement
+  AttachmentSurfaces surfaces_;
+  FaceBuilder::PreviousFace previous_face_;
+};
+
+}  // namespace crowdface
