@@ -26,7 +26,6 @@
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/pipeline.h"
 #include "crowdface/run/planned.h"
 #include "crowdface/run/wrap_scans.h"
@@ -67,13 +66,10 @@ class PythonJob {
   Index vertex_count() const { return job_.inputs.head_set.topology.vertex_count; }
 
   std::vector<std::string> cast() {
-    MeshDefectFinder find_mesh_defects;
-    if (casting_builds_candidate_meshes(job_.config)) {
-      find_mesh_defects = mesh_defect_finder(job_.config, job_.inputs, builder());
-    }
     std::vector<std::string> lines;
-    const CrowdPlan plan =
-        plan_crowd(job_.config, job_.inputs, prepared(), find_mesh_defects, cache_);
+    const CrowdPlan plan = plan_crowd(
+        job_.config, job_.inputs, prepared(), [this]() -> const FaceBuilder& { return builder(); },
+        cache_);
     std::string text;
     annotated_plan_text(plan.crowd, job_.names, job_.settings,
                         head_tags_and_attachment_kinds(job_.config))(

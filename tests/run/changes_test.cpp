@@ -360,6 +360,22 @@ TEST_F(Changes, HairColoursThatAgeTurnsGreyAreTold) {
                             "attachments.hair_colours.red: .* of them grey with age")));
 }
 
+// A quota that no face of a group may wear asks nothing of this group.
+TEST_F(Changes, QuotasAskOnlyGroupsThatMayWearTheItem) {
+  std::string config = testing::read_text(folder_.config());
+  config.replace(config.find("file: wear/braid.obj"), 0, "tags: [old], ");
+  config.replace(config.find("none: {glasses: 0.5}"), 20, "quotas: {braid: 0.5}");
+  config +=
+      "\ngroups: [{name: elders, share: 0.5, tags: [old]}, {name: others, share: 0.5, without: "
+      "[old]}]\n";
+  folder_.folder().write("config.yaml", config);
+  testing::run(folder_, std::vector<std::string>(), Replace::kForce);
+  const json report = testing::read_json(folder_.out() / "report.json");
+  for (const json& text : report.at("warnings")) {
+    EXPECT_THAT(text.get<std::string>(), ::testing::Not(::testing::HasSubstr("quotas")));
+  }
+}
+
 // What tags, quotas, groups and later reviews take precedence over is told, with the faces.
 TEST_F(Changes, ThatOverrideOtherKeysAreTold) {
   std::string config = testing::read_text(folder_.config());

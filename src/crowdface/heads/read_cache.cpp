@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Increase this if `read_obj` changes its result for the same text.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 bool is_topology(const Topology& topology) {
   constexpr std::uint32_t kMinCorners = 3;

@@ -19,6 +19,8 @@
 #include "crowdface/heads/shared_by_heads.h"
 #include "crowdface/heads/skin_tones.h"
 #include "crowdface/run/changed_faces.h"
+#include "crowdface/run/iris_cover.h"
+#include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/shortfall.h"
 #include "crowdface/run/trait_advice.h"
 
@@ -236,8 +238,7 @@ AttachmentOptions attachment_options(const Config& config) {
 }
 
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
-                     const MeshDefectFinder& find_mesh_defects,
-                     const std::function<bool(const std::string&, const FacePlan&)>& covers_eyes,
+                     const std::function<const FaceBuilder&()>& builder,
                      const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
   const FaceSpace& space = judged_in.face_space;
@@ -245,6 +246,10 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
   const CastingOptions casting = casting_options(config, inputs, head_distances);
   for (const std::string& conflict : merged_reviews(config.review.reviews).conflicts) {
     log_warning(concat("reviews made at the same time disagree about ", conflict));
+  }
+  MeshDefectFinder find_mesh_defects;
+  if (casting_builds_candidate_meshes(config)) {
+    find_mesh_defects = mesh_defect_finder(config, inputs, builder());
   }
   const BelievabilityOptions& believability = config.believability;
   FaceJudge judge(space, casting.diversity, believability, &judged_in.proxy_skin,
@@ -289,7 +294,10 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
     choose_colours(colour_options(config), result.crowd);
   }
   AttachmentOptions attachments = attachment_options(config);
-  attachments.covers_eyes = covers_eyes;
+  IrisCover iris_cover(config, inputs, builder);
+  attachments.covers_eyes = [&](const std::string& item, const FacePlan& face) {
+    return iris_cover.covered_fraction(item, face) > IrisCover::kMost;
+  };
   if (!config.attachments.items.empty()) {
     choose_attachments(attachments, crowd.group_indices, result.crowd, crowd.rejected,
                        crowd.crowd_size_at_rejection);

@@ -9,6 +9,7 @@
 #include "crowdface/cast/attachment_sampling.h"
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_statistics.h"
+#include "crowdface/run/face_builder.h"
 #include "crowdface/run/pipeline.h"
 #include "crowdface/run/trait_reports.h"
 
@@ -79,14 +80,12 @@ struct CrowdPlan {
 AttachmentOptions attachment_options(const Config& config);
 
 /// Chooses the recipes of all faces ("casts" the crowd).
-/// \param find_mesh_defects  judges a candidate's whole mesh; empty: meshes are not judged
-/// \param covers_eyes  see AttachmentOptions; may be empty
+/// \param builder  returns the builder of the job's faces; called only if casting builds meshes
 /// \param cache    see casting_space
 /// \throws Unsatisfiable if the constraints cannot be met; the message names the constraint that
 ///     prevented more faces, the number of faces that were cast, and a change that would help.
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
-                     const MeshDefectFinder& find_mesh_defects,
-                     const std::function<bool(const std::string&, const FacePlan&)>& covers_eyes,
+                     const std::function<const FaceBuilder&()>& builder,
                      const std::filesystem::path& cache);
 
 }  // namespace crowdface

@@ -31,7 +31,6 @@
 #include "crowdface/run/crowd_stage.h"
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/face_stages.h"
-#include "crowdface/run/iris_cover.h"
 #include "crowdface/run/lazy.h"
 #include "crowdface/run/mesh_encoder.h"
 #include "crowdface/run/mesh_judge.h"
@@ -159,16 +158,9 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
                                      StageSeconds& stages) {
   auto crowd = std::make_unique<PlannedJob>(job, prepare_for(job, options, stages));
   crowd->crowd_plan = timed(stages, "cast", [&] {
-    MeshDefectFinder find_mesh_defects;
-    if (casting_builds_candidate_meshes(job.config))
-      find_mesh_defects = mesh_defect_finder(job.config, job.inputs, crowd->builder.get());
-    IrisCover cover(job.config, job.inputs,
-                    [&]() -> const FaceBuilder& { return crowd->builder.get(); });
-    const auto covers_eyes = [&](const std::string& item, const FacePlan& face) {
-      return cover.covered_fraction(item, face) > IrisCover::kMost;
-    };
-    return plan_crowd(job.config, job.inputs, crowd->prepared, find_mesh_defects, covers_eyes,
-                      options.cache);
+    return plan_crowd(
+        job.config, job.inputs, crowd->prepared,
+        [&]() -> const FaceBuilder& { return crowd->builder.get(); }, options.cache);
   });
   log_casting(crowd->crowd_plan);
   crowd->warnings = casting_warnings(job, crowd->crowd_plan);

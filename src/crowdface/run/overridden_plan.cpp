@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "crowdface/cast/attachment_item.h"
 #include "crowdface/cast/typical_head.h"
@@ -77,16 +78,28 @@ class OverriddenPlan {
     return worn;
   }
 
+  /// Whether the tags of a face's typical head allow any attachment of this kind, name or colour.
+  bool may_wear_any(const std::string& word, const FacePlan& face) const {
+    const auto head = static_cast<std::size_t>(typical_head(face.recipe, config_.faces.tags));
+    return std::ranges::any_of(config_.attachments.items, [&](const AttachmentEntry& item) {
+      return matches_kind_name_or_colour(item, word) && may_wear(item, config_.faces.tags[head]);
+    });
+  }
+
   /// Finds attachments that fewer sampled faces wear than a quota requests. A changed face counts
-  /// as if it wears the attachment.
+  /// as if it wears the attachment. Groups in which no face may wear the attachment, such as women
+  /// for beards, do not count if a face of another group may wear it.
   void find_missed_quotas() {
     constexpr double kRounding = 1e-9;
     for (const auto& [word, share] : config_.attachments.quotas) {
       std::map<std::string, std::uint64_t> sizes;
+      std::set<std::string> groups_that_may;
       std::uint64_t served = 0, reached = 0, asked = 0;
       for (const FacePlan& face : crowd_) {
         if (!face.index) continue;
-        ++sizes[face.group.value_or("")];
+        const std::string group = face.group.value_or("");
+        ++sizes[group];
+        if (may_wear_any(word, face)) groups_that_may.insert(group);
         const bool wears =
             std::ranges::any_of(worn_by(face), [&, &called = word](const AttachmentEntry* item) {
               return matches_kind_name_or_colour(*item, called);
@@ -95,6 +108,7 @@ class OverriddenPlan {
         served += wears || !face.notes.changes.empty() ? 1 : 0;
       }
       for (const auto& size : sizes) {
+        if (!groups_that_may.empty() && !groups_that_may.contains(size.first)) continue;
         const double faces = share * static_cast<double>(size.second);
         asked += static_cast<std::uint64_t>(std::floor(faces + kRounding));
       }
