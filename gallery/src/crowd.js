@@ -71,7 +71,7 @@ class LightFace {
     return this.crowd.pictures ? `../renders/${this.folder}${encodeURIComponent(this.id)}.png` : null;
   }
 }
-for (const name of ['nearest', 'mixture', 'colours', 'age', 'asymmetry', 'mirrored', 'mother_share', 'inherits', 'changed']) {
+for (const name of ['nearest', 'mixture', 'colours', 'age', 'age_years', 'asymmetry', 'mirrored', 'mother_share', 'inherits', 'changed']) {
   Object.defineProperty(LightFace.prototype, name, { get() { return this.recipe?.[name]; } });
 }
 

@@ -248,7 +248,8 @@ export class FacePage {
       face.attachments?.length > 0 ? ['Wears', face.attachments.join(', ')] : null,
       face.group ? ['Group', face.group] : null,
       face.family ? ['Family', face.family] : null,
-      face.age ? ['Age', short(face.age)] : null,
+      face.age_years ? ['Age', `${short(face.age_years)} years`]
+        : face.age ? ['Age', short(face.age)] : null,
       face.asymmetry === undefined ? null : ['Asymmetry', short(face.asymmetry)],
       face.mirrored ? ['Mirrored', 'yes'] : null,
       face.nearest ? ['Nearest head', `${face.nearest.face}, ${short(face.nearest.face_mm)} mm`] : null,

@@ -363,11 +363,12 @@ TEST_F(Changes, HairColoursThatAgeTurnsGreyAreTold) {
 // A quota that no face of a group may wear asks nothing of this group.
 TEST_F(Changes, QuotasAskOnlyGroupsThatMayWearTheItem) {
   std::string config = testing::read_text(folder_.config());
-  config.replace(config.find("file: wear/braid.obj"), 0, "tags: [old], ");
+  config.replace(config.find("file: wear/braid.obj"), 0, "tags: [young], ");
   config.replace(config.find("none: {glasses: 0.5}"), 20, "quotas: {braid: 0.5}");
-  config +=
-      "\ngroups: [{name: elders, share: 0.5, tags: [old]}, {name: others, share: 0.5, without: "
-      "[old]}]\n";
+  const std::string group = "{name: elderly, share: 0, tags: [old]}";
+  config.replace(config.find(group), group.size(),
+                 "{name: pupils, share: 0.5, tags: [young]}, "
+                 "{name: others, share: 0.5, without: [young]}");
   folder_.folder().write("config.yaml", config);
   testing::run(folder_, std::vector<std::string>(), Replace::kForce);
   const json report = testing::read_json(folder_.out() / "report.json");

@@ -5,6 +5,7 @@
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
+#include "crowdface/core/file.h"
 #include "crowdface/render/contact_sheet.h"
 
 namespace crowdface {
@@ -27,7 +28,10 @@ void read_comparison(const YamlNode& node, Sheet& sheet, ConfigDraft& draft) {
     sheet.compare.reference = word->value;
   } else {
     sheet.compare = {Reference::kFile, *file, sheet.compare.scale_mm};
-    expect_file(node, *file, draft, "expected none, target, nearest, or an existing file; ");
+    if (!is_folder(*file)) {
+      expect_file(node, *file, draft,
+                  "expected none, target, nearest, or an existing file or crowd folder; ");
+    }
   }
   if (sheet.compare.reference != Reference::kNothing && draft.config.output.meshes.empty()) {
     draft.complaints.add_at(node, "a comparison needs meshes, but output.meshes is empty");
