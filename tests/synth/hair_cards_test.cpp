@@ -45,7 +45,7 @@ TEST(HairCards, AreTheSameOnEveryMachine) {
             "bcc7754015bc27906664944c700b9af3");
   const std::vector<std::uint8_t> picture = hair_picture(64, {0.5, 0.4, 0.3}, true);
   EXPECT_EQ(Hasher().add_array(std::span(picture)).digest().hex(),
-            "d6aafade76db6c9f2f59bcc060ab8781");
+            "3efc32f74b08d06f38a074b493b85664");
 }
 
 // Single locks stood off the others beside the neck.

@@ -52,7 +52,7 @@ TEST(SyntheticSkins, SameSeedSameBytesOnEveryMachine) {
   EXPECT_NE(albedo, small.albedo(3, 3));
   EXPECT_NE(albedo, small.albedo(4, 2));
   EXPECT_EQ(Hasher().add_array(std::span(albedo)).digest().hex(),
-            "026c9a7bec1fd3bdcba524b316e1124c");
+            "ea1942a6a34812ffa6a8da6b4ddb535f");
 }
 
 // The pupil used to be five texels wide and three high.
@@ -67,7 +67,7 @@ TEST(SyntheticSkins, PupilsAreRound) {
         const auto i = static_cast<std::size_t>(y * kSize + x);
         const bool dark = std::max({albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2]}) < 16;
         // A dark iris below the lid's shadow is as dark, but farther out.
-        const bool inner = atlas[i].point_on_ball.head<2>().norm() < 0.25;
+        const bool inner = atlas[i].point_on_ball.head<2>().norm() < 0.17;
         if (!dark || !inner || atlas[i].on_eyeball < 0.5 || (x > kSize / 2) != (side > 0)) continue;
         left = std::min(left, x);
         right = std::max(right, x);
@@ -206,7 +206,8 @@ TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
       const double flat = atlas[t].point_on_ball.head<2>().norm();
       const Colour colour(albedo[3 * t], albedo[3 * t + 1], albedo[3 * t + 2]);
       if (flat > 0.2 && flat < 0.31) in_iris += colour, ++irises;
-      const bool shaded = atlas[t].point_on_ball.y() > 0;  // by the upper lid
+      const double height = atlas[t].point_on_ball.y();
+      const bool shaded = height > -0.05 || height < -0.25;  // by the lids
       if (flat > 0.5 && flat < 0.7 && !shaded) white += colour, ++whites;
       if (flat < 0.1) {
         EXPECT_LT(colour.maxCoeff(), 30) << "the pupil";
@@ -214,7 +215,7 @@ TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
     }
     ASSERT_GT(irises, 10);
     EXPECT_LT((in_iris / irises - iris).abs().maxCoeff(), 25) << i;
-    EXPECT_GT((white / whites).minCoeff(), 150) << i;
+    EXPECT_GT((white / whites).minCoeff(), 105) << i;
   }
 }
 

@@ -43,8 +43,8 @@ const auto& natural_hair() {
 /// \param light  0 … 1: brightness.
 ScreenColour random_iris(double tone, double kind, double light) {
   static const std::array<ScreenColour, 6> colours = {
-      from_bytes(98, 122, 142), from_bytes(112, 126, 120), from_bytes(100, 104, 72),
-      from_bytes(112, 82, 48),  from_bytes(84, 54, 34),    from_bytes(54, 35, 25)};
+      from_bytes(84, 100, 114), from_bytes(90, 98, 94), from_bytes(84, 82, 62),
+      from_bytes(88, 66, 44),   from_bytes(66, 44, 30), from_bytes(44, 30, 23)};
   const double brown = smooth_step(0.1, 0.5, tone);
   return (0.85 + 0.3 * light) * along(colours, brown + (1 - brown) * kind * 0.9);
 }
@@ -79,7 +79,7 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   look.freckles = look.skin_tone < 0.35 ? smooth_step(0.55, 1, unit("synth/freckles")) : 0;
   look.age_spots = smooth_step(48, 75, person.age_years) * unit("synth/spots");
   look.brow_density = (male ? 0.9 : 0.75) + 0.2 * (unit("synth/brow_density") - 0.5);
-  look.brow_width = (male ? 1.15 : 0.68) + 0.3 * (unit("synth/brow_width") - 0.5);
+  look.brow_width = (male ? 1.15 : 0.85) + 0.3 * (unit("synth/brow_width") - 0.5);
   look.iris = random_iris(look.skin_tone, unit("synth/iris"), unit("synth/iris_light"));
   if (male) {
     // Use stratified random numbers, so that about two of five successive men are shaven, and so
@@ -91,7 +91,7 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
     look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
     const double fond = unit("synth/made_up");
     look.makeup = 0.1 + 0.7 * fond * fond;
-    look.lipstick = 0.9 * smooth_step(0.76, 0.95, fond);
+    look.lipstick = 0.7 * smooth_step(0.8, 1.0, fond);
   }
   return look;
 }

@@ -98,16 +98,16 @@ void fill_triangle(const std::array<Vector2d, 3>& uv, const std::array<Vector3d,
 
 std::span<const FacialHair> facial_hairs() {
   static constexpr auto kStyles = std::to_array<FacialHair>({
-      {.name = "brows_fine", .is_for_women = true, .brow_width = 0.55, .brow_arch = 0.25},
-      {.name = "brows_arched", .is_for_women = true, .brow_width = 0.65, .brow_arch = 0.38},
+      {.name = "brows_fine", .is_for_women = true, .brow_width = 0.7, .brow_arch = 0.25},
+      {.name = "brows_arched", .is_for_women = true, .brow_width = 0.8, .brow_arch = 0.36},
       {.name = "brows_soft",
        .is_for_women = true,
-       .brow_width = 0.75,
+       .brow_width = 0.9,
        .brow_arch = 0.18,
        .brow_density = 0.75},
       {.name = "brows_full",
        .is_for_women = true,
-       .brow_width = 0.85,
+       .brow_width = 1.0,
        .brow_arch = 0.22,
        .brow_density = 0.85},
       {.name = "brows_straight", .brow_width = 1.05, .brow_density = 0.85},
@@ -145,11 +145,7 @@ std::span<const FacialHair> facial_hairs() {
 FacialHairLayer facial_hair_layer(const FacialHair& style, const Mesh& skin) {
   const SkinPaint paint = paint_of(style);
   const auto cover = [&](const Vector3d& p) {
-    // Brows on a separate layer must be denser than brows in a skin texture, because the edges of
-    // the layer do not blend with the skin.
-    if (style.is_beard) return paint.beard_coverage(p);
-    const double root = std::sqrt(std::max(0.0, paint.brow_coverage(p)));
-    return root * std::sqrt(root);
+    return style.is_beard ? paint.beard_coverage(p) : paint.brow_coverage(p);
   };
   const std::vector<Index> faces = covered_faces(skin, cover);
   const Positions normals =

@@ -64,13 +64,13 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       // The hair cap ends in single hair roots that become sparse, because a hard edge would look
       // like a wig.
       const double root = below ? roots.at({u, t, 0}) : 0;
-      double cover = below ? smooth_step(0.98, 0.52, t + 0.13 * root) : 0;
+      double cover = below ? smooth_step(1, 0.45, t + 0.05 * root) : 0;
       double light = below ? 0.8 : 0.7;
       if (below && curly) {  // short, darker curls
         const double clump = clumps.at({kAcross * u, kDown * t, 0});
         light = 0.62 + 0.5 * clump + 0.2 * root;
       } else if (below && t > kCapClosed) {
-        light += 0.25 * root;
+        light += 0.12 * root;
       } else {
         // Composite the strands of this strip; each strand is darker at its edges.
         for (std::size_t s = strip * kStrands; s < (strip + 1) * kStrands; ++s) {

@@ -42,20 +42,27 @@ const auto& fold_list() {
     Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.48, 0.12, 0.35, 0.5, 0.2, 0.6},
     Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.055, 0.1, 0.6, 0.2, 0.4},
     Fold{"frown", {0.42, 1.2}, {0.6, 2.0}, {0.5, 3.0}, 0.16, 0.05, 0.05, 0.5, 0.15, 0, true, 0.12},
-    Fold{"crow_upper", {4.95, 0.3}, {5.4, 0.5}, {5.9, 1.0}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
-    Fold{"crow_middle", {5.05, 0.0}, {5.5, -0.05}, {6.1, 0.0}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
-    Fold{"crow_lower", {4.95, -0.3}, {5.3, -0.7}, {5.7, -1.3}, 0.11, 0.03, 0, 0.6, 0.2, 0, true, 0.12},
+    Fold{"crow_upper", {4.95, 0.3}, {5.4, 0.5}, {5.9, 1.0}, 0.11, 0.022, 0, 0.9, 0.2, 0, true, 0.12},
+    Fold{"crow_middle", {5.05, 0.0}, {5.5, -0.05}, {6.1, 0.0}, 0.11, 0.022, 0, 0.9, 0.2, 0, true, 0.12},
+    Fold{"crow_lower", {4.95, -0.3}, {5.3, -0.7}, {5.7, -1.3}, 0.11, 0.022, 0, 0.9, 0.2, 0, true, 0.12},
     Fold{"cheek_line", {4.2, -3.6}, {4.9, -5.0}, {4.6, -6.8}, 0.55, 0.05, 0, 0.5, 0.3, 0.3},
     Fold{"philtrum_ridge", {0.3, -4.95}, {0.42, -5.5}, {0.5, -6.15}, 0.26, -0.07, 1, -0.3, 0.3, 0},
     Fold{"wing_crease", {1.25, -3.0}, {2.0, -3.5}, {1.8, -4.5}, 0.24, 0.07, 0.8, 0.2, 0.2, 0},
     Fold{"lip_edge", {0.4, -6.08}, {1.0, -6.15}, {2.3, -6.85}, 0.14, -0.035, 1, -0.3, 0.2, 0},
-    Fold{"brow_one", {-4.2, 3.4}, {0, 4.1}, {4.2, 3.4}, 0.17, 0.03, 0.1, 0.5, 0.25, 0, false, 0.16},
-    Fold{"brow_two", {-4.2, 4.2}, {0, 4.9}, {4.2, 4.2}, 0.17, 0.03, 0.1, 0.5, 0.25, 0, false, 0.16},
-    Fold{"brow_three", {-3.8, 5.1}, {0, 5.7}, {3.8, 5.1}, 0.17, 0.03, 0, 0.5, 0.25, 0, false, 0.2},
-    Fold{"brow_four", {-3.3, 6.0}, {0, 6.5}, {3.3, 6.0}, 0.17, 0.025, -0.2, 0.5, 0.3, 0, false, 0.2},
+    Fold{"brow_one", {-4.2, 3.4}, {0, 4.1}, {4.2, 3.4}, 0.14, 0.03, 0, 0.9, 0.25, 0, false, 0.16},
+    Fold{"brow_two", {-4.2, 4.2}, {0, 4.9}, {4.2, 4.2}, 0.14, 0.03, 0, 0.9, 0.25, 0, false, 0.16},
+    Fold{"brow_three", {-3.8, 5.1}, {0, 5.7}, {3.8, 5.1}, 0.14, 0.03, -0.1, 0.9, 0.25, 0, false, 0.2},
+    Fold{"brow_four", {-3.3, 6.0}, {0, 6.5}, {3.3, 6.0}, 0.14, 0.025, -0.2, 0.8, 0.3, 0, false, 0.2},
     Fold{"chin_crease", {-1.8, -8.7}, {0, -8.5}, {1.8, -8.7}, 0.5, 0.07, 0.6, 0.1, 0.4, 0, false},
     Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.05, 0.3, 0.4, 0.3, 0, false},
     Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.05, 0.2, 0.4, 0.3, 0, false},
+    Fold{"crow_high", {5.0, 0.15}, {5.5, 0.25}, {6.1, 0.55}, 0.09, 0.014, -0.1, 1.0, 0.2, 0, true, 0.12},
+    Fold{"crow_low", {5.0, -0.15}, {5.5, -0.4}, {6.0, -0.75}, 0.09, 0.014, -0.1, 1.0, 0.2, 0, true, 0.12},
+    Fold{"under_eye_line", {2.0, -0.8}, {3.1, -1.4}, {4.6, -0.8}, 0.10, 0.025, 0, 0.9, 0.2, 0, true, 0.1},
+    Fold{"bag_line", {2.1, -1.2}, {3.1, -2.1}, {4.7, -1.4}, 0.11, 0.03, -0.1, 0.9, 0.2, 0, true, 0.12},
+    Fold{"upper_lip_line", {0.8, -5.5}, {0.85, -5.8}, {0.85, -6.2}, 0.08, 0.02, -0.2, 0.9, 0.3, 0, true, 0.1},
+    Fold{"upper_lip_line_outer", {1.5, -5.7}, {1.5, -6.0}, {1.45, -6.4}, 0.08, 0.02, -0.2, 0.9, 0.3, 0, true, 0.1},
+    Fold{"neck_line", {-4.0, -12.2}, {0, -13.2}, {4.0, -12.2}, 0.12, 0.03, 0, 0.9, 0.3, 0, false, 0.2},
   };
   return list;
 }
@@ -109,9 +116,10 @@ Relief::Relief(const Identity& identity, double edge_cm)
   broad_octaves_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
   // The wavelength of SmoothNoise is about 2.5 to 3 times its lattice spacing.
   for (const auto& [lane, spacing, amplitude] :
-       {std::tuple{23U, 0.22, 0.0035}, std::tuple{24U, 0.1, 0.003}, std::tuple{25U, 0.05, 0.002}}) {
+       {std::tuple{23U, 0.22, 0.006}, std::tuple{24U, 0.1, 0.004}, std::tuple{25U, 0.05, 0.002}}) {
     const double part = represented_fraction(2.5 * spacing, edge_cm);
-    if (part > 0) fine_octaves_.push_back(octave(lane, spacing, amplitude * rough * part));
+    const double old = 1 + 0.3 * std::max(0.0, aged);
+    if (part > 0) fine_octaves_.push_back(octave(lane, spacing, amplitude * rough * old * part));
   }
   lip_depth_ = 0.012 * represented_fraction(0.45, edge_cm) * (1 + 0.4 * aged);
 }
@@ -164,14 +172,24 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
   return stroke.depth * taper * height;
 }
 
-double Relief::fold_height(const Vector3d& p) const {
+template <class Weight>
+double Relief::sum_of_strokes(const Vector3d& p, const Weight& weight) const {
   const double front = smooth_step(0.5, 2.5, p.z());
   if (front <= 0) return 0;
   const Vector2d place(p.x() + 0.08 * fold_offset_noise_x_.at(p),
                        p.y() + 0.08 * fold_offset_noise_y_.at(p));
   double sum = 0;
-  for (const Stroke& stroke : strokes_) sum += stroke_height(stroke, place);
+  for (const Stroke& stroke : strokes_) sum += weight(stroke) * stroke_height(stroke, place);
   return front * sum;
+}
+
+double Relief::fold_height(const Vector3d& p) const {
+  return sum_of_strokes(p, [](const Stroke&) { return 1; });
+}
+
+double Relief::fold_shade(const Vector3d& p) const {
+  // The divisor is not the width itself, because wide folds would then hardly be visible.
+  return -sum_of_strokes(p, [](const Stroke& stroke) { return 1.8 / (0.15 + 0.5 * stroke.width); });
 }
 
 double Relief::grain(const Vector3d& p) const {

@@ -25,6 +25,10 @@ class Relief {
   /// Returns the part of `height` that is due to folds and lines, cm.
   /// \param position  point on the average head.
   double fold_height(const Eigen::Vector3d& position) const;
+  /// Returns how strongly folds and lines shade the skin: the sum of their depths, each divided by
+  /// a length that grows with the width of the fold. About 1 in a steep groove, negative on ridges.
+  /// \param position  point on the average head.
+  double fold_shade(const Eigen::Vector3d& position) const;
 
  private:
   /// A curve in the front view of the face, engraved (depth > 0) or raised (depth < 0). Lengths in
@@ -45,6 +49,9 @@ class Relief {
   double grain(const Eigen::Vector3d& position) const;
   /// Returns the contribution of one curve to fold_height at a point of the front view, cm.
   double stroke_height(const Stroke& stroke, const Eigen::Vector2d& place) const;
+  /// Returns the sum of the curves' contributions at a point, each multiplied by weight(curve).
+  template <class Weight>
+  double sum_of_strokes(const Eigen::Vector3d& position, const Weight& weight) const;
   /// Adds the curve of a fold.
   /// \param side  1, or −1 to add the mirror image of the curve at x = 0.
   void add_stroke(std::size_t fold_index, double side, double depth);

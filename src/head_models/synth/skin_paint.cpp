@@ -45,13 +45,14 @@ double lower_lip(double x) {
   return 0.98 * (1 - t * t * (0.35 + 0.65 * t));
 }
 
-/// Returns 1 on the lips, 0 outside, with a transition of about 1.6 mm.
-double on_lips(const Vector3d& p) {
+/// Returns 1 on the lips, 0 outside, with a transition of about 2.8 mm.
+/// \param thinner  how much narrower the lips are than average lips at each border, cm.
+double on_lips(const Vector3d& p, double thinner) {
   const double x = std::abs(p.x());
   if (p.z() < 6 || x > kMouthHalfWidth) return 0;
   const double up = p.y() - lip_line(x);
   const double beyond = up > 0 ? up - upper_lip(x) : -up - lower_lip(x);
-  return smooth_step(0.07, -0.09, beyond);
+  return smooth_step(0.12, -0.16, beyond + thinner);
 }
 
 }  // namespace
@@ -70,25 +71,52 @@ SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
       tufts_(mix(seed, index, 107), 0.3),
       hairline_(mix(seed, index, 108), 0.5),
       grain_(mix(seed, index, 110), 0.03),
+      flush_(mix(seed, index, 111), 1.3),
+      aged_(smooth_step(30, 70, person_.age_years)),
       hair_(seed, index, scalp_hair == 1),
       scalp_hair_(scalp_hair) {}
 
 ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
+  const bool male = person_.maleness > 0;
   ScreenColour colour = complexion_.skin;
-  const double mottle = mottle_.at(p);
-  const double uneven = 0.022 * mottle + 0.016 * blotch_.at(p) + 0.022 * pores_.at(p);
-  colour *= 1 + uneven;
+  // Melanin and blood vary separately, at wavelengths from 3 mm to 3 cm. They vary more in old
+  // people.
+  const double mottle = mottle_.at(p), blotch = blotch_.at(p);
+  // Leave out the finest noise at the back of the head, because hair covers most of the back and
+  // this noise is slow.
+  const double fine_amount = smooth_step(-3, -1, p.z());
+  const double fine = fine_amount > 0 ? fine_amount * freckles_.at(p) : 0;
+  const double flush = flush_.at(p);
+  const double melanin = 0.55 * mottle + 0.4 * blotch + 0.22 * fine;
+  tint(colour, {0.80, 0.72, 0.67},
+       (0.20 + 0.36 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone) * melanin);
+  tint(colour, {0.80, 0.66, 0.56}, (0.10 + 0.06 * aged_) * smooth_step(0.5, 0.85, fine));
+  const double blood = complexion_.redness * (1 + 0.2 * aged_);
+  tint(colour, {0.99, 0.80, 0.79},
+       (0.35 + 0.3 * aged_) * blood * (0.5 * flush - 0.35 * blotch + 0.25 * fine));
+  // The forehead is yellower than the cheeks, and the skin around the mouth is greyer.
+  const double front = smooth_step(0, 4, p.z());
+  tint(colour, {1.03, 1.01, 0.94}, 0.7 * front * smooth_step(1.5, 4, p.y()));
+  tint(colour, {0.95, 0.965, 0.965}, 0.8 * front * smooth_step(-4.5, -7, p.y()));
   // Add redness where the skin is thin and well supplied with blood.
   const double ears = smooth_step(6.6, 7.6, std::abs(p.x())) * smooth_step(-5, -3, p.y()) *
                       smooth_step(4, 3, p.y()) * smooth_step(2.5, 1.5, p.z());
-  const double red = patch(p, {4.2, -3.4}, {3.4, 3.2}) + 0.9 * patch(p, {0, -3.6}, {2.0, 2.2}) +
-                     0.7 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
+  const double red = patch(p, {4.0, -3.0}, {4.2, 4.0}) + patch(p, {0, -3.6}, {2.3, 2.2}) +
+                     0.9 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
-  const double blood = std::min(1.0, complexion_.redness + 0.2 * complexion_.makeup);
-  tint(colour, {1.01, 0.88, 0.87}, blood * std::min(1.0, red) * (1 + 0.35 * mottle));
+  const double border = 0.75 + 0.6 * flush + 0.35 * blotch + 0.2 * fine;
+  tint(colour, {0.98, 0.81, 0.80}, blood * std::min(1.0, red) * std::clamp(border, 0.0, 1.3));
+  // The outline of a man's face is darker than its middle, above all on dark skin.
+  const double middle = smooth_step(1.3, 0.5, Vector2d(p.x() / 6, (p.y() + 1.5) / 8).norm());
+  tint(colour, {0.88, 0.84, 0.82},
+       (male ? 0.15 + 0.25 * complexion_.skin_tone : 0.05) * (1 - front * middle));
+  // Cheeks and temples of old people are hollow, and their jowls throw shadows.
+  const double hollows = patch(p, {5.2, -5.4}, {2.2, 3.4}) + patch(p, {6.4, 2.6}, {2.0, 2.6}) +
+                         patch(p, {3.4, -9.6}, {1.5, 1.6});
+  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.0 : 0.3) * aged_ * std::min(1.0, hollows));
   // Darken lines and hollows, because they lie in shade.
-  const double hollow = std::clamp(-relief_.fold_height(p) / 0.2, 0.0, 0.6);
-  tint(colour, {0.88, 0.81, 0.79}, hollow);
+  const double hollow = std::clamp((male ? 1.25 : 0.8) * relief_.fold_shade(p), 0.0, 1.0);
+  tint(colour, {0.66, 0.53, 0.49}, hollow);
   return colour;
 }
 
@@ -97,36 +125,44 @@ void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
     const double where = patch(p, {2.6, -2.6}, {5.2, 3.6}) + 0.5 * patch(p, {0, 4}, {6, 4});
     const double spot = smooth_step(0.42, 0.8, freckles_.at(p) + 0.25 * blotch_.at(p));
     tint(colour, {0.80, 0.68, 0.58},
-         0.5 * complexion_.freckles * std::min(1.0, 1.6 * where) * spot);
+         0.75 * complexion_.freckles * std::min(1.0, 1.6 * where) * spot);
   }
   if (complexion_.age_spots > 0) {
     const double where = smooth_step(2.5, 6, p.y()) + 0.8 * patch(p, {6, -2}, {4, 5});
-    const double spot = smooth_step(0.7, 1.0, spots_.at(p));
-    tint(colour, {0.80, 0.70, 0.62}, 0.6 * complexion_.age_spots * std::min(1.0, where) * spot);
+    const double spot = smooth_step(0.6, 0.95, spots_.at(p) + 0.2 * freckles_.at(p));
+    tint(colour, {0.80, 0.70, 0.62}, 0.8 * complexion_.age_spots * std::min(1.0, where) * spot);
   }
 }
 
 void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
-  const double amount = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring_coordinate));
+  const double amount =
+      std::max(on_lips(p, 0.1 * aged_), smooth_step(0.97, 1.0, place.mouth_ring_coordinate));
   if (amount <= 0) return;
   ScreenColour lips = colour;
-  const double pale =
-      0.25 * std::max(0.0, person_.scaled_age()) + (person_.maleness > 0 ? 0.35 : 0.0);
-  tint(lips, {0.93, 0.82, 0.81}, 1 - pale);
-  tint(lips, {0.93, 0.58, 0.64}, complexion_.lipstick);
-  tint(lips, ScreenColour::Constant(0.86), complexion_.skin_tone);
-  // The upper lip is darker, because it faces down.
-  if (p.y() > lip_line(p.x())) tint(lips, {0.96, 0.93, 0.93}, 1);
+  const bool male = person_.maleness > 0;
+  const double pale = male ? 0.4 + 0.2 * aged_ : 0;
+  tint(lips, {0.88, 0.63, 0.65}, 1 - pale);
+  tint(lips, {0.90, 0.62, 0.66}, complexion_.lipstick);
+  tint(lips, {male ? 0.82 : 0.91, 0.80, 0.83}, complexion_.skin_tone);
+  // The upper lip is darker, because it faces down; so is the line between the lips.
+  const double up = p.y() - lip_line(p.x());
+  tint(lips, {0.86, 0.79, 0.79}, smooth_step(-0.05, 0.1, up));
+  tint(lips, {0.52, 0.40, 0.40}, 0.9 * smooth_step(0.2, 0.02, std::abs(up)));
+  // Creases run across the lips: noise stretched along y.
+  lips *= 1 + (0.05 + 0.04 * aged_) * hairs_.at({0.5 * p.x(), 0.06 * p.y(), 0.06 * p.z()});
   cover(colour, lips, amount);
 }
 
 void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour) const {
   const Vector& p = place.skin.position;
-  const double tired = 0.45 + 0.25 * std::max(0.0, person_.scaled_age());
-  tint(colour, {0.87, 0.82, 0.86}, tired * patch(p, {2.9, -1.35}, {2.1, 0.95}));
+  const bool male = person_.maleness > 0;
+  // The skin of the eye sockets is thin and bluish, mostly below the eye and at its inner corner.
+  const double socket = patch(p, {3.1, -0.2}, {2.9, 2.1}) + patch(p, {1.6, -0.4}, {1.0, 1.3});
+  tint(colour, {0.88, 0.86, 0.88}, (0.4 + 0.4 * aged_) * std::min(1.0, 1.3 * socket));
+  tint(colour, {0.85, 0.83, 0.87}, (0.3 + 0.6 * aged_) * patch(p, {2.8, -1.3}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
-  tint(colour, {0.90, 0.82, 0.82}, 0.6 * lids);
+  tint(colour, {0.87, 0.81, 0.79}, 0.7 * lids);
   // Darken the crease of the upper lid.
   const double beside = std::min(1.0, std::abs(std::abs(p.x()) - 3.2) / 2.3);
   const double crease = smooth_step(0.16, 0.02, std::abs(p.y() - 0.42 - 0.66 * biweight(beside)));
@@ -135,18 +171,20 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   if (place.eye_ring_coordinate <= 0) return;
   // Lashes are painted as a line along the edge of the lid; the inner edge of the lid is red.
   const bool upper = p.y() > 0.07 * (std::abs(p.x()) - 3.12);
-  const double lashes = smooth_step(upper ? 0.90 : 0.955, 0.99, place.eye_ring_coordinate) *
-                        smooth_step(1.12, 1.03, place.eye_ring_coordinate);
+  const double first = upper ? 0.87 + 0.04 * hairs_.at(0.6 * p) : 0.955;
+  const double lashes = smooth_step(first, first + 0.06, place.eye_ring_coordinate) *
+                        smooth_step(upper ? 1.3 : 1.08, 1.03, place.eye_ring_coordinate);
   const ScreenColour hair = paints_all_hair() ? complexion_.hair : from_bytes(70, 54, 44);
-  const ScreenColour dark = (0.45 - 0.25 * complexion_.makeup) * hair + 0.02;
-  cover(colour, dark,
-        lashes * (upper ? 0.75 + 0.25 * complexion_.makeup : 0.3 + 0.4 * complexion_.makeup));
-  cover(colour, ScreenColour(0.62, 0.40, 0.36) * (1 - 0.35 * complexion_.skin_tone),
+  cover(colour, ScreenColour(0.52, 0.33, 0.30) * (1 - 0.45 * complexion_.skin_tone),
         0.8 * smooth_step(1.05, 1.15, place.eye_ring_coordinate));
+  const ScreenColour dark = ((male ? 0.45 : 0.3) - 0.2 * complexion_.makeup) * hair + 0.02;
+  cover(colour, dark,
+        lashes * (upper ? (male ? 0.75 : 0.88) + 0.12 * complexion_.makeup
+                        : 0.3 + 0.4 * complexion_.makeup));
 }
 
 void SkinPaint::paint_openings(const AtlasTexel& place, ScreenColour& colour) const {
-  cover(colour, ScreenColour(0.40, 0.17, 0.16),
+  cover(colour, ScreenColour(0.24, 0.10, 0.10),
         smooth_step(1.02, 1.5, place.mouth_ring_coordinate));
   cover(colour, ScreenColour(0.22, 0.09, 0.07),
         smooth_step(0.98, 1.35, place.nostril_ring_coordinate));
@@ -156,18 +194,51 @@ double SkinPaint::brow_coverage(const Vector& p) const {
   if (p.z() < 3) return 0;
   // An arch above each eye, thickest towards the nose.
   const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
-  if (t < -0.1 || t > 1.1) return 0;
+  if (t < -0.15 || t > 1.2) return 0;
   const double arch = 1.95 + 1.45 * t * (1 - t) * (0.8 + 0.6 * t) - 0.12 * t * t +
                       complexion_.brow_arch * (0.7 + 1.7 * t * t * (1 - t));
-  const double half = complexion_.brow_width * (0.34 - 0.18 * t * t);
-  const double off = std::abs(p.y() - arch) / half;
-  const double ends = smooth_step(-0.08, 0.14, t) * smooth_step(1.06, 0.72, t);
-  const double body = smooth_step(1.25, 0.45, off) * ends;
-  if (body <= 0) return 0;
-  // Hairs point outward: noise stretched along their direction.
-  const double along = x - 0.9 * (p.y() - arch), across = (p.y() - arch) + 0.55 * x;
-  const double strands = hairs_.at({0.22 * along, across, 7 * (p.x() > 0 ? 1.0 : -1.0)});
-  return complexion_.brow_density * body * smooth_step(-0.75, 0.6, strands + 0.9 * (body - 0.5));
+  if (std::abs(p.y() - arch) > 1) return 0;
+  return brow_hairs({x - 1.15, p.y() - arch}, p.x() > 0 ? 1 : 2);
+}
+
+/// Returns the fraction of the skin that single hairs of a brow hide.
+/// \param place  cm outward from the brow's inner end and upward from its middle line.
+/// \param side   selects the hairs of the left or of the right brow.
+double SkinPaint::brow_hairs(const Vector2d& place, std::uint64_t side) const {
+  constexpr double kLength = 4.3, kCell = 0.08, kHair = 0.5;  // cm
+  // Density of the hair roots at a place: thin at both ends and towards the upper and lower border.
+  const auto density = [&](const Vector2d& root) {
+    const double t = root.x() / kLength, half = complexion_.brow_width * (0.30 - 0.14 * t * t);
+    const double ends = smooth_step(-0.08, 0.2, t) * smooth_step(1.06, 0.6, t);
+    return complexion_.brow_density * ends * smooth_step(1.1, 0.3, std::abs(root.y()) / half);
+  };
+  double bare = 1 - 0.4 * density(place);
+  const int column = static_cast<int>(std::floor(place.x() / kCell));
+  const int row = static_cast<int>(std::floor(place.y() / kCell));
+  for (int i = column - 8; i <= column + 1; ++i) {
+    for (int j = row - 6; j <= row + 4; ++j) {
+      // Each cell of the grid has at most one hair. The 64 bits hold four random numbers: the
+      // position of the root (two), the length, and whether the hair grows.
+      const std::uint64_t bits =
+          mix(side, static_cast<std::uint64_t>(i + 1000), static_cast<std::uint64_t>(j + 1000));
+      const auto unit = [&](int n) {
+        return static_cast<double>((bits >> (16 * n)) & 0xFFFFU) / 0x1p16;
+      };
+      const Vector2d root = kCell * Vector2d(i + unit(0), j + unit(1));
+      const double grown = density(root);
+      if (unit(3) >= grown) continue;
+      // Hairs point up near the nose, then outward, and converge towards the middle line.
+      const double t = std::clamp(root.x() / kLength, 0.0, 1.0);
+      const Vector2d direction =
+          Vector2d(0.35 + t, 0.9 * (1 - t) * (1 - t) + 0.15 - 1.1 * root.y()).normalized();
+      const double length = kHair * (0.6 + 0.4 * unit(2)) * (0.6 + 0.4 * grown);
+      const Vector2d from = place - root;
+      const double along = std::clamp(from.dot(direction) / length, 0.0, 1.0);
+      const double off = (from - along * length * direction).norm();
+      bare *= 1 - 0.78 * (1 - 0.6 * along) * smooth_step(0.05, 0.01, off);
+    }
+  }
+  return 1 - bare;
 }
 
 double SkinPaint::beard_coverage(const Vector& p, double strand) const {
@@ -184,7 +255,7 @@ double SkinPaint::beard_coverage(const Vector& p, double strand) const {
   const double back = smooth_step(-0.5, 0.8, p.z());
   // Bare patches below the lower lip, on both sides of the chin.
   const double bare = 0.2 * patch(p, {1.3, -8.4}, {0.9, 0.55});
-  return below * neck * back * (1 - on_lips(p)) * (1 - bare);
+  return below * neck * back * (1 - on_lips(p, 0.1 * aged_)) * (1 - bare);
 }
 
 /// Returns the length of the beard at a point, in the units of Complexion::beard.
@@ -216,13 +287,15 @@ double SkinPaint::beard_coverage(const Vector& p) const {
 
 void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   if (complexion_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
+  // If beards are separate meshes, paint the shadow of a shaven beard on every man.
   // Short hair: noise stretched along y.
-  const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
+  const double strand = paints_all_hair() ? hairs_.at({p.x(), 0.3 * p.y(), p.z()}) : 0;
   const double beard = beard_coverage(p, strand);
   if (beard <= 0) return;
-  const double length = beard_length(p);
+  const double length = paints_all_hair() ? beard_length(p) : 0.5;
   // Hair roots below the surface give the skin a cool shade.
-  tint(colour, {0.82, 0.80, 0.80}, 0.8 * beard * std::min(1.0, 1.4 * length));
+  tint(colour, {0.80, 0.80, 0.82}, 1.1 * beard * std::min(1.0, 1.4 * length));
+  if (!paints_all_hair()) return;
   const double grown = smooth_step(0.3, 1.0, length);
   const double dense = grown * (0.75 + 0.10 * tufts_.at(p) + 0.30 * strand);
   cover(colour, complexion_.brow_hair * (1 + 0.25 * strand), beard * std::clamp(dense, 0.0, 0.95));
@@ -232,11 +305,12 @@ void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
 /// dark rim, a pupil. \param ball  point on the unit sphere, pupil at +z.
 ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   const double flat = std::sqrt(ball.x() * ball.x() + ball.y() * ball.y());
-  ScreenColour colour(0.80, 0.785, 0.765);
+  ScreenColour colour(0.70, 0.68, 0.655);
   tint(colour, {0.93, 0.80, 0.76},
-       smooth_step(0.45, 0.95, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
+       smooth_step(0.35, 0.9, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
   tint(colour, {0.93, 0.87, 0.76},
-       0.5 * complexion_.skin_tone + 0.25 * std::max(0.0, person_.scaled_age()));
+       0.3 * complexion_.skin_tone + 0.25 * std::max(0.0, person_.scaled_age()));
+  colour *= 1 - 0.15 * complexion_.skin_tone;
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
@@ -245,11 +319,14 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   // The iris is lighter around the pupil. The lower half of the iris is also lighter, because light
   // from above reaches this half.
   iris *= 1.12 - 0.3 * smooth_step(kPupil, kIris, flat) - 0.45 * ball.y();
-  iris *= 1 - 0.62 * smooth_step(kIris - 0.08, kIris, flat);
+  iris *= 1 - 0.8 * smooth_step(kIris - 0.1, kIris, flat);
   cover(iris, ScreenColour::Constant(0.03), smooth_step(kPupil + 0.02, kPupil - 0.02, flat));
   cover(colour, iris, smooth_step(kIris + 0.03, kIris - 0.02, flat));
-  // Add the shadow of the upper lid and of the upper lashes.
-  return colour * (1 - 0.45 * smooth_step(0.12, 0.36, ball.y()));
+  // Add the shadow of the upper lid and of the upper lashes, and weaker shadows at the corners of
+  // the eye and along the lower lid.
+  colour *= 1 - 0.3 * smooth_step(0.4, 0.85, std::abs(ball.x()));
+  colour *= 1 - 0.35 * smooth_step(-0.2, -0.4, ball.y());
+  return colour * (1 - 0.78 * smooth_step(-0.06, 0.32, ball.y()));
 }
 
 ScreenColour SkinPaint::at(const AtlasTexel& place) const {
@@ -261,7 +338,7 @@ ScreenColour SkinPaint::at(const AtlasTexel& place) const {
   paint_around_eyes(place, colour);
   paint_lips(place, colour);
   paint_openings(place, colour);
-  if (paints_all_hair()) paint_beard(p, colour);
+  paint_beard(p, colour);
   const bool ear = place.skin.relief_weight < 0.5;
   if (!ear && hair_.may_cover(p)) {
     const double lock = hair_.strand_brightness(p);
@@ -283,8 +360,10 @@ double SkinPaint::roughness_at(const AtlasTexel& place) const {
   if (place.skin.relief_weight >= 0.5 && hair_.may_cover(p)) {
     hair = std::max(hair, scalp_hair_ * hair_.coverage(p, hair_.strand_brightness(p)));
   }
-  const double lips = std::max(on_lips(p), smooth_step(0.97, 1.0, place.mouth_ring_coordinate));
-  return skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.scaled_age());
+  const double lips =
+      std::max(on_lips(p, 0.1 * aged_), smooth_step(0.97, 1.0, place.mouth_ring_coordinate));
+  const double uneven = place.on_eyeball > 0.5 ? 0 : 0.06 * blotch_.at(p);
+  return uneven + skin_roughness(place, lips, std::clamp(hair, 0.0, 1.0), person_.scaled_age());
 }
 
 }  // namespace crowdface::synth

@@ -41,13 +41,16 @@ class SkinPaint {
   void paint_beard(const Vector& p, ScreenColour& colour) const;
   /// Whether hair, brows and beard are painted on the skin instead of being separate meshes.
   bool paints_all_hair() const { return scalp_hair_ == 1; }
+  double brow_hairs(const Eigen::Vector2d& place, std::uint64_t side) const;
   double beard_coverage(const Vector& p, double strand) const;
   double beard_length(const Vector& p) const;
 
   Person person_;
   Complexion complexion_;
   Relief relief_;
-  SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_, grain_;
+  SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_, grain_,
+      flush_;
+  double aged_;  ///< 0 … 1: signs of age of the skin, from 30 to 70 years
   Hair hair_;
   double scalp_hair_;
 };

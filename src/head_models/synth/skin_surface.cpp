@@ -94,9 +94,13 @@ double skin_roughness(const AtlasTexel& place, double on_lips, double hair, doub
                       smooth_step(2, 0.5, p.y());
   const double forehead =
       smooth_step(5, 2, std::abs(p.x())) * smooth_step(2.5, 4, p.y()) * smooth_step(7.5, 6, p.y());
-  double roughness = 0.57 + 0.04 * std::clamp(aged, 0.0, 1.0);
-  roughness -= front * (0.09 * nose + 0.07 * forehead);
-  roughness += on_lips * (0.34 - roughness);
+  const double cheekbone = smooth_step(
+      2.6, 1, (Eigen::Vector2d(std::abs(p.x()), p.y()) - Eigen::Vector2d(4.2, -1.9)).norm());
+  const double chin = smooth_step(2.2, 0.8, Eigen::Vector2d(p.x(), p.y() + 10).norm());
+  double roughness = 0.58 + 0.08 * std::clamp(aged, 0.0, 1.0);
+  roughness -= front * (0.14 * nose + 0.09 * forehead + 0.03 * cheekbone + 0.07 * chin);
+  // The lower lip is moist. The upper lip is drier, so that no light rim shows at its edge.
+  roughness += on_lips * ((p.y() < -7 ? 0.33 : 0.46) - roughness);
   // The inner edges of the lids are moist.
   roughness += smooth_step(1.05, 1.15, place.eye_ring_coordinate) * (0.15 - roughness);
   return roughness + hair * (0.8 - roughness);
