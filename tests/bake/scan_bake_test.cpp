@@ -334,7 +334,7 @@ TEST_F(ScanBaking, AHoleIsFilledInTheToneOfTheScan) {
   EXPECT_GT(error.size(), 300U);
   EXPECT_GT(percentile(unmatched, 0.5), 8);
   EXPECT_LT(percentile(error, 0.5), 3);
-  EXPECT_LT(percentile(error, 0.95), 6);
+  EXPECT_LT(percentile(error, 0.95), 7) << "mottles of the true skin are not filled in";
   EXPECT_LT(percentile(elsewhere, 0.5), 0.5);
 }
 

@@ -23,7 +23,7 @@ GuideRay eye_edge(const Vector2d& c) {
   // corner slightly above the inner corner.
   const double s = c.y() * (0.72 + 0.28 * c.y() * c.y());
   const double x = 1.52 * c.x() - 0.1 * s;
-  const double y = 0.47 * s + 0.07 * c.x() - 0.03;
+  const double y = (c.y() > 0 ? 0.53 : 0.47) * s + 0.07 * c.x() - 0.03;
   const double z = std::sqrt(std::max(0.0, kEyeRadius * kEyeRadius - x * x - y * y));
   // The ray is almost parallel to z. At the corners of the eye, the skin lies in front of the
   // eyeball, and a ray from the eyeball's centre would meet this skin far from (x, y).
