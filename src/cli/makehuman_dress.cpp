@@ -196,7 +196,7 @@ Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
     const double mean = (mixture[0] + mixture[1] + mixture[2]) / 3;
     for (std::size_t c = 0; c < 3; ++c) {
       const double density = mixture[c] + kGreying * (mean - mixture[c]);
-      mixed.texels[i][c] = srgb8_by_density()[static_cast<std::size_t>(density + 0.5)];
+      mixed.texels[i][c] = srgb8_by_density()[static_cast<std::size_t>(std::floor(density + 0.5))];
     }
   }
   return mixed;
