@@ -107,7 +107,7 @@ TEST(Ageing, MeetsAnAgeInYears) {
   casting.sampling.heads_tagged_old = {1, 2, 3};
   casting.sampling.heads_tagged_young = {0};
   const HeadProperties heads = properties_of_heads(casting);
-  const auto years_of = [&](std::vector<SourceWeight> weights, double years) {
+  const auto years_of = [&](const std::vector<SourceWeight>& weights, double years) {
     FacePlan face = draw_any_face(casting, 7);
     for (RegionRecipe& region : face.recipe.regions) region.weights = weights;
     const Age age = {years, AgeUnit::kYears};

@@ -71,7 +71,8 @@ class IrisCoverTest : public ::testing::Test {
   double covered_fraction() {
     write_config("{fitted_to: head_0, items: [{name: fringe, kind: hair, file: fringe.obj}]}");
     const Job job = load_job(folder_ / "config.yaml", {});
-    const PreparedHeads prepared = prepare(job.config, job.inputs, job.smoothing, folder_ / "cache");
+    const PreparedHeads prepared =
+        prepare(job.config, job.inputs, job.smoothing, folder_ / "cache");
     const FaceBuilder builder(job.config, job.inputs, prepared);
     IrisCover cover(job.config, job.inputs, [&]() -> const FaceBuilder& { return builder; });
     FacePlan face;
