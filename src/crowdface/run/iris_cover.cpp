@@ -7,6 +7,7 @@
 #include <span>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "crowdface/core/contains.h"
