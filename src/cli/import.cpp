@@ -91,16 +91,6 @@ void add_masks(const PaintedMasks& masks, const std::string& kind, const HeadReq
   }
 }
 
-/// Returns one value for each vertex: whether the vertex belongs to the skin.
-std::vector<bool> skin_of(const MakeHumanHeads& model) {
-  const Topology& topology = model.neutral().topology;
-  std::vector<bool> skin(static_cast<std::size_t>(topology.vertex_count), false);
-  for (const std::uint32_t v : vertices_of_material(topology, model.materials(), {"skin"})) {
-    skin[v] = true;
-  }
-  return skin;
-}
-
 void import_makehuman(const ImportOptions& options, const HeadRequest& request) {
   if (!options.dress && !options.textures.empty()) {
     throw UsageError("--textures: heads without --dress have no textures; add --dress");
@@ -120,7 +110,8 @@ void import_makehuman(const ImportOptions& options, const HeadRequest& request) 
           : subdivision_rounds(topology,
                                static_cast<Index>(parse_whole_number("--vertices", options.vertices,
                                                                      kMinVertices, kMaxVertices)));
-  const PaintedMasks masks = masks_of(model, options, dress ? skin_of(model) : std::vector<bool>());
+  const PaintedMasks masks =
+      masks_of(model, options, dress ? model.is_skin() : std::vector<bool>());
   const auto refined = [&](Mesh mesh, std::vector<MaterialRange>& materials) {
     for (int round = 0; round < rounds; ++round) {
       // Subdivision replaces each polygon by one quad per corner. A material range therefore begins

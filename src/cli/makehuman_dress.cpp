@@ -24,6 +24,11 @@ struct Picture {
   int width = 0, height = 0;
   bool has_alpha = false;
   std::vector<std::array<std::uint8_t, 4>> texels;
+
+  std::array<std::uint8_t, 4>& at(int x, int y) {
+    return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(x)];
+  }
 };
 
 Picture read_picture(const fs::path& path) {
@@ -76,9 +81,7 @@ Picture downsampled(Picture picture, int max_texels) {
       double alpha = 0, count = 0;
       for (int j = y * block; j < std::min((y + 1) * block, picture.height); ++j) {
         for (int i = x * block; i < std::min((x + 1) * block, picture.width); ++i) {
-          const auto& texel =
-              picture.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(picture.width) +
-                             static_cast<std::size_t>(i)];
+          const auto& texel = picture.at(i, j);
           for (std::size_t c = 0; c < 3; ++c) {
             sum[c] += light[texel[c]];
             seen[c] += texel[3] * double{light[texel[c]]};
@@ -152,9 +155,7 @@ void tone_irises(Picture& picture, const IrisLook& look) {
         inside = std::max(inside, std::clamp((kRadius - distance) / kSoft, 0.0, 1.0));
       }
       if (inside == 0) continue;
-      auto& texel =
-          picture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                         static_cast<std::size_t>(x)];
+      auto& texel = picture.at(x, y);
       const double mean = (densities[texel[0]] + densities[texel[1]] + densities[texel[2]]) / 3.0;
       for (std::size_t c = 0; c < 3; ++c) {
         const double own = densities[texel[c]];
@@ -202,8 +203,8 @@ Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
   return mixed;
 }
 
-/// Strengthens the detail of a skin, such as wrinkles: multiplies by `factor` the difference of
-/// optical density between each texel and the mean of its surroundings.
+/// Strengthens wrinkles and other detail of a skin texture: multiplies by `factor` the difference
+/// between the optical density of each texel and the mean density around the texel.
 void strengthen_detail(Picture& picture, double factor) {
   if (factor == 1) return;
   const int reach = std::max(1, picture.width / 80);
@@ -257,9 +258,7 @@ void tint_lips(Picture& picture, const PaintedMasks& mask, const std::array<doub
       const int row = y * side / picture.height, column = x * side / picture.width;
       const double weight = bytes[static_cast<std::size_t>(row * side + column) * 3] / 255.0;
       if (weight == 0) continue;
-      auto& texel =
-          picture.texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                         static_cast<std::size_t>(x)];
+      auto& texel = picture.at(x, y);
       for (std::size_t c = 0; c < 3; ++c) {
         texel[c] = srgb8_of_light(light[texel[c]] * (1 - weight + weight * tint[c]));
       }
@@ -277,11 +276,7 @@ PaintedMasks paint_lips(const MakeHumanHeads& model) {
     alpha(v, 0) = lips[static_cast<std::size_t>(v)];
     alpha(v, 1) = 1 - alpha(v, 0);
   }
-  std::vector<bool> is_skin(lips.size(), false);
-  for (const std::uint32_t v : vertices_of_material(head.topology, model.materials(), {"skin"})) {
-    is_skin[v] = true;
-  }
-  return paint_masks(head.topology, head.uvs, alpha, is_skin, kSide);
+  return paint_masks(head.topology, head.uvs, alpha, model.is_skin(), kSide);
 }
 
 /// Returns the texture coordinates of the texel in the middle of the largest opaque square.

@@ -55,8 +55,8 @@ class IrisCoverTest : public ::testing::Test {
                                         attachments, "\nrecipes: [{id: first, target: head_0}]\n",
                                         "output: {directory: out, contact_sheet: none}\n"));
   }
-  /// Writes hair whose right edge lies `beyond` iris radii beyond the centre of the eye, and which
-  /// covers everything from there to the left.
+  /// Writes hair as a wide rectangle. Its right edge lies `beyond` iris radii to the right of the
+  /// eye's centre.
   void write_hair(const std::string& name, double beyond, double ahead = kFarAhead,
                   double opacity = 1) {
     const double right = eye_centre_.x() + beyond * iris_radius_, left = right - 8 * iris_radius_;

@@ -196,7 +196,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
                               suggestion(entry.key, words_of_items(attachments))));
       continue;
     }
-    // Refuse quotas that break one of two rules:
+    // Refuse quotas that break one of these rules:
     // - A kind with an entry in `attachments.none` has no quota for the whole kind.
     // - A kind has either one quota for the whole kind, or quotas for its items and colours.
     auto& entries = entries_by_kind[item->kind];

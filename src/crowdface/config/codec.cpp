@@ -155,8 +155,7 @@ Codec<double> age_fraction() {
   Codec<double> codec = number(-1, 1);
   codec.read = [read = codec.read](const YamlNode& node,
                                    ConfigDraft& draft) -> std::optional<double> {
-    const bool is_number = node.kind == YamlNode::Kind::kScalar && parse_double(node.text);
-    const auto age = is_number ? parse_double(node.text) : std::nullopt;
+    const auto age = node.kind == YamlNode::Kind::kScalar ? parse_double(node.text) : std::nullopt;
     if (!age || *age < -1 || *age > 1) {
       return draft.complaints.add_mismatch(node,
                                            "a number from -1 to 1, or years, such as \"70 years\"");

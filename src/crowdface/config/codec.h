@@ -61,8 +61,9 @@ Codec<Range> range(const Codec<double>& value_codec);
 /// Codec for the factor on left-right differences, from 0 to kMaxAsymmetry.
 Codec<Range> asymmetry();
 /// Codec for an age from −1 (young) to 1 (old), for an age in years ("70 years"), or for a range.
-/// Refuses ages below 0 if no head has the tag `young`, ages above 0 if no head has the tag `old`,
-/// and years if the age of a head is unknown or if all heads are younger or all are older.
+/// Refuses ages below 0 if no head has the tag `young`, and ages above 0 if no head has the tag
+/// `old`. Refuses an age in years if the age of any head is unknown, or if the age is outside the
+/// range of the heads' ages.
 Codec<AgeRange> age();
 /// Codec for the extrapolation factor e, from −kMaxExtrapolation to kMaxExtrapolation.
 Codec<Range> extrapolation();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The config section `groups`.
 #include <algorithm>
+#include <cmath>
 
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
@@ -172,8 +173,8 @@ void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
 }
 
 /// Divides the remaining share equally among the groups that have neither a share nor a count.
-/// Scales shares whose sum exceeds 1 because they are rounded. Adds a complaint if the sum of the
-/// shares or of the counts is too large.
+/// If rounding makes the shares sum to slightly more than 1, scales them so that they sum to 1. Adds
+/// a complaint if the shares sum to more, or if the counts sum to more than crowd.count.
 void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   auto& groups = draft.config.groups;
   std::uint64_t counted = 0;
@@ -191,7 +192,8 @@ void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   }
   constexpr double kLargestRest = 0.02, kNoRest = 1e-9;
   if (open == 0 && shared > 1 - kLargestRest && shared < 1 - kNoRest) {
-    draft.warnings.push_back(concat(node.path, ": the shares sum to ", shared,
+    draft.warnings.push_back(concat(node.path, ": the shares sum to ",
+                                    format_number(std::round(1e6 * shared) / 1e6),
                                     ", so some faces may belong to no group; leave out the share "
                                     "of one group, which then gets all remaining faces"));
   }

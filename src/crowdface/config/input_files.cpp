@@ -269,8 +269,7 @@ std::string advice_on_path(const fs::path& path) {
     if (key(name) != key(path.filename())) continue;
     return decomposed(name) == decomposed(path.filename().string())
                ? "; a file has this name, but its accents are encoded in another way (as macOS "
-                 "does): "
-                 "rename the file"
+                 "does): rename the file"
                : concat("; did you mean ", quoted(name), "?");
   }
   return {};

@@ -110,8 +110,7 @@ void refuse_non_mesh_file(std::string_view bytes, const std::filesystem::path& p
   if (start_of_text(bytes).starts_with("<?xml")) {
     refuse(
         "XML and no mesh: if it is a web page or a server's answer, download the raw file; if it "
-        "is "
-        "COLLADA, export OBJ, FBX or GLB");
+        "is COLLADA, export OBJ, FBX or GLB");
   }
 }
 

@@ -35,18 +35,11 @@ class HeadRays {
       const PartClass of_part = parts.classes[components.component_of_vertex[t[0]]];
       if (of_part == PartClass::kBound) continue;  // rays ignore lashes and tear lines
       triangles_.push_back(t);
-      quads_.push_back({t[0], t[1], t[2], t[2]});
       is_skin_.push_back(of_part == PartClass::kSkin);
       for (const std::uint32_t v : t) box_.extend(row3(positions, v));
     }
-    std::vector<float> points;
-    points.reserve(static_cast<std::size_t>(positions.size()));
-    for (Index v = 0; v < positions.rows(); ++v) {
-      for (int c = 0; c < 3; ++c) {
-        points.push_back(static_cast<float>(positions(v, c) - box_.center()[c]));
-      }
-    }
-    scene_.emplace(device_, std::move(points), quads_);
+    quads_ = quads_of(triangles_);
+    scene_.emplace(device_, points_around(positions, box_.center()), quads_);
   }
 
   HeadPoint head_point_of(const Eigen::Vector3d& point) const {

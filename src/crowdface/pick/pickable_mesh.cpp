@@ -15,13 +15,6 @@
 namespace crowdface {
 namespace {
 
-std::vector<Quad> quads_of(const std::vector<Triangle>& triangles) {
-  std::vector<Quad> quads;
-  quads.reserve(triangles.size());
-  for (const Triangle& t : triangles) quads.push_back({t[0], t[1], t[2], t[2]});
-  return quads;
-}
-
 /// Bounding box of the triangles. Unused vertices may lie anywhere.
 Eigen::AlignedBox3d box_of(const Positions& positions, const std::vector<Triangle>& triangles) {
   Eigen::AlignedBox3d box;
@@ -30,17 +23,6 @@ Eigen::AlignedBox3d box_of(const Positions& positions, const std::vector<Triangl
   }
   if (triangles.empty()) box.extend(Eigen::Vector3d(0, 0, 0));
   return box;
-}
-
-/// Positions relative to `middle`: rays are traced in single precision, and a scan may lie far from
-/// the origin.
-std::vector<float> points_around(const Positions& positions, const Eigen::Vector3d& middle) {
-  std::vector<float> points;
-  points.reserve(static_cast<std::size_t>(positions.size()));
-  for (Index v = 0; v < positions.rows(); ++v) {
-    for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(positions(v, c) - middle[c]));
-  }
-  return points;
 }
 
 std::vector<Triangle> joined(std::vector<Triangle> triangles, const std::vector<Triangle>& more) {

@@ -94,7 +94,7 @@ Occluders occluders_of(const std::vector<Quad>& quads, const Positions& average_
   }
   ReducedMesh reduced = reduce_mesh(triangles, average_positions, kMaxOccluders);
   occluders.vertices = std::move(reduced.vertices);
-  for (const Triangle& t : reduced.triangles) occluders.quads.push_back({t[0], t[1], t[2], t[2]});
+  occluders.quads = quads_of(reduced.triangles);
   occluders.average_positions = points(average_positions(occluders.vertices, kAllColumns));
   return occluders;
 }

@@ -180,6 +180,22 @@ struct RayScene::State {
   }
 };
 
+std::vector<Quad> quads_of(const std::vector<Triangle>& triangles) {
+  std::vector<Quad> quads;
+  quads.reserve(triangles.size());
+  for (const Triangle& t : triangles) quads.push_back({t[0], t[1], t[2], t[2]});
+  return quads;
+}
+
+std::vector<float> points_around(const Positions& positions, const Eigen::Vector3d& middle) {
+  std::vector<float> points;
+  points.reserve(static_cast<std::size_t>(positions.size()));
+  for (Index v = 0; v < positions.rows(); ++v) {
+    for (int c = 0; c < 3; ++c) points.push_back(static_cast<float>(positions(v, c) - middle[c]));
+  }
+  return points;
+}
+
 RayScene::RayScene(const RayDevice& device, std::vector<float> points,
                    const std::vector<Quad>& quads, Tree tree)
     : state_(std::make_unique<State>(device.state(), std::move(points))) {

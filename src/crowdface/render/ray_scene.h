@@ -11,6 +11,9 @@
 
 #include <Eigen/Core>
 
+#include "crowdface/mesh/topology.h"
+#include "crowdface/mesh/triangles.h"
+
 namespace crowdface {
 
 /// An Embree device, shared by any number of scenes and threads.
@@ -47,6 +50,11 @@ struct RayHit {
 
 /// Vertices of a quad; a triangle repeats its last vertex.
 using Quad = std::array<std::uint32_t, 4>;
+/// Converts triangles to quads.
+std::vector<Quad> quads_of(const std::vector<Triangle>& triangles);
+/// Returns x, y, z of each vertex relative to `middle`. Rays are traced in single precision, and a
+/// mesh may lie far from the origin.
+std::vector<float> points_around(const Positions& positions, const Eigen::Vector3d& middle);
 
 /// Opacity at a point of a primitive, from 0 (hole) to 1.
 using Opacity = std::function<float(std::uint32_t primitive, float u, float v)>;

@@ -7,12 +7,11 @@
 #include <span>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include "crowdface/core/contains.h"
 #include "crowdface/heads/named_parts.h"
-#include "crowdface/mesh/all_columns.h"
+#include "crowdface/parts/component_shape.h"
 #include "crowdface/render/eyeballs.h"
 
 namespace crowdface {
@@ -64,9 +63,7 @@ std::vector<IrisCover::Eye> IrisCover::eyes_of(const Positions& positions) const
   std::vector<Eye> eyes;
   for (const Part& part : inputs_.parts.parts) {
     if (!part.is_eyeball) continue;
-    const Positions surface = positions(part.surface, kAllColumns);
-    const Eigen::AlignedBox3d box(surface.colwise().minCoeff().transpose(),
-                                  surface.colwise().maxCoeff().transpose());
+    const Eigen::AlignedBox3d box = bounding_box(positions, part.surface);
     eyes.push_back({box.center(), box.sizes().maxCoeff() / 2});
   }
   return eyes;

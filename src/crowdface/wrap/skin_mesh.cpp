@@ -37,12 +37,9 @@ Positions SkinMesh::rows_of(const Positions& positions) const {
 std::vector<double> vertex_ambient_visibility(const Positions& positions, const Positions& normals,
                                               const std::vector<Triangle>& triangles,
                                               const std::vector<std::uint32_t>& vertices) {
-  std::vector<float> points(positions.data(), positions.data() + positions.size());
-  std::vector<Quad> quads;
-  quads.reserve(triangles.size());
-  for (const Triangle& t : triangles) quads.push_back({t[0], t[1], t[2], t[2]});
+  const std::vector<Quad> quads = quads_of(triangles);
   const RayDevice device;
-  const RayScene scene(device, std::move(points), quads);
+  const RayScene scene(device, points_around(positions, Eigen::Vector3d::Zero()), quads);
   const auto rays = directions();
   std::vector<double> open(vertices.size());
   parallel_for_each(vertices.size(), 256, [&](std::size_t i) {

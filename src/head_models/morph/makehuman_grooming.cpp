@@ -7,14 +7,17 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "crowdface/core/interpolate_knots.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/triangles.h"
+#include "crowdface/render/ray_scene.h"
 
 namespace crowdface {
 namespace {
@@ -23,73 +26,29 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kParting = 46;  // where the swept hair begins, in degrees
 
-/// The triangles of a mesh, for finding the outermost point on a line.
+/// A mesh, for finding the outermost point on a line.
 class OuterSurface {
  public:
   explicit OuterSurface(const Mesh& mesh)
-      : positions_(mesh.positions), triangles_(triangles_of(mesh.topology)) {
-    for (const Triangle& triangle : triangles_) {
-      Eigen::AlignedBox3d box;
-      for (const std::uint32_t v : triangle) box.extend(positions_.row(v).transpose());
-      centres_.push_back(box.center());
-      radii_.push_back(box.diagonal().norm() / 2);
-    }
-  }
+      : quads_(quads_of(triangles_of(mesh.topology))),
+        scene_(device_, points_around(mesh.positions, Vector3d::Zero()), quads_) {}
 
   /// Returns the largest t at which the line origin + t · direction meets the mesh.
   /// \param direction  of length 1
   std::optional<double> outermost(const Vector3d& origin, const Vector3d& direction) const {
-    std::optional<double> found;
-    // Coordinates across the line: a triangle meets the line if it contains the origin there.
-    const Vector3d u = direction.unitOrthogonal(), v = direction.cross(u);
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      const Triangle& triangle = triangles_[i];
-      if ((centres_[i] - origin).cross(direction).squaredNorm() > radii_[i] * radii_[i]) continue;
-      std::array<Vector2d, 3> across;
-      std::array<double, 3> along{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vector3d place = positions_.row(triangle[k]).transpose() - origin;
-        across[k] = {place.dot(u), place.dot(v)};
-        along[k] = place.dot(direction);
-      }
-      const auto twice_area = [](const Vector2d& a, const Vector2d& b) {
-        return a.x() * b.y() - a.y() * b.x();
-      };
-      const double whole = twice_area(across[1] - across[0], across[2] - across[0]);
-      if (whole == 0) continue;
-      std::array<double, 3> share{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        share[k] = twice_area(across[(k + 1) % 3], across[(k + 2) % 3]) / whole;
-      }
-      if (std::ranges::min(share) < 0) continue;
-      const double t = share[0] * along[0] + share[1] * along[1] + share[2] * along[2];
-      found = std::max(found.value_or(t), t);
-    }
-    return found;
+    constexpr double kOutside = 60;  // centimetres; no hair is so far from the head's axis
+    const Vector3d start = origin + kOutside * direction, inwards = -direction;
+    const Ray ray{start.cast<float>(), inwards.cast<float>()};
+    const auto hit = scene_.nearest_hits(std::span(&ray, 1)).front();
+    return hit ? std::optional(kOutside - double{hit->distance}) : std::nullopt;
   }
 
  private:
-  const Positions& positions_;
-  std::vector<Triangle> triangles_;
-  std::vector<Vector3d> centres_;  ///< of the triangles' bounding spheres
-  std::vector<double> radii_;
-};
-
-/// A quantity that is given at some heights, ascending, and interpolated linearly between these.
-template <class Value>
-struct Profile {
-  std::vector<double> heights;
-  std::vector<Value> values;
-
-  Value at(double height) const {
-    const auto above = std::ranges::upper_bound(heights, height) - heights.begin();
-    if (above == 0) return values.front();
-    const auto next = static_cast<std::size_t>(above);
-    if (next == heights.size()) return values.back();
-    const double t = (height - heights[next - 1]) / (heights[next] - heights[next - 1]);
-    return (1 - t) * values[next - 1] + t * values[next];
-  }
+  RayDevice device_;
+  std::vector<Quad> quads_;
+  RayScene scene_;
 };
 
 /// A position as angle about, height along and distance from the head's vertical axis.
@@ -108,15 +67,19 @@ struct RoundTheHead {
   Vector3d position() const { return origin() + radius * direction(); }
 };
 
-/// Finds the range of angles in front of the face that is free of hair: (begin, end) in degrees, by
-/// height. The widest range without vertices counts. Where hair covers the face, the range is empty
-/// and lies at the parting.
-Profile<Vector2d> range_without_hair(const Positions& hair) {
+/// The range of angles in front of the face that is free of hair, in degrees by height: (height,
+/// angle), ascending.
+struct FreeRange {
+  std::vector<Vector2d> begin, end;
+};
+
+/// Finds the widest range without vertices at each height. Where hair covers the face, the range is
+/// empty and lies at the parting.
+FreeRange range_without_hair(const Positions& hair) {
   constexpr double kLowest = -20, kHighest = 7, kRow = 0.5;
   constexpr double kSide = 75;      // the sides of the face, in degrees
   constexpr double kNarrowest = 6;  // smaller gaps lie between strands
-  constexpr double kParting = 46;
-  Profile<Vector2d> free;
+  FreeRange free;
   for (int row = 0; kLowest + row * kRow <= kHighest; ++row) {
     const double height = kLowest + row * kRow;
     std::vector<double> angles = {-kSide, kSide};
@@ -126,15 +89,15 @@ Profile<Vector2d> range_without_hair(const Positions& hair) {
       if (near && std::abs(place.degrees) < kSide) angles.push_back(place.degrees);
     }
     std::ranges::sort(angles);
-    Vector2d widest(kParting, kParting);
+    double begin = kParting, end = kParting;
     for (std::size_t k = 1; k < angles.size(); ++k) {
-      const double width = angles[k] - angles[k - 1];
-      if (width > std::max(kNarrowest, widest.y() - widest.x())) {
-        widest = {angles[k - 1], angles[k]};
+      if (angles[k] - angles[k - 1] > std::max(kNarrowest, end - begin)) {
+        begin = angles[k - 1];
+        end = angles[k];
       }
     }
-    free.heights.push_back(height);
-    free.values.push_back(widest);
+    free.begin.push_back({height, begin});
+    free.end.push_back({height, end});
   }
   return free;
 }
@@ -143,18 +106,19 @@ Profile<Vector2d> range_without_hair(const Positions& hair) {
 
 Positions combed_aside(const Positions& hair, const Mesh& head) {
   constexpr double kBehind = -70;  // where hair stays in place, in degrees
-  // Where the swept hair may end in front, by height: beside the eye up to the brow, and at the
+  // (height, angle) at which the swept hair may end: beside the eye up to the brow, and at the
   // parting from the upper forehead on.
-  const Profile<double> allowed = {{1.6, 3, 4.5, 6.5}, {-42, -25, 10, 46}};
-  const Profile<Vector2d> free = range_without_hair(hair);
-  if (free.at(0).x() <= allowed.at(0)) return hair;  // the eyes are free
+  const std::array<Vector2d, 4> allowed = {
+      Vector2d{1.6, -42}, {3, -25}, {4.5, 10}, {6.5, kParting}};
+  const FreeRange free = range_without_hair(hair);
+  if (interpolate_knots(free.begin, 0) <= interpolate_knots(allowed, 0)) return hair;
   const OuterSurface surface(head);
   Positions combed = hair;
   for (Index v = 0; v < hair.rows(); ++v) {
     const auto before = RoundTheHead::of(hair.row(v));
-    const Vector2d range = free.at(before.height);
-    const double begin = range.x(), end = range.y();
-    const double target = std::min(begin, allowed.at(before.height));
+    const double begin = interpolate_knots(free.begin, before.height);
+    const double end = interpolate_knots(free.end, before.height);
+    const double target = std::min(begin, interpolate_knots(allowed, before.height));
     if (begin <= target || before.degrees <= kBehind || before.degrees >= end) continue;
     RoundTheHead after = before;
     after.degrees =

@@ -179,6 +179,14 @@ Positions MakeHumanHeads::fitted_to_neutral(const FittedMesh& mesh) const {
   return to_head_frame(mesh.fitted_to(mesh_.file_positions), mesh_.file_positions);
 }
 
+std::vector<bool> MakeHumanHeads::is_skin() const {
+  std::vector<bool> skin(static_cast<std::size_t>(neutral_.topology.vertex_count), false);
+  for (const std::uint32_t v : vertices_of_material(neutral_.topology, materials_, {"skin"})) {
+    skin[v] = true;
+  }
+  return skin;
+}
+
 std::vector<double> MakeHumanHeads::lip_weights() const {
   // The lips are what the targets for fuller lips move most.
   constexpr double kOutside = 0.25, kInside = 0.6;  // as fractions of the largest displacement

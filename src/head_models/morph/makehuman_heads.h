@@ -52,6 +52,8 @@ class MakeHumanHeads : public HeadModel {
   /// Fits a mesh to the average head and returns its vertices in the coordinate frame of the heads.
   Positions fitted_to_neutral(const FittedMesh& mesh) const;
 
+  /// Returns whether each vertex of neutral() belongs to the skin: #V.
+  std::vector<bool> is_skin() const;
   /// Returns how much each vertex of neutral() belongs to the lips: #V, 0 … 1.
   std::vector<double> lip_weights() const;
 

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
+#include "crowdface/core/interpolate_knots.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/smooth_step.h"
-#include "head_models/synth/knots.h"
 
 namespace crowdface::synth {
 namespace {

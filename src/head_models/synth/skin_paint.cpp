@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "crowdface/core/interpolate_knots.h"
 #include "crowdface/core/smooth_step.h"
-#include "head_models/synth/knots.h"
 #include "head_models/synth/sculpture.h"
 #include "head_models/synth/skin_surface.h"
 
