@@ -31,7 +31,6 @@ preview 2
 region 3
 render 3
 synth 3
-morph 3
 page 3
 parts 3
 traits 3
@@ -40,6 +39,7 @@ paint 4
 shapes 4
 attach 4
 blend 4
+morph 4
 cast 5
 wrap 5
 multiscale_faces 6
