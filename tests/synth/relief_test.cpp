@@ -19,13 +19,13 @@ std::vector<std::uint64_t> old_heads() {
   return heads;
 }
 
-/// How deep the deepest line of the forehead is at x, and at which height.
+/// How deep the deepest line of the forehead is at x between two heights, and at which height.
 struct Line {
   double depth = 0, y = 0;
 };
-Line deepest(const Relief& relief, double x) {
+Line deepest(const Relief& relief, double x, double lowest = 3, double highest = 7) {
   Line line;
-  for (double y = 3; y < 7; y += 0.02) {
+  for (double y = lowest; y < highest; y += 0.02) {
     const double depth = -relief.fold_height({x, y, 9});
     if (depth > line.depth) line = {depth, y};
   }
@@ -52,14 +52,18 @@ TEST(Relief, LinesOfAForeheadAreUnevenAndEachHeadsOwn) {
   Line before;
   for (const std::uint64_t head : heads) {
     const Relief relief(Identity(kReliefSeed, head), 0.02);
-    double least = 1e9, most = 0;
-    for (double x = -2.5; x <= 2.5; x += 0.1) {
-      const double depth = deepest(relief, x).depth;
-      least = std::min(least, depth);
-      most = std::max(most, depth);
+    const Line middle = deepest(relief, 0);
+    double least = middle.depth, most = middle.depth;
+    for (const double step : {-0.1, 0.1}) {  // follow the line to both sides
+      double y = middle.y;
+      for (int i = 1; i <= 25; ++i) {
+        const Line next = deepest(relief, i * step, y - 0.12, y + 0.12);
+        least = std::min(least, next.depth);
+        most = std::max(most, next.depth);
+        if (next.depth > 0) y = next.y;
+      }
     }
     broken += least < 0.6 * most ? 1 : 0;
-    const Line middle = deepest(relief, 0);
     elsewhere += std::abs(middle.y - before.y) > 0.05 ? 1 : 0;
     before = middle;
   }

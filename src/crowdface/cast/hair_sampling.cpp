@@ -167,8 +167,8 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
 }
 
 /// Returns the mean age, from 0 (young) to 1 (old), of the heads that a face is blended from. The
-/// ages of the heads are estimated from the heads' tags. As in a face's textures, half of the weight
-/// goes to the target, the other half to the heads that lend the finest detail.
+/// ages of the heads are estimated from the heads' tags. Three quarters of the weight go to the
+/// target, the others to the heads that lend the finest detail.
 double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
   const auto of_head = [&](Index head) {
     const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
@@ -187,7 +187,9 @@ double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
       detail_weight += one.weight;
     }
   }
-  return detail_weight > 0 ? (of_target + detail / detail_weight) / 2 : of_target;
+  constexpr double kTarget = 0.75;
+  return detail_weight > 0 ? kTarget * of_target + (1 - kTarget) * detail / detail_weight
+                           : of_target;
 }
 
 /// Returns the apparent age of a face, from 0 (young) to 1 (old).

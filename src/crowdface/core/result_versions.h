@@ -22,7 +22,7 @@ inline constexpr int kPatchVersion = 1;
 /// from these coordinates.
 inline constexpr int kFaceSpaceVersion = 2;
 /// Version of crowd plans; raised if the same config and heads give another plan.
-inline constexpr int kPlanVersion = 4;
+inline constexpr int kPlanVersion = 5;
 /// Version of the cache entries that all heads share: neighbours, masks at vertices, samples and
 /// their cells, mirror vertices.
 inline constexpr int kSharedCacheVersion = 1;

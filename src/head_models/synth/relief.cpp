@@ -29,40 +29,52 @@ struct Fold {
   double base, aged, spread;
   double bulge;        ///< height of a ridge left of the curve, relative to the depth
   bool paired = true;  ///< whether the fold is mirrored to x < 0
-  /// Amplitude of the irregular waves of a wrinkle's curve, cm; 0 if the fold is not a wrinkle.
-  /// Wrinkles have gaps, and fade out on coarse meshes.
-  double wave_amplitude = 0;
 };
 
 // clang-format off
 const auto& fold_list() {
   static const std::array list = {
     Fold{"lid_crease", {1.75, 0.40}, {3.1, 1.42}, {4.8, 0.42}, 0.17, 0.055, 1, 0.1, 0.3, 0},
-    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.06, 0.3, 0.5, 0.2, 0},
-    Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.48, 0.12, 0.35, 0.5, 0.2, 0.6},
-    Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.055, 0.1, 0.6, 0.2, 0.4},
-    Fold{"frown", {0.42, 1.2}, {0.6, 2.0}, {0.5, 3.0}, 0.16, 0.05, 0.05, 0.5, 0.15, 0, true, 0.12},
-    Fold{"crow_upper", {4.95, 0.3}, {5.4, 0.5}, {5.9, 1.0}, 0.11, 0.022, 0, 0.9, 0.2, 0, true, 0.12},
-    Fold{"crow_middle", {5.05, 0.0}, {5.5, -0.05}, {6.1, 0.0}, 0.11, 0.022, 0, 0.9, 0.2, 0, true, 0.12},
-    Fold{"crow_lower", {4.95, -0.3}, {5.3, -0.7}, {5.7, -1.3}, 0.11, 0.022, 0, 0.9, 0.2, 0, true, 0.12},
-    Fold{"cheek_line", {4.2, -3.6}, {4.9, -5.0}, {4.6, -6.8}, 0.55, 0.05, 0, 0.5, 0.3, 0.3},
+    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.06, 0.2, 0.9, 0.2, 0},
+    Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.48, 0.12, 0.25, 0.85, 0.2, 0.6},
+    Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.055, 0.05, 0.8, 0.2, 0.4},
+    Fold{"cheek_line", {4.2, -3.6}, {4.9, -5.0}, {4.6, -6.8}, 0.55, 0.05, -0.1, 0.7, 0.3, 0.3},
     Fold{"philtrum_ridge", {0.3, -4.95}, {0.42, -5.5}, {0.5, -6.15}, 0.26, -0.07, 1, -0.3, 0.3, 0},
     Fold{"wing_crease", {1.25, -3.0}, {2.0, -3.5}, {1.8, -4.5}, 0.24, 0.07, 0.8, 0.2, 0.2, 0},
     Fold{"lip_edge", {0.4, -6.08}, {1.0, -6.15}, {2.3, -6.85}, 0.14, -0.035, 1, -0.3, 0.2, 0},
-    Fold{"brow_one", {-4.2, 3.4}, {0, 4.1}, {4.2, 3.4}, 0.14, 0.03, 0, 0.9, 0.25, 0, false, 0.16},
-    Fold{"brow_two", {-4.2, 4.2}, {0, 4.9}, {4.2, 4.2}, 0.14, 0.03, 0, 0.9, 0.25, 0, false, 0.16},
-    Fold{"brow_three", {-3.8, 5.1}, {0, 5.7}, {3.8, 5.1}, 0.14, 0.03, -0.1, 0.9, 0.25, 0, false, 0.2},
-    Fold{"brow_four", {-3.3, 6.0}, {0, 6.5}, {3.3, 6.0}, 0.14, 0.025, -0.2, 0.8, 0.3, 0, false, 0.2},
     Fold{"chin_crease", {-1.8, -8.7}, {0, -8.5}, {1.8, -8.7}, 0.5, 0.07, 0.6, 0.1, 0.4, 0, false},
     Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.05, 0.3, 0.4, 0.3, 0, false},
     Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.05, 0.2, 0.4, 0.3, 0, false},
-    Fold{"crow_high", {5.0, 0.15}, {5.5, 0.25}, {6.1, 0.55}, 0.09, 0.014, -0.1, 1.0, 0.2, 0, true, 0.12},
-    Fold{"crow_low", {5.0, -0.15}, {5.5, -0.4}, {6.0, -0.75}, 0.09, 0.014, -0.1, 1.0, 0.2, 0, true, 0.12},
-    Fold{"under_eye_line", {2.0, -0.8}, {3.1, -1.4}, {4.6, -0.8}, 0.10, 0.025, 0, 0.9, 0.2, 0, true, 0.1},
-    Fold{"bag_line", {2.1, -1.2}, {3.1, -2.1}, {4.7, -1.4}, 0.11, 0.03, -0.1, 0.9, 0.2, 0, true, 0.12},
-    Fold{"upper_lip_line", {0.8, -5.5}, {0.85, -5.8}, {0.85, -6.2}, 0.08, 0.02, -0.2, 0.9, 0.3, 0, true, 0.1},
-    Fold{"upper_lip_line_outer", {1.5, -5.7}, {1.5, -6.0}, {1.45, -6.4}, 0.08, 0.02, -0.2, 0.9, 0.3, 0, true, 0.1},
-    Fold{"neck_line", {-4.0, -12.2}, {0, -13.2}, {4.0, -12.2}, 0.12, 0.03, 0, 0.9, 0.3, 0, false, 0.2},
+  };
+  return list;
+}
+// clang-format on
+
+/// An area of wrinkles that are arcs around a pole, or rays from the pole, in the front view.
+struct WrinkleArea {
+  std::string_view name;
+  Vector2d pole;  ///< cm
+  bool has_rays;
+  Vector2d centre, radii;  ///< the wrinkles lie in this ellipse; cm
+  double spacing;          ///< mean distance between neighbouring wrinkles, cm
+  double depth;            ///< depth of the wrinkles at Person::scaled_age() = begin + 1, cm
+  double begin;            ///< Person::scaled_age() at which these wrinkles begin
+  bool paired = true;      ///< whether the area is mirrored to x < 0
+};
+/// Half the width of a wrinkle, relative to the distance between wrinkles.
+constexpr double kWrinkleHalfWidth = 0.22;
+
+// clang-format off
+const auto& wrinkle_areas() {
+  static const std::array list = {
+    WrinkleArea{"forehead", {0, -20}, false, {0, 5.0}, {6.0, 2.9}, 0.95, 0.070, -0.1, false},
+    WrinkleArea{"frown", {0, -12}, true, {0, 2.0}, {1.3, 1.9}, 0.85, 0.07, 0.1, false},
+    WrinkleArea{"crow", {3.7, 0.1}, true, {5.7, 0.0}, {1.5, 2.2}, 0.42, 0.055, -0.1},
+    WrinkleArea{"under_eye", {3.1, 1.6}, false, {3.2, -1.5}, {2.2, 1.1}, 0.36, 0.045, 0.1},
+    WrinkleArea{"cheek", {-1.5, -5.5}, false, {5.0, -4.6}, {2.0, 3.8}, 0.6, 0.034, 0.1},
+    WrinkleArea{"upper_lip", {0, -14}, true, {0, -5.75}, {2.5, 0.9}, 0.36, 0.035, 0.4, false},
+    WrinkleArea{"lower_lip", {0, -2}, true, {0, -8.4}, {2.5, 0.8}, 0.42, 0.03, 0.6, false},
+    WrinkleArea{"neck", {0, 2}, false, {0, -13.6}, {6, 3}, 0.8, 0.06, 0.1, false},
   };
   return list;
 }
@@ -87,8 +99,8 @@ double represented_fraction(double wavelength, double edge) {
 Relief::Relief(const Identity& identity, double edge_cm)
     : fold_offset_noise_x_(mix(identity.seed(), identity.index(), 11), 1.4),
       fold_offset_noise_y_(mix(identity.seed(), identity.index(), 12), 1.4),
-      curve_noise_(mix(identity.seed(), identity.index(), 14), 1.1),
-      fold_gap_noise_(mix(identity.seed(), identity.index(), 15), 0.9),
+      wrinkle_waves_(mix(identity.seed(), identity.index(), 14), 1.1),
+      wrinkle_gaps_(mix(identity.seed(), identity.index(), 15), 0.9),
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
   const std::uint64_t seed = identity.seed(), index = identity.index();
   const double aged = identity.person().scaled_age();
@@ -102,12 +114,19 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.base + 1.25 * fold.aged * aged +
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
-      // Fade out lines that are too narrow for the mesh. Such lines would look like steps.
-      const double drawn =
-          fold.wave_amplitude > 0 ? represented_fraction(4 * fold.width, edge_cm) : 1;
-      const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided * drawn;
-      if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth);
+      const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided;
+      if (factor > 0.02) add_stroke(i, side, depth);
     }
+  }
+  for (const WrinkleArea& area : wrinkle_areas()) {
+    const std::string purpose = concat("synth/wrinkles/", area.name);
+    const auto [uniform, offset] = random_pair({seed, index, purpose});
+    const double spacing = area.spacing * (0.75 + 0.5 * uniform);
+    const double varied = std::clamp(1 + 0.35 * random_normal({seed, index, purpose}, 1), 0.3, 1.7);
+    const double years = std::clamp(aged - area.begin, 0.0, 1.8);
+    // Fade out wrinkles that are too narrow for the mesh. Such wrinkles would look like steps.
+    const double drawn = represented_fraction(2.7 * kWrinkleHalfWidth * spacing, edge_cm);
+    wrinkles_.push_back({area.depth * varied * years * drawn, spacing, offset});
   }
   const double rough = 1 + 0.25 * aged + 0.15 * identity.person().maleness;
   const auto octave = [&](std::uint64_t lane, double spacing, double amplitude) {
@@ -126,15 +145,10 @@ Relief::Relief(const Identity& identity, double edge_cm)
 
 void Relief::add_stroke(std::size_t fold_index, double side, double depth) {
   const Fold& fold = fold_list()[fold_index];
-  const double lane = 20 * static_cast<double>(fold_index) + 10 * side;
-  const double length = fold.wave_amplitude > 0 ? (fold.end - fold.start).norm() : 0;
-  Stroke stroke{{}, fold.width, depth, fold.bulge * side, lane, length, {}};
+  Stroke stroke{{}, fold.width, depth, fold.bulge * side, {}};
   for (int i = 0; i <= Stroke::kPieces; ++i) {
     const double t = static_cast<double>(i) / Stroke::kPieces;
     Vector2d p = (1 - t) * (1 - t) * fold.start + 2 * t * (1 - t) * fold.control + t * t * fold.end;
-    p += fold.wave_amplitude *
-         Vector2d(0.5 * curve_noise_.at({stroke.noise_coordinate, 0.5 * p.y(), 5}),
-                  curve_noise_.at({0.5 * p.x(), stroke.noise_coordinate, 0}));
     p.x() *= side;
     stroke.points[static_cast<std::size_t>(i)] = p;
   }
@@ -158,14 +172,9 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
     along = (static_cast<double>(i) + t) / Stroke::kPieces;
     side = ab.x() * ap.y() - ab.y() * ap.x() > 0 ? 1 : -1;
   }
-  // Fade out the fold at its ends and interruptions; then add its groove, and the ridge beside the
-  // groove.
+  // Fade out the fold at its ends; then add its groove, and the ridge beside the groove.
   const double distance = std::sqrt(nearest);
-  double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
-  if (stroke.gap_noise_length > 0)
-    taper *= smooth_step(
-        -0.7, 0.3,
-        fold_gap_noise_.at({along * stroke.gap_noise_length, stroke.noise_coordinate, 0}));
+  const double taper = smooth_step(0, 0.25, along) * smooth_step(1, 0.75, along);
   double height = -bump(distance / stroke.width);
   const double beside = side * distance * (stroke.bulge < 0 ? -1 : 1);
   height += std::abs(stroke.bulge) * bump((beside - 1.5 * stroke.width) / (1.5 * stroke.width));
@@ -183,13 +192,45 @@ double Relief::sum_of_strokes(const Vector3d& p, const Weight& weight) const {
   return front * sum;
 }
 
+double Relief::wrinkle_height(const Vector3d& p) const {
+  const double front = smooth_step(0.5, 2.5, p.z());
+  if (front <= 0) return 0;
+  double sum = 0;
+  for (std::size_t i = 0; i < wrinkle_areas().size(); ++i) {
+    const Wrinkles& wrinkles = wrinkles_[i];
+    if (wrinkles.depth <= 0) continue;
+    const WrinkleArea& area = wrinkle_areas()[i];
+    const Vector2d place(area.paired ? std::abs(p.x()) : p.x(), p.y());
+    const double inside = 1 - (place - area.centre).cwiseQuotient(area.radii).squaredNorm();
+    if (inside <= 0) continue;
+    // Coordinates along and across the wrinkles, cm.
+    const Vector2d from = place - area.pole;
+    const double below = area.centre.y() < area.pole.y() ? -1 : 1;
+    const double arc = (area.centre - area.pole).norm() * std::atan2(from.x(), below * from.y());
+    const double along = area.has_rays ? from.norm() : arc,
+                 across = area.has_rays ? arc : from.norm();
+    // Each step of the spacing has one wavy wrinkle with gaps.
+    const double lane = 20 * static_cast<double>(i) + (area.paired && p.x() < 0 ? 10 : 0);
+    const double wave = wrinkle_waves_.at({0.35 * along, 0.5 * across / wrinkles.spacing, lane});
+    const double place_in_steps = across / wrinkles.spacing + wrinkles.offset + 0.45 * wave;
+    const double number = std::round(place_in_steps);
+    const double gaps = wrinkle_gaps_.at({0.25 * along, 7 * number, lane});
+    const double off = std::abs(place_in_steps - number);
+    const double line = bump(off / kWrinkleHalfWidth) - 0.4 * bump((off - 0.36) / 0.14);
+    sum -= wrinkles.depth * std::min(1.0, 2 * inside) * smooth_step(-0.6, 0.4, gaps) * line;
+  }
+  return front * sum;
+}
+
 double Relief::fold_height(const Vector3d& p) const {
-  return sum_of_strokes(p, [](const Stroke&) { return 1; });
+  return sum_of_strokes(p, [](const Stroke&) { return 1; }) + wrinkle_height(p);
 }
 
 double Relief::fold_shade(const Vector3d& p) const {
   // The divisor is not the width itself, because wide folds would then hardly be visible.
-  return -sum_of_strokes(p, [](const Stroke& stroke) { return 1.8 / (0.15 + 0.5 * stroke.width); });
+  return -sum_of_strokes(p, [](const Stroke& stroke) {
+    return 1.8 / (0.15 + 0.5 * stroke.width);
+  }) - 9 * wrinkle_height(p);
 }
 
 double Relief::grain(const Vector3d& p) const {

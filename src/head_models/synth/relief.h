@@ -37,12 +37,6 @@ class Relief {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth, bulge;
-    /// a coordinate in the noise fields, different for each curve, so that curves are independent
-    double noise_coordinate = 0;
-    /// The curve has gaps where `fold_gap_noise_` is low. Along the curve, this noise is sampled
-    /// from (0, noise_coordinate, 0) to (gap_noise_length, noise_coordinate, 0). If
-    /// gap_noise_length is 0, the curve has no gaps.
-    double gap_noise_length = 0;
     Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
   };
   /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
@@ -52,14 +46,22 @@ class Relief {
   /// Returns the sum of the curves' contributions at a point, each multiplied by weight(curve).
   template <class Weight>
   double sum_of_strokes(const Eigen::Vector3d& position, const Weight& weight) const;
+  /// Returns the depth of wrinkles at a point as a negative height, cm; positive on their borders.
+  double wrinkle_height(const Eigen::Vector3d& position) const;
   /// Adds the curve of a fold.
   /// \param side  1, or −1 to add the mirror image of the curve at x = 0.
   void add_stroke(std::size_t fold_index, double side, double depth);
 
   std::vector<Stroke> strokes_;
   SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< displace all folds together
-  SmoothNoise curve_noise_;                                ///< displaces each fold independently
-  SmoothNoise fold_gap_noise_;  ///< folds have gaps where this noise is low
+  SmoothNoise wrinkle_waves_;
+  SmoothNoise wrinkle_gaps_;  ///< wrinkles have gaps where this noise is low
+  /// The wrinkles of an area. Lengths in cm.
+  struct Wrinkles {
+    double depth, spacing;  ///< spacing: mean distance between neighbouring wrinkles
+    double offset;          ///< 0 … 1: shifts the wrinkles by this fraction of the spacing
+  };
+  std::vector<Wrinkles> wrinkles_;
   struct Octave {
     SmoothNoise noise;
     double amplitude;
