@@ -18,7 +18,7 @@ using ::testing::IsEmpty;
 /// Two heads: a woman and an old man.
 AttachmentOptions draw_of(std::vector<AttachmentItem> items,
                           std::map<std::string, double> none = {}) {
-  return {7, std::move(items), std::move(none), {{"female"}, {"male", "old"}}};
+  return {7, std::move(items), {{"", std::move(none)}}, {{"female"}, {"male", "old"}}};
 }
 
 FacePlan face_of(std::uint64_t index, Index target = 0) {
@@ -79,6 +79,20 @@ TEST(AttachmentDraw, FollowsSharesAndNone) {
   EXPECT_NEAR(shares.at("bun"), 0.225, 0.015);
   EXPECT_NEAR(shares.at("round"), 0.2, 0.015);
   EXPECT_FALSE(shares.contains("wig"));
+}
+
+TEST(AttachmentDraw, FollowsNoneOfTheGroup) {
+  AttachmentOptions draw = draw_of({{"bob", "hair", {}, 1, {}}, {"round", "glasses", {}, 1, {}}},
+                                   {{"hair", 0.1}, {"glasses", 0.8}});
+  draw.fractions_without_item["men"] = {{"hair", 0.5}};
+  std::vector<FacePlan> men = crowd_of(4000), others = men;
+  for (FacePlan& face : men) face.group = "men";
+  for (FacePlan& face : others) face.group = "women";
+  choose_attachments(draw, {}, men);
+  choose_attachments(draw, {}, others);
+  EXPECT_NEAR(static_cast<double>(count(men, "bob")) / 4000, 0.5, 0.03);
+  EXPECT_NEAR(static_cast<double>(count(men, "round")) / 4000, 0.2, 0.03);
+  EXPECT_NEAR(static_cast<double>(count(others, "bob")) / 4000, 0.9, 0.03);
 }
 
 TEST(AttachmentDraw, LeavesOutWhatCoversTheEyes) {

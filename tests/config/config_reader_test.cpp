@@ -340,6 +340,20 @@ TEST_F(ReadConfig, AttachmentsComeFromAFolder) {
       << "the config's quotas replace them";
   EXPECT_EQ(more->attachments.quotas, (std::map<std::string, double>{{"hair", 0.9}}));
 
+  const auto grouped = read(kPlain +
+                            "attachments: {from: wardrobe, quotas: {bob: 0.5}}\n"
+                            "groups: [{name: men, none: {hair: 0.3}}, {name: women}]\n");
+  ASSERT_TRUE(grouped) << told();
+  EXPECT_EQ(grouped->groups[0].fraction_without_item_by_kind,
+            (std::map<std::string, double>{{"hair", 0.3}}));
+  EXPECT_TRUE(grouped->groups[1].fraction_without_item_by_kind.empty());
+  EXPECT_FALSE(read(kPlain + "attachments: {from: wardrobe}\n"
+                             "groups: [{name: men, none: {hear: 0.3}}]\n"));
+  EXPECT_THAT(told(), HasSubstr("no attachment is of the kind \"hear\""));
+  EXPECT_FALSE(read(kPlain + "attachments: {from: wardrobe, quotas: {hair: 0.9}}\n"
+                             "groups: [{name: men, none: {hair: 0.3}}]\n"));
+  EXPECT_THAT(told(), HasSubstr("attachments.quotas also sets hair; keep only one of the two"));
+
   EXPECT_FALSE(read(kPlain + "attachments: {from: heads}\n"));
   EXPECT_THAT(told(), HasSubstr("c.yaml:4:21: attachments.from: the file"));
   touch("wardrobe/attachments.yaml", list + "  from: elsewhere\n");

@@ -263,7 +263,10 @@ TEST_F(EffectiveConfig, HoldsWhatFoldersList) {
   touch("wardrobe/attachments.yaml",
         "attachments: {items: [{name: bob, kind: hair, file: bob.obj, tags: [female]}]}");
   touch("wardrobe/bob.obj");
-  const std::string written = round_trip(kPlain + "attachments: {from: wardrobe}\n");
+  const std::string written = round_trip(kPlain +
+                                         "attachments: {from: wardrobe}\n"
+                                         "groups: [{name: women, none: {hair: 0.25}}]\n");
+  EXPECT_THAT(written, testing::HasSubstr("none: {hair: 0.25}"));
   EXPECT_THAT(written, testing::HasSubstr("ann: [female]"));
   EXPECT_THAT(written, testing::HasSubstr("file: ../../wardrobe/bob.obj"));
 }

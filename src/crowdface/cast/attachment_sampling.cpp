@@ -257,8 +257,7 @@ class AttachmentChooser {
   /// \return  Whether the face wears an item of the kind.
   bool apply_quotas(const std::string& kind, const FacePlan& face, double drawn,
                     Items& items) const {
-    const auto none = options_.fraction_without_item_by_kind.find(kind);
-    const bool bare = none != options_.fraction_without_item_by_kind.end() && drawn < none->second;
+    const bool bare = drawn < fraction_without_item(kind, face.group.value_or(""));
     const auto found = quotas_.find(kind);
     if (found == quotas_.end()) return !bare;
     const KindQuotas& quotas = found->second;
@@ -277,6 +276,16 @@ class AttachmentChooser {
       });
     });
     return !bare;
+  }
+
+  /// Returns the fraction of a group's faces that wear no item of a kind.
+  double fraction_without_item(const std::string& kind, const std::string& group) const {
+    const auto of_group = options_.fractions_without_item.find(group);
+    if (of_group != options_.fractions_without_item.end()) {
+      const auto fraction = of_group->second.find(kind);
+      if (fraction != of_group->second.end()) return fraction->second;
+    }
+    return group.empty() ? 0 : fraction_without_item(kind, "");
   }
 
   int asked_at(std::uint64_t index, const KindQuotas& quotas) const {

@@ -18,8 +18,9 @@ namespace crowdface {
 struct AttachmentOptions {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
-  /// by kind of attachment: fraction of the faces that wear no item of this kind
-  std::map<std::string, double> fraction_without_item_by_kind;
+  /// For each group and kind, the fraction of the faces that wear no item of this kind. The entry
+  /// "" applies to kinds without a fraction of the group and to faces without a group.
+  std::map<std::string, std::map<std::string, double>> fractions_without_item;
   HeadTags tags;  ///< the tags of each head
   /// By kind, name or colour of items: the fraction of each group's sampled faces that wear an item
   /// of this kind, name or colour. A kind has either a quota of its own or quotas for some of its

@@ -177,6 +177,9 @@ struct Group {
   /// used if `count` is empty: fraction (0 … 1) of the faces that are in no group with a count
   double share = 0;
   SamplingOptions sampling;
+  /// by kind of attachment: fraction of the group's faces that wear no item of this kind; replaces
+  /// the crowd's fraction
+  std::map<std::string, double> fraction_without_item_by_kind = {};
   /// fractions of hair colours, which replace the crowd's fractions
   std::map<std::string, double> hair_colours = {};
 };

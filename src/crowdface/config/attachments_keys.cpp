@@ -136,7 +136,10 @@ std::vector<std::string> kinds_of(const Attachments& attachments) {
   return kinds;
 }
 
-void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+/// Reads the value of a key `none`: for kinds of attachments, the fraction of the faces that wear no
+/// item of the kind.
+void read_fractions_without_item(const YamlNode& node, const Attachments& attachments,
+                                 std::map<std::string, double>& fractions, ConfigDraft& draft) {
   draft.complaints.expect_map(node, "a mapping from kinds to shares, {hair: 0.1}");
   const std::vector<std::string> kinds = kinds_of(attachments);
   for (const YamlEntry& entry : node.entries) {
@@ -145,8 +148,22 @@ void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draf
       draft.complaints.add_at(entry.value, concat("no attachment is of the kind ",
                                                   quoted(entry.key), suggestion(entry.key, kinds)));
     } else if (share) {
-      attachments.fraction_without_item_by_kind[entry.key] = *share;
+      fractions[entry.key] = *share;
     }
+  }
+}
+
+void read_none(const YamlNode& node, Attachments& attachments, ConfigDraft& draft) {
+  read_fractions_without_item(node, attachments, attachments.fraction_without_item_by_kind, draft);
+}
+
+void read_none_of_group(const YamlNode& node, Group& group, ConfigDraft& draft) {
+  const Attachments& attachments = draft.config.attachments;
+  read_fractions_without_item(node, attachments, group.fraction_without_item_by_kind, draft);
+  for (const YamlEntry& entry : node.entries) {
+    if (!attachments.quotas.contains(entry.key)) continue;
+    draft.complaints.add_at(entry.value, concat("attachments.quotas also sets ", entry.key,
+                                                "; keep only one of the two"));
   }
 }
 
@@ -222,9 +239,10 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
 
 /// Returns a function that writes a mapping from words to shares. For an empty mapping, it writes
 /// an empty text, so that the key is left out.
-auto write_shares(std::map<std::string, double> Attachments::*shares) {
-  return [=](const Attachments& attachments, const WriteContext&) {
-    const auto entries = texts_of(attachments.*shares, [](const auto& share) {
+template <class Section>
+auto write_shares(std::map<std::string, double> Section::*shares) {
+  return [=](const Section& section, const WriteContext&) {
+    const auto entries = texts_of(section.*shares, [](const auto& share) {
       return yaml_entry(write_scalar(share.first), format_number(share.second));
     });
     return entries.empty() ? "" : yaml_flow_map(entries);
@@ -400,6 +418,11 @@ std::string write_attachments(const Config& config, const WriteContext& context)
 }
 
 }  // namespace
+
+Key<Group> none_of_group_key() {
+  return Key<Group>{"none", read_none_of_group, write_shares(&Group::fraction_without_item_by_kind)}
+      .with_accepted_values("`{kind: share}`, shares 0 … 1");
+}
 
 Key<Config> attachments_key() {
   return Key<Config>{"attachments", read_attachments, write_attachments, {}, attachments_starter}

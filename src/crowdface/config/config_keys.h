@@ -301,6 +301,8 @@ Key<Config> groups_key();
 /// heads of the sex with fewer heads; 0 if the starter config has no groups.
 std::size_t head_count_of_rarer_sex(const StarterFacts& facts);
 Key<Config> families_key();
+/// Makes the key `none` of a group. The section `attachments` must have been read.
+Key<Group> none_of_group_key();
 Key<Config> changes_key();
 /// Reads the changes of single faces that a config or a review requests.
 std::vector<FaceChange> read_changes(const YamlNode& node, ConfigDraft& draft);

@@ -152,6 +152,7 @@ const Keys<Group>& group_keys() {
         [=](const Group& group, const WriteContext& context) {
           return limits.write(group.sampling.traits, context);
         }}.with_accepted_values(limits.accepted_values));
+    own.push_back(none_of_group_key());
     own.push_back(hair_colours_key(&Group::hair_colours));
     // `without` must be read after all keys that name heads, because it removes heads.
     own.push_back(

@@ -225,12 +225,13 @@ AttachmentOptions attachment_options(const Config& config) {
   const Config::Attachments& placed = config.attachments;
   AttachmentOptions draw{config.crowd.seed,
                          {placed.items.begin(), placed.items.end()},
-                         placed.fraction_without_item_by_kind,
+                         {{"", placed.fraction_without_item_by_kind}},
                          config.faces.tags,
                          placed.quotas,
                          config.faces.names};
   draw.hair_colours[""] = placed.hair_colours;
   for (const Group& group : config.groups) {
+    draw.fractions_without_item[group.name] = group.fraction_without_item_by_kind;
     if (!group.hair_colours.empty()) draw.hair_colours[group.name] = group.hair_colours;
   }
   draw.twin_families = twin_families(config);
