@@ -247,6 +247,29 @@ TEST(ParseGltf, RefusesUnknownRequiredExtensionsByName) {
                [&] { mesh_of(parts); });
 }
 
+// Meshes that an artist had hidden became part of the head.
+TEST(ParseGltf, ReadsNoNodeThatIsHidden) {
+  GltfParts parts = plain_parts();
+  parts.more = R"("extensionsRequired":["KHR_node_visibility"],)";
+  const auto hide = [](const char* value) {
+    return concat(R"("extensions":{"KHR_node_visibility":{"visible":)", value, "}}");
+  };
+  const auto vertices = [&](const std::string& group, const std::string& child) {
+    parts.node = concat(R"({"mesh":0,"children":[1]},{"children":[2],)", group,
+                        R"(},{"mesh":0,"name":"cap",)", child, "}");
+    const FileMesh mesh = mesh_of(parts);
+    EXPECT_EQ(mesh.notes == std::vector<std::string>{"its hidden meshes are not used: cap"},
+              mesh.positions.rows() == 4);
+    return mesh.positions.rows();
+  };
+  EXPECT_EQ(vertices(hide("true"), hide("true")), 8);
+  EXPECT_EQ(vertices(hide("true"), hide("false")), 4);
+  EXPECT_EQ(vertices(hide("false"), hide("true")), 4);
+  parts.node = concat(R"({"mesh":0,"name":"head",)", hide("false"), "}");
+  expect_error(ExitCode::kBadData, {"scene.gltf: expected a mesh that is shown", "head; show"},
+               [&] { mesh_of(parts); });
+}
+
 TEST(ParseGltf, FillsInSparseRows) {
   GltfParts parts = plain_parts();
   parts.data = bytes_of_all(kPlaces) + bytes_of_all(kCorners) +

@@ -58,9 +58,14 @@ class GltfMeshReader {
     const GltfJson& nodes = scene.at("nodes");
     const std::vector<std::uint32_t> parents = file_.parents();
     const std::vector<Eigen::Matrix4d> worlds = file_.world_transforms(parents);
-    std::vector<bool> shown = nodes_of_scene(parents);
+    const std::vector<bool> in_scene = nodes_of_scene(parents);
+    std::vector<std::string> hidden;
     for (std::uint32_t n = 0; n < nodes.size(); ++n) {
-      if (!shown[n] || !nodes[n].contains("mesh")) continue;
+      if (!in_scene[n] || !nodes[n].contains("mesh")) continue;
+      if (is_hidden(n, parents)) {
+        hidden.push_back(nodes[n].value("name", concat("node ", n)));
+        continue;
+      }
       // The joints of a skinned mesh replace the transform of its node (glTF 2.0, section 3.7.3).
       const bool bound = nodes[n].contains("skin");
       joint_transforms_.clear();
@@ -68,6 +73,13 @@ class GltfMeshReader {
         joint_transforms_ = file_.joint_transforms(nodes[n]["skin"].get<std::size_t>(), worlds);
       }
       add_mesh(nodes[n], bound ? Eigen::Matrix4d::Identity() : worlds[n]);
+    }
+    if (points_.empty() && !hidden.empty()) {
+      file_.fail(concat("expected a mesh that is shown, found only hidden nodes: ", join(hidden),
+                        "; show the head and export again"));
+    }
+    if (!hidden.empty()) {
+      mesh_.notes.push_back(concat("its hidden meshes are not used: ", join(hidden)));
     }
     finish();
     read_texture_files(std::move(texture_files_), path_, mesh_);
@@ -78,9 +90,9 @@ class GltfMeshReader {
   /// Rejects a file that requires an unknown extension, as glTF 2.0 (section 3.12) demands.
   /// Required extensions that do not affect meshes are accepted.
   void refuse_unknown_extensions() const {
-    constexpr std::array<std::string_view, 5> kRead = {
+    constexpr std::array<std::string_view, 6> kRead = {
         "KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_meshopt_compression",
-        "KHR_meshopt_compression", "KHR_texture_transform"};
+        "KHR_meshopt_compression",    "KHR_texture_transform", "KHR_node_visibility"};
     constexpr std::array<std::string_view, 8> kNotOfMeshes = {
         "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
         "MSFT_packing_",  "KHR_lights_",  "EXT_lights_",  "KHR_xmp"};
@@ -112,6 +124,18 @@ class GltfMeshReader {
       }
     }
     return shown;
+  }
+
+  /// Whether the extension KHR_node_visibility hides the node or a node above it. Nodes form no
+  /// cycle (see GltfFile::world_transforms).
+  bool is_hidden(std::uint32_t node, const std::vector<std::uint32_t>& parents) const {
+    const GltfJson& nodes = file_.scene().at("nodes");
+    for (; node != kNoIndex; node = parents[node]) {
+      const GltfJson extensions = nodes[node].value("extensions", GltfJson::object());
+      if (!extensions.contains("KHR_node_visibility")) continue;
+      if (!extensions["KHR_node_visibility"].value("visible", true)) return true;
+    }
+    return false;
   }
 
   UvTransform uv_transform(const GltfJson& primitive) const {
