@@ -284,6 +284,73 @@ TEST(ParseUsda, InheritsMaterialsFromParents) {
   EXPECT_EQ(mesh.materials[1].name, "iris");
 }
 
+// The parts of a head that Houdini or Omniverse binds through collections had no materials.
+TEST(ParseUsda, BindsMaterialsThroughCollections) {
+  const auto materials = [](const std::string& root, const std::string& group = {}) {
+    const FileMesh mesh = mesh_of(concat(
+        "def Xform \"a\" {\n def Xform \"b\" {\n def Mesh \"face\" {\n", kSquare,
+        "def GeomSubset \"lips\" { int[] indices = [1]\n uniform token familyName = \"x\" }\n"
+        "}\n",
+        group, "\n}\n def Mesh \"eyes\" {\n", kSquare, "}\n", root, "\n}\n"));
+    std::vector<std::string> names;
+    for (const MaterialRange& range : mesh.materials) names.push_back(range.name);
+    return names;
+  };
+  const std::string skin =
+      "rel material:binding = </m/rest>\n rel collection:skin:includes = [</a/b>]\n"
+      "prepend rel material:binding:collection:skin = [</a.collection:skin>, </m/skin>]\n";
+  EXPECT_THAT(materials(skin), ElementsAre("skin", "rest"));
+  EXPECT_THAT(materials(skin + "rel collection:skin:excludes = </a/b/face>\n"),
+              ElementsAre("rest"));
+  EXPECT_THAT(materials(skin + "rel material:binding:collection:a = [</a.collection:lips>, "
+                               "</m/lips>]\n rel collection:lips:includes = </a/b/face/lips>\n"),
+              ElementsAre("skin", "lips", "rest"));
+  EXPECT_THAT(materials(skin + "uniform token collection:skin:expansionRule = \"explicitOnly\""),
+              ElementsAre("rest"));
+  EXPECT_THAT(materials("rel material:binding:collection:all = [</a.collection:outer>, </m/all>]\n"
+                        "rel collection:outer:includes = [</a.collection:inner>]\n"
+                        "rel collection:inner:includes = [</a/eyes>, </a.collection:outer>]"),
+              ElementsAre("face", "all"));
+  EXPECT_THAT(materials("rel material:binding:collection:all = [</a.collection:all>, </m/all>]\n"
+                        "uniform bool collection:all:includeRoot = 1"),
+              ElementsAre("all"));
+  const std::string near = "rel material:binding = </m/near>";
+  EXPECT_THAT(materials(skin, near), ElementsAre("near", "rest"));
+  EXPECT_THAT(materials("rel material:binding = </m/far> (\n bindMaterialAs = "
+                        "\"strongerThanDescendants\"\n)",
+                        near),
+              ElementsAre("far"));
+}
+
+TEST(ParseUsda, ReadsTextureCoordinatesOfThreeNumbers) {
+  const auto uvs = [](const char* type, const char* name) {
+    return square_with(concat(type, "[] primvars:", name,
+                              " = [(0, 0, 9), (0.5, 0, 9), (0, 1, 9), (1, 0.25, 9)] "
+                              "(interpolation = \"vertex\")"))
+        .uvs;
+  };
+  for (const auto& [type, name] : {std::pair("texCoord3f", "map_7"), std::pair("float3", "st"),
+                                   std::pair("double3", "UVMap"), std::pair("half3", "uv")}) {
+    const TextureCoordinates read = uvs(type, name);
+    ASSERT_EQ(read.rows(), 4) << type;
+    EXPECT_EQ(read.row(3), Eigen::RowVector2d(1, 0.25)) << type;
+  }
+  EXPECT_EQ(uvs("float3", "rest").rows(), 0);
+  EXPECT_EQ(square_with("texCoord2h[] primvars:st = [(0, 0), (1, 0), (0, 1), (1, 1)] "
+                        "(interpolation = \"vertex\")\nhalf2[] primvars:uv = [(0, 0)]")
+                .uvs.rows(),
+            4);
+}
+
+// Mouth and eyes were closed by polygons that USD does not show.
+TEST(ParseUsda, ReadsNoPolygonThatIsAHole) {
+  const FileMesh mesh = square_with("int[] holeIndices = [0]");
+  EXPECT_THAT(mesh.topology.corner_vertices, ElementsAre(2, 1, 3));
+  EXPECT_EQ(mesh.positions.rows(), 4);
+  expect_error(ExitCode::kBadData, {"head.usda", "expected an index below 2, found 7"},
+               [] { square_with("int[] holeIndices = [7]"); });
+}
+
 TEST(ParseUsda, ReadsTheFirstTimeSampleIfThereIsNoDefault) {
   const FileMesh mesh = mesh_of(
       "def Xform \"a\" {\n double3 xformOp:translate.timeSamples = { 1: (10, 0, 0), 2: (0, 0, 0) "

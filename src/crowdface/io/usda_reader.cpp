@@ -16,6 +16,7 @@
 #include "crowdface/io/gltf_file.h"
 #include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/srgb.h"
+#include "crowdface/io/usda_bindings.h"
 #include "crowdface/io/usda_tokens.h"
 
 namespace crowdface {
@@ -33,6 +34,7 @@ struct PrimProperty {
 
 struct Prim {
   std::string_view type, name;
+  std::string path;  ///< such as "/head/skin"
   std::map<std::string, PrimProperty, std::less<>> properties;
   std::string colours;  ///< name of the primvar
   /// names of the primvars of texture coordinates by their rank (see rank_of_uvs)
@@ -62,11 +64,6 @@ bool varies(const PrimProperty& primvar, std::size_t width) {
           primvar.interpolation == "varying");
 }
 
-/// Whether values of this type may be texture coordinates.
-bool is_uv_type(std::string_view type) {
-  return type.starts_with("texCoord2") || type.starts_with("float2") || type.starts_with("double2");
-}
-
 /// Ranks a primvar by how likely it holds texture coordinates; lower is likelier. Rank 0 is the name
 /// that USD recommends, rank 1 are the usual names of other programs. Used only for meshes whose
 /// materials name no primvar.
@@ -74,7 +71,29 @@ int rank_of_uvs(std::string_view type, std::string_view primvar) {
   const std::string name = lower_case(primvar.substr(primvar.find(':') + 1));
   if (name == "st") return 0;
   if (name == "map1" || name.starts_with("uv")) return 1;
-  return type.starts_with("texCoord2") ? 2 : 3;
+  return type.starts_with("texCoord") ? 2 : 3;
+}
+
+/// Number of numbers per value if a primvar of this type and name may be texture coordinates;
+/// otherwise 0. Vectors of three numbers are texture coordinates only if the type or the usual names
+/// say so.
+std::size_t uv_width(std::string_view type, std::string_view primvar) {
+  for (const std::string_view start : {"texCoord", "float", "double", "half"}) {
+    if (!type.starts_with(start)) continue;
+    const std::string_view rest = type.substr(start.size());
+    if (rest.starts_with('2')) return 2;
+    return rest.starts_with('3') && (start == "texCoord" || rank_of_uvs(type, primvar) < 2) ? 3 : 0;
+  }
+  return 0;
+}
+
+/// Removes the third number of each value, such as the w of texture coordinates.
+void remove_third_numbers(std::vector<double>& numbers) {
+  for (std::size_t i = 0; i < numbers.size() / 3; ++i) {
+    numbers[2 * i] = numbers[3 * i];
+    numbers[2 * i + 1] = numbers[3 * i + 1];
+  }
+  numbers.resize(numbers.size() / 3 * 2);
 }
 
 /// A rotation about axes by angles in degrees.
@@ -213,6 +232,7 @@ class UsdaReader {
       token = tokens_.next();
     }
     prim.name = token.text;
+    prim.path = concat(parent == nullptr ? std::string() : parent->path, '/', prim.name);
     token = tokens_.next();
     bool is_hidden = false;
     if (token.is('(')) {
@@ -260,7 +280,6 @@ class UsdaReader {
       meshes_[m].is_hidden = meshes_[m].is_hidden || is_hidden;
       meshes_[m].is_animated = meshes_[m].is_animated || is_animated;
       inherit("purpose", prim, meshes_[m].prim);
-      inherit("material:binding", prim, meshes_[m].prim);
     }
     if (prim.type == "Mesh") {
       meshes_.push_back(
@@ -297,16 +316,16 @@ class UsdaReader {
       if (token.is('}')) return;
       if (!token.text.ends_with(':')) token = tokens_.next();
     }
-    constexpr std::array<std::string_view, 4> kNumbers = {"points", "faceVertexCounts",
-                                                          "faceVertexIndices", "indices"};
+    constexpr std::array<std::string_view, 5> kNumbers = {
+        "points", "faceVertexCounts", "faceVertexIndices", "indices", "holeIndices"};
     const bool is_plain = name.find('.') == name.npos;  // "points.connect"
     const bool is_primvar = name.starts_with("primvars:");
     const bool is_uv_transform =
         type.starts_with("float") &&
         (name == "inputs:scale" || name == "inputs:translation" || name == "inputs:rotation");
-    // The binding for previews replaces the binding for all purposes.
-    if (name == "material:binding:preview") name = "material:binding";
-    const bool is_list = name == "xformOpOrder" || name == "material:binding";
+    const std::size_t uv_numbers = is_primvar ? uv_width(type, name) : 0;
+    const bool is_binding = name.starts_with("material:binding") || name.starts_with("collection:");
+    const bool is_list = name == "xformOpOrder" || is_binding;
     const bool is_text =
         name == "orientation" || name == "visibility" || name == "purpose" || name == "info:id" ||
         name.ends_with(".connect") ||
@@ -314,11 +333,14 @@ class UsdaReader {
     if (is_plain &&
         (std::ranges::find(kNumbers, name) != kNumbers.end() || name.starts_with("xformOp:") ||
          is_uv_transform ||
-         (is_primvar && (is_uv_type(type) || type.starts_with("color3") || type == "int[]")))) {
+         (is_primvar && (uv_numbers > 0 || type.starts_with("color3") || type == "int[]")))) {
       property.numbers = tokens_.read_numbers(name);
+      if (uv_numbers == 3) remove_third_numbers(property.numbers);
     } else {
       const UsdaToken token = tokens_.next();
-      if (token.kind == UsdaToken::Kind::kQuoted && (is_list || is_text)) {
+      const bool is_value =
+          token.kind == UsdaToken::Kind::kQuoted || (is_binding && name.ends_with(":includeRoot"));
+      if (is_value && (is_list || is_text)) {
         property.texts.emplace_back(token.text);
       }
       if (token.is('[') && is_list) {
@@ -330,7 +352,11 @@ class UsdaReader {
         tokens_.consume_group();
       }
     }
-    if (tokens_.consume('(')) property.interpolation = tokens_.consume_group();
+    if (tokens_.consume('(')) {
+      property.interpolation =
+          tokens_.consume_group(is_binding ? "bindMaterialAs" : "interpolation");
+    }
+    if (is_binding) bindings_.add(prim.path, name, property.texts, property.interpolation);
     if (property.is_time_sample) {
       tokens_.consume_group();
       if (property.numbers.empty() && property.texts.empty()) return;
@@ -340,7 +366,7 @@ class UsdaReader {
       if (!known.numbers.empty() || !known.texts.empty()) return;
       property.interpolation = known.interpolation;
     }
-    if (is_primvar && is_uv_type(type)) prim.uvs.emplace(rank_of_uvs(type, name), name);
+    if (uv_numbers > 0) prim.uvs.emplace(rank_of_uvs(type, name), name);
     if (name == "primvars:displayColor") prim.colours = name;
     known = std::move(property);
   }
@@ -483,10 +509,16 @@ class UsdaReader {
       }
     }
     std::vector<std::string> materials(faces, material_of(prim));
+    const std::string of_mesh = bindings_.material_of(prim.path);
     for (const Prim& subset : prim.subsets) {
       const PrimProperty* of = subset.find("indices");
-      if (of == nullptr || subset.find("material:binding") == nullptr) continue;
+      // A subset without a binding of its own inherits the material of its mesh.
+      if (of == nullptr || bindings_.material_of(subset.path) == of_mesh) continue;
       for (const double face : of->numbers) materials[index_of(face, faces)] = material_of(subset);
+    }
+    std::vector<bool> is_hole(faces, false);
+    if (const PrimProperty* holes = prim.find("holeIndices")) {
+      for (const double face : holes->numbers) is_hole[index_of(face, faces)] = true;
     }
     const PrimProperty* orientation = prim.find("orientation");
     const bool is_left = orientation != nullptr && !orientation->texts.empty() &&
@@ -503,7 +535,7 @@ class UsdaReader {
         if (is_new) known->second = add_uvs(prim, source, all);
         rows = &known->second;
       }
-      add_face(begin, count, is_turned, all, *rows, first, materials[f]);
+      if (!is_hole[f]) add_face(begin, count, is_turned, all, *rows, first, materials[f]);
       begin += count;
     }
   }
@@ -545,10 +577,9 @@ class UsdaReader {
   }
 
   /// The name of the material bound to the prim; without a bound material, the name of the prim.
-  static std::string material_of(const Prim& prim) {
-    const PrimProperty* binding = prim.find("material:binding");
-    if (binding == nullptr || binding->texts.empty()) return std::string(prim.name);
-    return binding->texts[0].substr(binding->texts[0].rfind('/') + 1);
+  std::string material_of(const Prim& prim) const {
+    const std::string path = bindings_.material_of(prim.path);
+    return path.empty() ? std::string(prim.name) : path.substr(path.rfind('/') + 1);
   }
 
   void finish() {
@@ -559,6 +590,7 @@ class UsdaReader {
   const std::string& name_;
   UsdaTokens tokens_;
   FileMesh mesh_;
+  UsdaBindings bindings_;
   std::vector<MeshPrim> meshes_;  ///< added to `mesh_` when all materials are known
   std::map<std::string, UvSource> uvs_of_material_;
   std::vector<double> points_, uvs_, colours_;

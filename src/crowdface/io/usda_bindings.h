@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crowdface {
+
+/// The material bindings and collections of a USD layer: the properties `material:binding…` and
+/// `collection:…` of its prims (schemas MaterialBindingAPI and CollectionAPI).
+class UsdaBindings {
+ public:
+  /// Adds a property if it is part of a binding or of a collection.
+  /// \param prim      path of the prim, such as "/head/skin".
+  /// \param property  name of the property, such as "material:binding:collection:skin".
+  /// \param values    the paths or the token that the property lists.
+  /// \param strength  value of the metadata `bindMaterialAs`; may be empty.
+  void add(const std::string& prim, const std::string& property,
+           const std::vector<std::string>& values, const std::string& strength);
+
+  /// The path of the material bound to a prim; empty if there is none. The binding of the nearest
+  /// prim above wins, unless a prim above has a binding that is stronger than its descendants. If a
+  /// prim has several bindings, the bindings through collections win.
+  std::string material_of(std::string_view prim) const;
+
+ private:
+  struct Property {
+    std::vector<std::string> values;
+    bool is_stronger = false;  ///< whether the binding is stronger than those of descendants
+  };
+  using Properties = std::map<std::string, Property, std::less<>>;
+
+  bool has_prim(std::string_view collection, std::string_view prim, int depth) const;
+  const Property* binding_at(const Properties& properties, std::string_view prim) const;
+
+  std::map<std::string, Properties, std::less<>> prims_;  ///< by path of the prim
+};
+
+}  // namespace crowdface
