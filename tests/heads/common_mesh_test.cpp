@@ -56,9 +56,14 @@ class CommonMesh : public ::testing::Test {
     return crowd;
   }
 
+  /// The corner that all triangles of a quad share, from the polygon's number.
+  using FanCorner = std::function<std::size_t(Index face)>;
+
   /// Writes a head with a vertex for each result of `copy`, and polygons in this order or the
   /// reverse order, whole or as triangles.
-  void write(std::size_t head, const Copy& copy, bool reverse = false, bool triangles = false) {
+  void write(
+      std::size_t head, const Copy& copy, bool reverse = false, bool triangles = false,
+      const FanCorner& fan_corner = [](Index) { return 0; }) {
     const ObjFile& file = original_[head];
     std::map<std::string, std::size_t> numbers;
     std::string vertices, uvs, faces;
@@ -79,6 +84,10 @@ class CommonMesh : public ::testing::Test {
         corners.push_back(concat(number->second, '/', file.topology.face_uvs(f)[c] + 1));
       }
       if (!triangles) faces += concat("f ", join(corners, " "), '\n');
+      if (corners.size() == 4) {
+        const auto first = corners.begin() + static_cast<std::ptrdiff_t>(fan_corner(f));
+        std::rotate(corners.begin(), first, corners.end());
+      }
       for (std::size_t c = 1; triangles && c + 1 < corners.size(); ++c) {
         faces += concat("f ", corners[0], ' ', corners[c], ' ', corners[c + 1], '\n');
       }
@@ -140,6 +149,41 @@ TEST_F(CommonMesh, JoinsSplitVerticesInAnotherOrder) {
   write(1, split_below_face_100, true);
   write(2, split_below_face_100, false, true);
   expect_common_mesh(used_);
+}
+
+// Programs cut a quad along its shorter diagonal, which differs from head to head.
+TEST_F(CommonMesh, DoesNotDependOnTheDiagonals) {
+  const FanCorner mixed = [](Index f) { return static_cast<std::size_t>(f % 3 == 0 ? 1 : 0); };
+  write(0, whole);
+  write(1, whole, false, true, mixed);
+  write(2, whole);
+  expect_common_mesh(used_);
+  for (std::size_t h = 0; h < 3; ++h) {
+    write(h, whole, false, true, [h](Index f) { return static_cast<std::size_t>(f) % 7 == h; });
+  }
+  const std::vector<HeadFile> heads = read();
+  for (std::size_t h = 0; h < 3; ++h) {
+    EXPECT_EQ(heads[h].mesh, heads[0].mesh);
+    EXPECT_EQ(heads[h].file.positions.rows(), used_);
+  }
+}
+
+// Blender cuts most quads of GLB heads alike; the others tore the mesh.
+TEST_F(CommonMesh, IsNotTornWhereDiagonalsDiffer) {
+  std::vector<HeadFile> heads(2);
+  for (std::size_t h = 0; h < 2; ++h) {
+    write(h, whole, false, true, [h](Index f) { return f < 3 ? h : 0; });
+    HeadFile& head = heads[h];
+    head.file = read_obj(folder_.head(folder_.names()[h]));
+    head.mesh = std::make_shared<HeadMesh>(
+        HeadMesh{head.file.topology, head.file.uvs, head.file.corner_normals});
+    head.mesh_digest = head.mesh->digest();
+    head.has_joined_vertices = true;
+  }
+  convert_to_common_mesh(heads);
+  EXPECT_EQ(heads[1].mesh, heads[0].mesh);
+  EXPECT_EQ(heads[0].mesh->topology.vertex_count, used_);
+  EXPECT_EQ(heads[1].file.positions.rows(), used_);
 }
 
 TEST_F(CommonMesh, HasThePolygonsOfMostHeads) {

@@ -86,6 +86,50 @@ TEST(SameGraph, TellsOtherGraphs) {
       match_graphs(mesh.topology, mesh.positions, triangulated(mesh.topology, 0), mesh.positions));
 }
 
+/// A thin plate whose two sides are quads with three common corners, 0, 1 and 2, as in teeth.
+Topology plate() {
+  Topology topology;
+  topology.vertex_count = 6;
+  topology.add_face(std::array{0U, 1U, 2U, 3U});
+  topology.add_face(std::array{2U, 1U, 0U, 4U});
+  topology.add_face(std::array{0U, 3U, 5U, 4U});
+  return topology;
+}
+
+// Cutting both quads along their common diagonal gives an edge of four triangles.
+TEST(SameGraph, MatchesQuadsThatShareThreeVertices) {
+  Mesh mesh;
+  mesh.topology = triangulated(plate(), 0);
+  mesh.positions = Positions::Random(6, 3);
+  std::mt19937 random(2);
+  const std::vector<std::uint32_t> to = {3, 5, 1, 0, 4, 2};
+  const Mesh other = shuffled(mesh, to, random);
+  EXPECT_EQ(match_graphs(mesh.topology, mesh.positions, other.topology, other.positions), to);
+}
+
+TEST(HasSamePolygons, WhateverTheOrderAndTheDiagonals) {
+  const Topology quads = plate();
+  Topology mixed;
+  mixed.vertex_count = 6;
+  for (const auto& face :
+       {std::array{5U, 4U, 0U}, std::array{0U, 1U, 2U}, std::array{2U, 3U, 0U},
+        std::array{4U, 2U, 1U}, std::array{1U, 0U, 4U}, std::array{0U, 3U, 5U}}) {
+    mixed.add_face(face);
+  }
+  const Topology one = triangulated(quads, 0), other = triangulated(quads, 1);
+  const std::array<Topology, 4> all = {quads, one, other, mixed};
+  for (const Topology& a : all) {
+    for (const Topology& b : all) EXPECT_TRUE(has_same_polygons(a, b));
+  }
+  Topology turned = mixed;
+  std::swap(turned.corner_vertices[0], turned.corner_vertices[1]);
+  EXPECT_FALSE(has_same_polygons(quads, turned));
+  Topology missing = mixed;
+  missing.corner_vertices[0] = 1;
+  EXPECT_FALSE(has_same_polygons(quads, missing));
+  EXPECT_FALSE(has_same_polygons(missing, other));
+}
+
 TEST(Triangulated, CutsQuadsEitherWay) {
   Topology quad;
   quad.vertex_count = 4;

@@ -88,8 +88,8 @@ struct VertexMatch {
   bool has_own_uvs = false;  ///< whether the two heads have different texture coordinates
 };
 
-/// Matches the vertices by the graph of the edges, after vertices at seams are joined. The polygons
-/// of either mesh may be triangulated.
+/// Matches the vertices by their polygons or by the graph of the edges, after vertices at seams are
+/// joined. The polygons of the head may be triangulated.
 std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& head) {
   const Topology& expected = first.mesh->topology;
   Topology found = head.mesh->topology;
@@ -104,7 +104,13 @@ std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& h
     positions = Positions(positions(copies, kAllColumns));
   }
   const Positions& there = first.file.positions;
-  auto vertices = match_graphs(expected, there, found, positions);
+  std::optional<Vertices> vertices;
+  if (has_same_polygons(expected, found)) {
+    vertices.emplace(static_cast<std::size_t>(expected.vertex_count));
+    std::iota(vertices->begin(), vertices->end(), 0U);
+  } else {
+    vertices = match_graphs(expected, there, found, positions);
+  }
   for (std::uint32_t around = 0; around < 2 && !vertices; ++around) {
     vertices = match_graphs(triangulated(expected, around), there, found, positions);
   }
@@ -241,6 +247,9 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
   std::size_t count = 0;
   const HeadFile* most = heads[0];
   for (const HeadFile* head : heads) {
+    // Corners of quads that are cut along other diagonals are not those of separate vertices.
+    const bool has_first = head->mesh == heads[0]->mesh;
+    if (!has_first && has_same_polygons(heads[0]->mesh->topology, head->mesh->topology)) continue;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;
     for (std::size_t c = 0; c < vertices.size(); ++c) {
       const std::pair key(vertices[c], head->mesh->topology.corner_vertices[c]);

@@ -4,8 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/disjoint_sets.h"
@@ -35,19 +39,21 @@ class Graph {
       for (std::uint32_t c = begin; c < end; ++c) face_of_[c] = static_cast<std::uint32_t>(f);
     }
     twins_.assign(face_of_.size(), kNoIndex);
-    std::unordered_map<std::uint64_t, std::uint32_t> edges;
-    edges.reserve(face_of_.size());
+    // The corner that starts each half-edge; kNoIndex if several polygons have the half-edge.
+    std::unordered_map<std::uint64_t, std::uint32_t> starts;
+    starts.reserve(face_of_.size());
     for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
-      is_manifold_ = edges.emplace(edge(vertex(c), vertex(next(c))), c).second && is_manifold_;
+      const auto [start, is_new] = starts.emplace(edge(vertex(c), vertex(next(c))), c);
+      if (!is_new) start->second = kNoIndex;
     }
     for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
-      const auto twin = edges.find(edge(vertex(next(c)), vertex(c)));
-      if (twin != edges.end()) twins_[c] = twin->second;
+      const auto twin = starts.find(edge(vertex(next(c)), vertex(c)));
+      if (twin == starts.end() || starts.at(edge(vertex(c), vertex(next(c)))) != c) continue;
+      twins_[c] = twin->second;
     }
     refine();
   }
 
-  bool is_manifold() const { return is_manifold_; }
   const Topology& topology() const { return topology_; }
   std::uint32_t vertex(std::uint32_t corner) const { return topology_.corner_vertices[corner]; }
   std::uint32_t next(std::uint32_t corner) const {
@@ -55,7 +61,7 @@ class Graph {
     return corner + 1 == end ? begin : corner + 1;
   }
   /// Each corner starts a half-edge. Returns the corner that starts the opposite half-edge, or
-  /// kNoIndex.
+  /// kNoIndex if there is none or if several polygons have the half-edge or the opposite one.
   std::uint32_t twin(std::uint32_t corner) const { return twins_[corner]; }
   std::uint32_t face_size(std::uint32_t corner) const {
     const auto [begin, end] = topology_.corners(face_of_[corner]);
@@ -95,7 +101,6 @@ class Graph {
   const Topology& topology_;
   std::vector<std::uint32_t> face_of_, twins_;
   std::vector<std::uint64_t> colours_;
-  bool is_manifold_ = true;
 };
 
 class Matcher {
@@ -280,7 +285,69 @@ class Matcher {
   std::vector<bool> seen_;  ///< polygons of a that the traversal has visited
 };
 
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// The triangle x, y, z, beginning with its smallest vertex.
+Triangle triangle_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+  Triangle triangle = {x, y, z};
+  std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
+  return triangle;
+}
+
+/// The triangles of a mesh's polygons, sorted.
+std::vector<Triangle> sorted_triangles(const Topology& topology) {
+  const Topology triangles = triangulated(topology, 0);
+  std::vector<Triangle> sorted;
+  for (Index f = 0; f < triangles.face_count(); ++f) {
+    const std::span<const std::uint32_t> face = triangles.face(f);
+    sorted.push_back(triangle_of(face[0], face[1], face[2]));
+  }
+  std::ranges::sort(sorted);
+  return sorted;
+}
+
 }  // namespace
+
+bool has_same_polygons(const Topology& a, const Topology& b) {
+  if (a.vertex_count != b.vertex_count) return false;
+  const std::vector<Triangle> of_a = sorted_triangles(a), of_b = sorted_triangles(b);
+  if (of_a.size() != of_b.size()) return false;
+  std::multiset<Triangle> only_a, only_b;
+  std::ranges::set_difference(of_a, of_b, std::inserter(only_a, only_a.end()));
+  std::ranges::set_difference(of_b, of_a, std::inserter(only_b, only_b.end()));
+  // For each half-edge of the remaining triangles of a, the third vertices.
+  std::multimap<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> third_vertices;
+  for (const auto& [x, y, z] : only_a) {
+    third_vertices.emplace(std::pair(x, y), z);
+    third_vertices.emplace(std::pair(y, z), x);
+    third_vertices.emplace(std::pair(z, x), y);
+  }
+  const auto take = [](std::multiset<Triangle>& from, const Triangle& t, const Triangle& u) {
+    const auto first = from.find(t), second = from.find(u);
+    if (first == from.end() || second == from.end()) return false;
+    from.erase(first);
+    from.erase(second);
+    return true;
+  };
+  // The triangles x, y, z and x, z, w of a quad in a are x, y, w and y, z, w in b.
+  const std::vector<Triangle> triangles(only_a.begin(), only_a.end());
+  for (Triangle triangle : triangles) {
+    for (int turn = 0; turn < 3; ++turn) {
+      const std::uint32_t x = triangle[0], y = triangle[1], z = triangle[2];
+      const auto [begin, end] = third_vertices.equal_range({x, z});
+      const bool is_cut_otherwise = std::any_of(begin, end, [&](const auto& edge) {
+        const std::uint32_t w = edge.second;
+        const Triangle first = triangle_of(x, y, z), second = triangle_of(x, z, w);
+        return only_a.contains(first) && only_a.contains(second) &&
+               take(only_b, triangle_of(x, y, w), triangle_of(y, z, w)) &&
+               take(only_a, first, second);
+      });
+      if (is_cut_otherwise) break;
+      std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
+    }
+  }
+  return only_a.empty() && only_b.empty();
+}
 
 std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,
                                                        const Positions& expected_positions,
@@ -291,7 +358,6 @@ std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,
     return std::nullopt;
   }
   const Graph a(expected), b(found);
-  if (!a.is_manifold() || !b.is_manifold()) return std::nullopt;
   return Matcher(a, expected_positions, b, found_positions).match();
 }
 

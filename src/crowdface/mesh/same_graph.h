@@ -15,12 +15,17 @@ namespace crowdface {
 /// traverses each component polygon by polygon from a vertex with the rarest label. If a component
 /// matches in several ways, as a symmetric sphere does, the function takes the match with the
 /// smallest distances between positions.
+/// The traversal does not cross edges that have more than two polygons.
 /// \return for each vertex of `expected`, the matching vertex of `found`. Nothing if the graphs
-///         differ or if an edge has more than two polygons.
+///         differ.
 std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,
                                                        const Positions& expected_positions,
                                                        const Topology& found,
                                                        const Positions& found_positions);
+
+/// Whether two meshes have the same polygons on the same vertices. The polygons may have different
+/// orders, and quads may be cut into triangles along different diagonals.
+bool has_same_polygons(const Topology& a, const Topology& b);
 
 /// Cuts polygons into fans of triangles. All triangles of a quad share the quad's corner
 /// `fan_corner`, counted from 0. All triangles of another polygon share the polygon's first corner.
