@@ -60,6 +60,30 @@ TEST(Yaml, CarriageReturnsChangeNothing) {
   EXPECT_EQ(place_of(*root, {"b", "c"}), "f:3:6");
 }
 
+// Editors of old Macs and of Windows write such files.
+TEST(Yaml, ReadsLonelyCarriageReturnsAndUtf16) {
+  const std::string lines = "a: 1\rb:\r  c: x\r";
+  std::string little = "\xFF\xFE", big = "\xFE\xFF";
+  for (const char c : lines) {
+    little += {c, '\0'};
+    big += {'\0', c};
+  }
+  for (const std::string& text : {lines, little, big}) {
+    const auto [root, problems] = parse(text);
+    ASSERT_TRUE(root && problems.empty());
+    EXPECT_EQ(root->find("a")->value.text, "1");
+    EXPECT_EQ(place_of(*root, {"b", "c"}), "f:3:6");
+  }
+}
+
+TEST(Yaml, NamesCommentsAndQuotesMayHaveNoBreakSpaces) {
+  const auto [root, problems] =
+      parse("a: x\u00a0y #\u00a0z\u00a0\nb: ['\u3000', \"\u00a0: 'q'\u00a0\", it's\u00a0ok]\n");
+  ASSERT_TRUE(root && problems.empty());
+  EXPECT_EQ(root->find("a")->value.text, "x\u00a0y");
+  EXPECT_EQ(root->find("b")->value.items[1].text, "\u00a0: 'q'\u00a0");
+}
+
 TEST(Yaml, PlacesAnEmptyValueAtItsKey) {
   const auto [root, problems] = parse("a:\nb: ~\nc: null\nd: 'null'\ne: [1, , 2]\n");
   ASSERT_TRUE(root && problems.empty());
@@ -140,7 +164,12 @@ INSTANTIATE_TEST_SUITE_P(Bytes, MalformedYaml,
                                                    "f:1:1", "UTF-16"},
                                          Malformed{"a: \x01\n", "f:1:4", "control character"},
                                          Malformed{"a: \x7f\n", "f:1:4", "control character"},
-                                         Malformed{"a: 1\rb: 2\n", "f:1:5", "control character"},
+                                         Malformed{"a: \x02\n", "f:1:4", "save the file as UTF-8"},
+                                         Malformed{"a:\u00a01\n", "f:1:3", "plain space"},
+                                         Malformed{"a:\n\u00a0 b: 1\n", "f:2:1", "plain space"},
+                                         Malformed{"a:\n  -\u3000b\n", "f:2:4", "plain space"},
+                                         Malformed{"a: x\u2003\r\nb: 1\n", "f:1:5", "plain space"},
+                                         Malformed{"a\u202f: 'x'\n", "f:1:2", "plain space"},
                                          Malformed{"a: 1\n\tb: 2\n", "f:2:1", "tab"},
                                          Malformed{"a:\n  \t- b\n", "f:2:3", "tab"}));
 

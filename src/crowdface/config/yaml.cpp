@@ -13,6 +13,7 @@
 #include "crowdface/config/yaml_text.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/legacy_text.h"
 
 namespace crowdface {
 namespace {
@@ -255,7 +256,10 @@ std::string explain(const std::string& message) {
 
 std::optional<YamlNode> parse_yaml(std::string_view text, const std::string& source,
                                    Complaints& out) {
-  const YamlText checked(text, source);
+  // A text that is too long or is invalid UTF-16 stays as it is, so that find_problem reports it.
+  std::string plain;
+  if (text.size() <= input_limits().yaml_bytes) plain = plain_text(text);
+  const YamlText checked(plain.empty() ? text : plain, source);
   if (const auto problem = checked.find_problem()) {
     out.add(problem->place, problem->message);
     return std::nullopt;

@@ -11,8 +11,8 @@ namespace crowdface {
 
 /// Parses one YAML document. Adds a complaint about everything that is not plain YAML: syntax
 /// errors, duplicate keys (the second key is refused), anchors and aliases, tags, several
-/// documents, bytes that are not UTF-8, and inputs beyond the limits (100,000 values; by default 1
-/// MiB and 64 levels of nesting, see input_limits).
+/// documents, text that is neither UTF-8 nor UTF-16 with a byte-order mark, and inputs beyond the
+/// limits (100,000 values; by default 1 MiB and 64 levels of nesting, see input_limits).
 ///
 /// \param source  name of the file in messages.
 /// \return        the tree without the refused parts; nothing after a syntax error.

@@ -28,6 +28,47 @@ std::size_t find_indenting_tab(std::string_view line) {
   return line.substr(0, text).find('\t');
 }
 
+/// Number of bytes of the blank of a word processor that the text starts with, such as a no-break
+/// space; 0 if the text starts otherwise. YAML takes these blanks for letters.
+std::size_t other_blank_length(std::string_view text) {
+  for (const std::string_view blank :
+       {"\u00a0", "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005", "\u2006", "\u2007",
+        "\u2008", "\u2009", "\u200a", "\u200b", "\u202f", "\u205f", "\u3000", "\ufeff"}) {
+    if (text.starts_with(blank)) return blank.size();
+  }
+  return 0;
+}
+
+/// Returns the offset of the first blank of a word processor that stands where YAML needs a space:
+/// at the start or the end of a line, or beside ':'. Returns npos if there is none. Ignores
+/// comments and quoted text; inside names, these blanks are allowed.
+std::size_t find_other_blank(std::string_view line) {
+  char quote = '\0';
+  bool is_after_space = true, needs_space = true;
+  std::size_t blank = line.npos;  // first other blank since the last letter
+  for (std::size_t at = 0; at < line.size(); ++at) {
+    const char c = line[at];
+    const std::size_t length = other_blank_length(line.substr(at));
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (length > 0) {
+      if (needs_space) return at;
+      blank = std::min(blank, at);
+      at += length - 1;
+    } else if (c == '#' && is_after_space) {
+      break;
+    } else if (c == ':' && blank != line.npos) {
+      return blank;
+    } else if (c != ' ' && c != '\t' && c != '\r' && c != '\n') {
+      if (needs_space && (c == '"' || c == '\'')) quote = c;
+      needs_space = c == ':' || (c == '-' && needs_space) || c == '[' || c == '{' || c == ',';
+      blank = line.npos;
+    }
+    is_after_space = c == ' ' || c == '\t';
+  }
+  return quote == '\0' ? blank : line.npos;
+}
+
 }  // namespace
 
 YamlText::YamlText(std::string_view text, const std::string& source)
@@ -82,20 +123,26 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
     }
     if (is_control(rest)) {
       return Problem{place_of(at), concat("a control character, ", quoted(rest.substr(0, 1)),
-                                          ", is not allowed in a config")};
+                                          ", is not allowed in a config; save the file as UTF-8 "
+                                          "text")};
     }
     at += length;
   }
-  // Search the indentation of each line for tabs, which JSON may have.
+  // Search each line for tabs in the indentation, which JSON may have, and for other blanks.
   const std::size_t first = text_.find_first_not_of(" \t\r\n");
   const bool is_json = first != text_.npos && (text_[first] == '{' || text_[first] == '[');
   if (is_json) return std::nullopt;
   for (std::size_t row = 0; row < line_starts_.size(); ++row) {
     const std::size_t end = row + 1 < line_starts_.size() ? line_starts_[row + 1] : text_.size();
-    const std::size_t tab =
-        find_indenting_tab(text_.substr(line_starts_[row], end - line_starts_[row]));
+    const std::string_view line = text_.substr(line_starts_[row], end - line_starts_[row]);
+    const std::size_t tab = find_indenting_tab(line);
     if (tab != std::string_view::npos) {
       return Problem{place_of(line_starts_[row] + tab), "a tab in the indentation; use spaces"};
+    }
+    const std::size_t blank = find_other_blank(line);
+    if (blank != std::string_view::npos) {
+      return Problem{place_of(line_starts_[row] + blank),
+                     "a no-break space or another special blank; replace it by a plain space"};
     }
   }
   return std::nullopt;

@@ -27,7 +27,8 @@ class YamlText {
     std::string message;
   };
   /// Returns the first problem of these kinds: the file is too long, is not UTF-8, contains a
-  /// control character, or has a tab in the indentation of a line.
+  /// control character, has a tab in the indentation of a line, or has a no-break space or another
+  /// special blank where YAML needs a space.
   std::optional<Problem> find_problem() const;
 
   /// Returns whether the value at this position is written as `~` or `null`.
