@@ -55,6 +55,33 @@ TEST_F(ReadConfig, HeadsAreSortedAndHiddenFilesAndFoldersLeftOut) {
   EXPECT_THAT(config->faces.names, ElementsAre("Zoe", "ann", "bob", "cyd"));
 }
 
+// An array of weights was a head, and an array of four heads was one.
+TEST_F(ReadConfig, FoldersSayWhichArraysAreNoHeads) {
+  const auto write = [&](const std::string& name, const std::string& shape) {
+    const std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': " + shape + "}\n";
+    touch(name,
+          std::string("\x93NUMPY\x01\0", 8) + static_cast<char>(header.size()) + '\0' + header);
+  };
+  for (const char* name : {"heads/faces.npy", "points/faces.npy"}) write(name, "(9, 3)");
+  for (const char* name : {"points/ann.npy", "points/bob.npy"}) write(name, "(7, 3)");
+  write("points/all.npy", "(4, 7, 3)");
+  write("points/weights.npy", "(7,)");
+  write("points/turned.npy", "(3, 7)");
+  touch("points/scan.stl");
+  EXPECT_THAT(left_out_meshes_message(folder_ / "heads"),
+              ::testing::HasSubstr("left out is faces.npy (1)"));
+  const std::string left_out =
+      "left out are all.npy (it has 4 heads: save each head to its own "
+      "file), scan.stl, weights.npy (an array of 7 is no list of points) (3)";
+  EXPECT_TRUE(left_out_meshes_message(folder_ / "points").ends_with(left_out))
+      << left_out_meshes_message(folder_ / "points");
+  std::string of_pattern;
+  const auto heads = heads_matching(folder_ / "points" / "*", of_pattern);
+  EXPECT_EQ(heads, list_heads(folder_ / "points"));
+  EXPECT_EQ(names_of_heads(heads), (std::vector<std::string>{"ann", "bob", "turned"}));
+  EXPECT_TRUE(of_pattern.ends_with(left_out)) << of_pattern;
+}
+
 TEST_F(ReadConfig, FilesKeepTheirOrder) {
   const auto config = read(
       "schema: 1\ncrowd: {name: a, count: 0}\n"

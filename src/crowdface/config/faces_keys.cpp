@@ -68,8 +68,9 @@ void read_head_directory(const YamlNode& node, Faces& faces, ConfigDraft& draft)
 void read_file_pattern(const YamlNode& node, Faces& faces, ConfigDraft& draft) {
   const auto pattern = path("a pattern").read(node, draft);
   if (!pattern) return;
-  std::vector<fs::path> files = files_matching(*pattern);
-  std::erase_if(files, [](const fs::path& file) { return !is_head_file(file); });
+  std::string left_out;
+  const std::vector<fs::path> files = heads_matching(*pattern, left_out);
+  if (!left_out.empty()) log_warning(left_out);
   draft.are_heads_known = expect_head_count(
       node, files.size(), concat(" that match ", quoted(node.text)), draft.complaints);
   add_heads(files, std::vector<const YamlNode*>(files.size(), &node), faces, draft);

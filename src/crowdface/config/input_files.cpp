@@ -17,6 +17,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/decomposed_text.h"
 #include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/npy_array.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -53,6 +54,58 @@ bool may_hold_mesh(const fs::path& path) {
   return endings.contains(lower_case(path.extension().string())) || is_head_file(path);
 }
 
+/// Returns why a file that has the extension of heads is none: a NumPy array with the wrong shape.
+/// Empty for other files.
+std::string objection_to_array(const fs::path& file) {
+  const bool is_array = lower_case(file.extension().string()) == ".npy";
+  const auto shape = is_array ? npy_shape(file) : std::nullopt;
+  if (!shape) return {};
+  if (shape->size() == 3 && shape->back() == 3 && shape->front() != 1) {
+    return concat("it has ", shape->front(), " heads: save each head to its own file");
+  }
+  // The reader of an array of 3 by n says that its transpose is needed.
+  if (shape->size() >= 2 && (shape->back() == 3 || shape->front() == 3)) return {};
+  std::string sizes;
+  for (const std::size_t size : *shape) sizes += concat(sizes.empty() ? "" : " by ", size);
+  return concat("an array of ", sizes, " is no list of points");
+}
+
+/// Returns a message about files that are not read although they may hold meshes, and why. Empty if
+/// there are no such files.
+/// \param where  the folder or the pattern, for the message.
+/// \param to_read_all  advice for the case that other files are heads, too.
+std::string left_out_message(const std::string& where, const std::vector<fs::path>& files,
+                             const std::vector<fs::path>& heads, const std::string& to_read_all) {
+  const bool are_arrays = !heads.empty() && lower_case(heads[0].extension().string()) == ".npy";
+  std::vector<std::string> others;
+  bool has_heads = false, has_objection = false;
+  for (const fs::path& file : files) {
+    if (contains(heads, file)) continue;
+    const bool is_faces =
+        lower_case(file.extension().string()) == ".npy" && !is_head_file(file) && !are_arrays;
+    if (!may_hold_mesh(file) && !is_faces) continue;
+    const std::string objection = objection_to_array(file);
+    has_objection = has_objection || (!objection.empty() && !is_faces);
+    has_heads = has_heads || (is_head_file(file) && objection.empty());
+    others.push_back(objection.empty() || is_faces
+                         ? file.filename().string()
+                         : concat(file.filename().string(), " (", objection, ")"));
+  }
+  if (others.empty()) return {};
+  constexpr std::size_t kNamed = 5;
+  const std::size_t count = others.size();
+  if (count > kNamed) {
+    others.resize(kNamed);
+    others.emplace_back("…");
+  }
+  // No pattern reads files of other formats than those of heads.
+  return concat(quoted(where), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
+                count, ")",
+                has_heads       ? to_read_all
+                : has_objection ? ""
+                                : ": no format of heads; export the heads as OBJ");
+}
+
 /// Returns whether a name matches a pattern with the wildcards `*` and `?`. After a mismatch, the
 /// most recent asterisk takes one more character of the name. Earlier asterisks keep their
 /// characters, so the number of steps is at most the product of the two lengths.
@@ -83,6 +136,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
     return ending == ".gltf" ? ".glb" : ending;
   };
   std::vector<fs::path> files = visible_files(folder, is_head_file);
+  std::erase_if(files, [](const fs::path& file) { return !objection_to_array(file).empty(); });
   // If there are fewer than two OBJ files, find the most frequent format; OBJ wins a tie.
   std::map<std::string, std::size_t> counts;
   for (const fs::path& file : files) ++counts[ending_of(file)];
@@ -105,31 +159,23 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
 }
 
 std::string left_out_meshes_message(const fs::path& folder) {
-  const std::vector<fs::path> heads = list_heads(folder);
-  std::vector<std::string> others;
-  for (const fs::path& file : visible_files(folder, may_hold_mesh)) {
-    if (std::ranges::find(heads, file) == heads.end()) {
-      others.push_back(file.filename().string());
-    }
-  }
-  if (others.empty()) return {};
-  // No pattern reads files of other formats than those of heads.
-  const bool has_heads = std::ranges::any_of(others, is_head_file);
-  constexpr std::size_t kNamed = 5;
-  const std::size_t count = others.size();
-  if (count > kNamed) {
-    others.resize(kNamed);
-    others.emplace_back("…");
-  }
-  return concat(
-      quoted(folder.string()), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
-      count,
-      has_heads
-          ? concat("): the heads of a folder are its OBJ files, or the files of the most frequent "
-                   "format; to read other formats too, write files: \"",
-                   (folder.filename() / "*").string(),
-                   "\", or convert the files with crowdface convert")
-          : "): no format of heads; export the heads as OBJ");
+  const auto any = [](const fs::path&) { return true; };
+  return left_out_message(
+      folder.string(), visible_files(folder, any), list_heads(folder),
+      concat(": the heads of a folder are its OBJ files, or the files of the most frequent format; "
+             "to read other formats too, write files: \"",
+             (folder.filename() / "*").string(),
+             "\", or convert the files with crowdface convert"));
+}
+
+std::vector<fs::path> heads_matching(const fs::path& pattern, std::string& left_out) {
+  const std::vector<fs::path> files = files_matching(pattern);
+  std::vector<fs::path> heads = files;
+  std::erase_if(heads, [](const fs::path& file) {
+    return !is_head_file(file) || !objection_to_array(file).empty();
+  });
+  left_out = left_out_message(pattern.string(), files, heads, "");
+  return heads;
 }
 
 std::vector<fs::path> files_matching(const fs::path& pattern) {

@@ -18,8 +18,9 @@ inline constexpr std::size_t kMinHeads = 2, kMaxHeads = 50;
 /// Lists the files in a folder that are heads, sorted by name: all OBJ files. If there are fewer
 /// than two OBJ files, and another format (see is_head_file) is more frequent, also lists the files
 /// of the most frequent format, except files that have the same stem as an OBJ file. Ignores
-/// subfolders and hidden files, such as the "._head.obj" that some systems create. Includes
-/// symbolic links to missing files, so that these are reported as missing.
+/// subfolders, NumPy arrays that are not the points of one head, and hidden files, such as the
+/// "._head.obj" that some systems create. Includes symbolic links to missing files, so that these
+/// are reported as missing.
 ///
 /// \throws MissingInput if the folder cannot be read.
 std::vector<std::filesystem::path> list_heads(const std::filesystem::path& folder);
@@ -50,6 +51,12 @@ std::string objection_to_head_name(const std::string& name, const std::filesyste
 ///
 /// \throws MissingInput if a folder cannot be read.
 std::vector<std::filesystem::path> files_matching(const std::filesystem::path& pattern);
+
+/// Returns the files that match a pattern and may be heads.
+/// \param left_out  receives a message about matching files that may contain a mesh, but no head;
+///                  empty if there are none.
+std::vector<std::filesystem::path> heads_matching(const std::filesystem::path& pattern,
+                                                  std::string& left_out);
 
 /// Returns the name of each head: the stem of the file's name. If two stems are equal, the names
 /// consist of the parts in which the paths differ. The name of "people/ann/neutral.obj" is then

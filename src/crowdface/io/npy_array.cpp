@@ -141,6 +141,17 @@ NpyArray parse_npy(std::string_view bytes, const std::string& name) {
   return array;
 }
 
+std::optional<std::vector<std::size_t>> npy_shape(const std::filesystem::path& path) {
+  constexpr std::size_t kLongestHeader = 1000;
+  try {
+    const MappedFile file(path);
+    const std::string_view header = file.bytes().substr(0, kLongestHeader);
+    if (header.starts_with(kNpyMagic)) return shape_of(header);
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): whoever reads the file says why not
+  }
+  return std::nullopt;
+}
+
 NpyArray read_npy_array(const std::filesystem::path& path) {
   return parse_npy(MappedFile(path).bytes(), path.string());
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,8 @@ struct NpyArray {
 /// \param name  of the file, for messages.
 /// \throws InvalidInput.
 NpyArray parse_npy(std::string_view bytes, const std::string& name);
+/// The shape of the array in a file. Nothing if the file cannot be read or has another format.
+std::optional<std::vector<std::size_t>> npy_shape(const std::filesystem::path& path);
 /// Reads a file in NumPy's format.
 /// \throws MissingInput, InvalidInput.
 NpyArray read_npy_array(const std::filesystem::path& path);
