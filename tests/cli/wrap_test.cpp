@@ -91,6 +91,10 @@ TEST_F(Wrap, ABatchReadsLandmarksInEachFormatAndNoHiddenFiles) {
   fs::copy(head(2), scans_ / "table.obj");
   fs::copy(head(2), scans_ / "list.obj");
   fs::copy(head(2), scans_ / "short.obj");
+  fs::copy(head(2), scans_ / "array.obj");
+  const std::string header = "{'descr': '<i1', 'fortran_order': False, 'shape': (2,)}\n";
+  folder_.write("scans/array.npy", std::string("\x93NUMPY\x01\0", 8) +
+                                       static_cast<char>(header.size()) + '\0' + header + "ab");
   folder_.write("scans/table.csv", rows);
   folder_.write("scans/list.json", json);
   folder_.write("scans/short.yml", concat("scan: ", kPlaces));
@@ -105,9 +109,30 @@ TEST_F(Wrap, ABatchReadsLandmarksInEachFormatAndNoHiddenFiles) {
   for (const char* scan : {"table.obj", "list.obj", "short.obj"}) {
     EXPECT_THAT(said, ::testing::ContainsRegex(concat(scan, ": [0-9]+ triangles, 7 landmarks")));
   }
+  EXPECT_THAT(said, ::testing::HasSubstr("array.obj: "));
+  EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("array.npy: ")));
   EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("._table")));
   EXPECT_THAT(said, ::testing::ContainsRegex("notes.txt.*the file is not used"));
   EXPECT_THAT(said, ::testing::ContainsRegex("notes.json.*the file is not used"));
+}
+
+// `wrap` gave heads names that `init` and `generate` refuse.
+TEST_F(Wrap, ABatchGivesHeadsNamesThatACrowdTakes) {
+  const auto dry_run = [&](int code, std::initializer_list<std::string> words) {
+    return crowdface(code,
+                     {"wrap", "--batch", scans_.string(), "--template", head(1).string(),
+                      "--landmarks", landmarks_.string(), "-o", folder_ / "out", "--dry-run"},
+                     words)
+        .err;
+  };
+  fs::copy(head(2), scans_ / "Jos\u00e9 Mu\u0308ller (2).obj");
+  folder_.write("scans/Jos\u00e9 Mu\u0308ller (2).csv",
+                "a,400\nb,900\nc,1500\nd,2100\ne,2700\nf,3300\ng,3900\n");
+  const std::string said = dry_run(0, {"its head is called \"Jose_Muller__2_\"", "7 landmarks"});
+  EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("synth_02.obj: its head")));
+  fs::copy(head(2), scans_ / "all.obj");
+  fs::copy(head(2), scans_ / "Jose Muller [2].ply");
+  dry_run(64, {"cannot have the name \"all\"", "wrapped to the same head, \"Jose_Muller__2_\""});
 }
 
 TEST_F(Wrap, ShardsShareABatchAndThePageShowsTheMostDoubtfulFirst) {

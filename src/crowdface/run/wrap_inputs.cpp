@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/error.h"
@@ -12,6 +13,7 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
+#include "crowdface/io/decomposed_text.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/read_mesh.h"
@@ -115,6 +117,10 @@ std::optional<PoseHint> pose_hint(const WrapOptions& options) {
   return hint;
 }
 
+bool is_array(const fs::path& file) {
+  return lower_case(file.extension().string()) == ".npy";
+}
+
 }  // namespace
 
 LengthUnit parse_unit(const std::string& option, const std::string& text) {
@@ -140,20 +146,48 @@ std::vector<fs::path> list_files_with_extensions(const fs::path& folder,
   return files;
 }
 
+std::string head_name_of_scan(const fs::path& scan) {
+  std::string name;
+  for (const char c : decomposed(scan.stem().string())) {
+    const bool is_mark = (static_cast<unsigned char>(c) & 0xFEU) == 0xCCU;
+    if (is_valid_name(concat('a', c))) {
+      name += c;
+    } else if (!is_utf8_continuation(c) && !is_mark) {
+      name += '_';
+    }
+  }
+  return name;
+}
+
 std::vector<fs::path> list_scans(const fs::path& folder) {
   std::vector<std::string> endings(mesh_extensions().begin(), mesh_extensions().end());
   std::vector<fs::path> scans = list_files_with_extensions(folder, endings);
+  // An array beside a scan of the same name holds landmarks, and faces.npy holds polygons.
+  std::set<std::string> stems;
+  for (const fs::path& scan : scans) {
+    if (!is_array(scan)) stems.insert(scan.stem().string());
+  }
+  std::erase_if(scans, [&](const fs::path& scan) {
+    return is_array(scan) && (stems.contains(scan.stem().string()) || !is_head_file(scan));
+  });
   if (scans.empty()) {
     refuse_file(folder, concat("expected scans (", join(endings), "), found none"));
   }
+  Problems problems;
   std::map<std::string, fs::path> names;
   for (const fs::path& scan : scans) {
-    if (const auto [before, added] = names.emplace(scan.stem().string(), scan); !added) {
-      throw UsageError(
-          concat(before->second.string(), " and ", scan.string(),
-                 " would be wrapped to the same file; expected scans with different names"));
+    const std::string name = head_name_of_scan(scan);
+    if (const auto [before, added] = names.emplace(name, scan); !added) {
+      problems.add(ExitCode::kUsage,
+                   concat(before->second.string(), " and ", scan.string(),
+                          " would be wrapped to the same head, ", quoted(name),
+                          "; expected scans with different names, not counting accents and other "
+                          "characters than letters (a-z), digits, '_', '-' and '.'"));
+    } else if (const std::string why = objection_to_head_name(name, scan, {}); !why.empty()) {
+      problems.add(ExitCode::kUsage, why);
     }
   }
+  problems.throw_if_any();
   return scans;
 }
 

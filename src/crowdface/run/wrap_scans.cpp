@@ -76,7 +76,13 @@ std::vector<Task> tasks_without_textures(const WrapOptions& options) {
   }
   std::vector<Task> tasks;
   for (const fs::path& scan : list_scans(options.batch)) {
-    tasks.push_back(make_task(scan, fs::path(options.out) / concat(scan.stem().string(), ".obj"),
+    const std::string name = head_name_of_scan(scan);
+    if (name != scan.stem().string()) {
+      log_warning(concat(scan.string(), ": its head is called ", quoted(name),
+                         ", because a head's name has only letters (a-z), digits, '_', '-' and "
+                         "'.'"));
+    }
+    tasks.push_back(make_task(scan, fs::path(options.out) / concat(name, ".obj"),
                               fs::path(options.out) / "reports"));
   }
   return tasks;
