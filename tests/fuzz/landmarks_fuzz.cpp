@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdlib>
+#include <string>
 
 #include "crowdface/core/error.h"
 #include "crowdface/pick/landmark_file.h"
@@ -9,9 +10,11 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const crowdface::fuzz::InputFile file(data, size);
-  try {
-    crowdface::parse_landmark_list(crowdface::fuzz::text_of(data, size), "list.csv");
-  } catch (const crowdface::Error&) {
+  for (const std::string& extension : crowdface::landmark_extensions()) {
+    try {
+      crowdface::parse_landmark_list(crowdface::fuzz::text_of(data, size), "list" + extension);
+    } catch (const crowdface::Error&) {
+    }
   }
   try {
     const crowdface::LandmarkFile landmarks = crowdface::read_landmarks(file.path());

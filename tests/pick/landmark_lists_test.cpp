@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/core/text.h"
 #include "crowdface/pick/landmark_file.h"
 
 #include "support/expect_error.h"
@@ -44,6 +45,55 @@ TEST(LandmarkLists, AreReadAsOtherProgramsWriteThem) {
   expect_chin_and_nose("slicer.mrk.json", R"({"markups": [{"type": "Fiducial", "controlPoints": [
       {"id": "1", "label": "chin", "position": [1, -2.5, 3]},
       {"id": "2", "label": "nose tip", "position": [4, 5, 6]}]}]})");
+}
+
+TEST(LandmarkLists, AreReadAsProgramsForMorphometricsWriteThem) {
+  const TemporaryFolder folder;
+  const auto expect_points = [&](const char* name, const char* text, const char* first = "1",
+                                 const char* second = "2") {
+    SCOPED_TRACE(text);
+    const auto places = read_landmarks(folder.write(name, text)).scan_places;
+    ASSERT_EQ(places.size(), 2U);
+    EXPECT_EQ(places.at(first).point, Eigen::Vector3d(1, -2.5, 3));
+    EXPECT_EQ(places.at(second).point, Eigen::Vector3d(4, 5, 6));
+  };
+  expect_points("a.PTS", "Version 1.0\r\n3\r\nchin 1 -2.5 3\r\n7 4 5 6\r\nS0002 9999 9999 9999\r\n",
+                "chin", "7");
+  expect_points("a.pts", "version: 1\nn_points: 2\n{\n1 -2.5 3\n4 5 6\n}\n");
+  expect_points("a.tps",
+                "LM3=3\n1 -2.5 3\nNA NA NA\n4\t5\t6\nCURVES3=1\nPOINTS3=1\n7 8 9\n"
+                "IMAGE=anna 1.jpg\nID=0\nSCALE=1.0\n",
+                "1", "3");
+  expect_points("a.dta",
+                "'made by a program\n1 2L 3 1 9999 Dim=3\n\nchin\nnose\n\n1 -2.5 3\n4 5 6\n",
+                "chin", "nose");
+  expect_points("a.dta", "1 1L 9 1 9999 Dim=3\n\nanna b\n\n1 -2.5 3\n4 5 6\n9999 9999 9999\n");
+  expect_points("a.nts", "\"c\n1 1 6 0 DIM=3\n1 -2.5 3 4 5 6\n");
+  expect_points("a.landmarkAscii",
+                "# Avizo 3D ASCII 2.0\n\ndefine Markers 2\n\nParameters {\n NumSets 1,\n"
+                " ContentType \"LandmarkSet\"\n}\n\nMarkers { float[3] Coordinates } @1\n\n"
+                "# Data section follows\n@1\n1 -2.5 3\n4 5 6\n\n@2\n0 0 0\n");
+}
+
+TEST(LandmarkLists, OfPhotosOrSeveralMeshesAreRefused) {
+  const TemporaryFolder folder;
+  const auto refuse = [&](const char* name, const char* text, const char* where, const char* why) {
+    expect_error(ExitCode::kUsage, {concat(name, where), why},
+                 [&] { read_landmarks(folder.write(name, text)); });
+  };
+  refuse("a.pts", "version: 1\nn_points: 1\n{\n1 2\n}\n", ":4: ", "as on a photo");
+  refuse("a.tps", "LM=1\n1 2\nID=0\n", ":1: ", "as on a photo");
+  refuse("a.nts", "1 1 2 0 DIM=2\n1 2\n", ":1: ", "as on a photo");
+  refuse("a.tps", "LM3=1\n1 2 3\nID=0\nLM3=1\n1 2 3\n", ":4: ", "several specimens");
+  refuse("a.nts", "1 2 6 0 DIM=3\n1 2 3 4 5 6\n1 2 3 4 5 6\n", ":1: ", "several specimens");
+  refuse("a.landmarkAscii", "# Avizo 3D ASCII 2.0\n NumSets 2,\n@1\n1 2 3\n",
+         ":2: ", "several specimens");
+  refuse("a.landmarkAscii", "# AmiraMesh BINARY-LITTLE-ENDIAN 2.1\n@1\n1 2 3\n", ":1: ", "as text");
+  refuse("a.tps", "LM3=1\n1 2 3\nSCALE=0.01\n", ":3: ", "found a scale");
+  refuse("a.tps", "LM3=2\n1 2 3\nID=0\n", ": ", "LM3=n and n lines");
+  refuse("a.tps", "LM3=1\n1 x 3\n", ":2: ", "found \"x\"");
+  refuse("a.nts", "1 1 9 0 DIM=3\n1 2 3\n", ":1: ", "expected 9 numbers");
+  refuse("a.nts", "1 1 99999999999999999999 0 DIM=3\n1 2 3\n", ":1: ", "expected a header");
 }
 
 // The first of four numbers was dropped, so that x, y, z were y, z and the error.
@@ -229,7 +279,7 @@ TEST(LandmarkLists, WhatIsWrongIsNamedWithItsPlace) {
   refuse("d.json", R"({"chin": [1, 2]})", "chin: expected a vertex or x, y, z");
   refuse("e.csv", "chin,1.5\n", "the number of a vertex");
   refuse("f.json", "{}", "found none");
-  refuse("g.pts", "version: 1\nn_points: 1\n{\n1 2 3\n}\n", "expected landmarks as .yaml, .pp");
+  refuse("g.land", "version: 1\nn_points: 1\n{\n1 2 3\n}\n", "expected landmarks as .yaml, .pp");
   refuse("h.fcsv", "a,1,2\n", ":1: expected id, x, y, z");
   refuse("i.txt", "nose tip 1 2 3\n",
          ":1: expected a name and x, y, z, or a name and a vertex; if "

@@ -15,6 +15,7 @@
 #include "crowdface/io/legacy_text.h"
 #include "crowdface/io/npy_array.h"
 #include "crowdface/io/shallow_json.h"
+#include "crowdface/pick/morphometric_lists.h"
 
 namespace crowdface {
 namespace {
@@ -395,8 +396,13 @@ void read_array(std::string_view bytes, const std::string& name, LandmarkList& l
 }  // namespace
 
 const std::vector<std::string>& landmark_extensions() {
-  static const std::vector<std::string> extensions = {".yaml", ".pp",   ".csv",  ".tsv", ".txt",
-                                                      ".xyz",  ".json", ".fcsv", ".npy", ".yml"};
+  static const std::vector<std::string> extensions = [] {
+    std::vector<std::string> all = {".yaml", ".pp",   ".csv",  ".tsv", ".txt",
+                                    ".xyz",  ".json", ".fcsv", ".npy", ".yml"};
+    const std::vector<std::string>& others = morphometric_extensions();
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+  }();
   return extensions;
 }
 
@@ -408,6 +414,10 @@ std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     read_array(bytes, path.string(), list);
     return list.take();
   }
+  const auto place_of = [](std::size_t line) { return line == 0 ? "" : concat(':', line); };
+  const auto fail_at_line = [&](std::size_t line, const std::string& what) {
+    list.fail(place_of(line), what);
+  };
   const std::string content = decoded_text(bytes);
   if (content.empty() && !bytes.empty()) list.fail("", "expected text in UTF-8 or UTF-16");
   std::string_view text = content;
@@ -420,6 +430,9 @@ std::optional<std::map<std::string, LandmarkPlace>> parse_landmark_list(
     read_table(content, list);
   } else if (ending == ".fcsv") {
     read_fcsv(content, list);
+  } else if (const auto landmarks = parse_morphometric_list(content, ending, fail_at_line)) {
+    for (const ListedLandmark& one : *landmarks)
+      list.add(one.name, one.numbers, place_of(one.line));
   } else if (ending == ".pp") {
     list.fail("", "expected an element PickedPoints, as MeshLab writes it, found none");
   } else if (!ending.empty() && ending != ".yaml" && ending != ".yml" && ending != ".json") {
