@@ -290,6 +290,31 @@ TEST_F(SideBySide, AHeadThatCannotBeReadLeavesTheOthersTheirMesh) {
   }
 }
 
+// Only the first head was repaired; the others were refused.
+TEST_F(SideBySide, EachHeadIsRepaired) {
+  const std::vector<HeadFile> sound = read();
+  const auto with = [](std::string text, const std::string& what, const std::string& by) {
+    text.replace(text.find(what), what.size(), by);
+    return text;
+  };
+  for (const char* name : {"ann", "bob", "cyd"}) {
+    std::string text = read_text(folder_.head(name));
+    text = with(text, "\nvn ", "\nvn -nan(ind) -1.#IND ");
+    text.insert(text.find('\n', text.find("\nv ") + 1), " # first");
+    std::ranges::replace(text, '\n', '\r');
+    write(name, text);
+  }
+  std::string told;
+  const std::vector<HeadFile> heads = read(&told);
+  EXPECT_EQ(told, "");
+  ASSERT_EQ(heads.size(), 4U);
+  for (std::size_t h = 0; h < 4; ++h) {
+    EXPECT_EQ(heads[h].file.positions, sound[h].file.positions);
+    EXPECT_EQ(heads[h].mesh->topology.corner_vertices, sound[h].mesh->topology.corner_vertices);
+  }
+  EXPECT_EQ(heads[1].mesh, heads[0].mesh);
+}
+
 TEST_F(SideBySide, AMeshThatIsBadIsToldOfEach) {
   for (const char* name : {"ann", "bob", "cyd"}) {
     write(name, read_text(folder_.head(name)) + "f 1 2 999999\n");

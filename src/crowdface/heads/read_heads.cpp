@@ -262,8 +262,12 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, Shared
   if (shared.is_first(reading.summary.mesh_digest)) {
     read_with_mesh(reading, shared);
   } else {
-    head.file = read_obj_of_known_mesh(path, std::move(head.file.file), reading.summary);
-    head.mesh = nullptr;
+    ObjFile file = read_obj_of_known_mesh(path, std::move(head.file.file), reading.summary);
+    if (file.is_mended) {
+      store_mesh(reading, std::move(file), shared);
+    } else {
+      head.file = std::move(file);
+    }
   }
   return reading;
 }

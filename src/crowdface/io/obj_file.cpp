@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <istream>
 #include <map>
+#include <optional>
 #include <streambuf>
 #include <utility>
 
@@ -157,8 +158,13 @@ ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile fil
   ObjFile result;
   result.path = path;
   result.file = std::move(file);
-  take_scanned_values(
-      scan_obj(result.file.bytes(), path.string(), summary, ObjLineSelection::kAllButMesh), result);
+  std::optional<ObjScan> scan;
+  try {
+    scan = scan_obj(result.file.bytes(), path.string(), summary, ObjLineSelection::kAllButMesh);
+  } catch (const InvalidInput&) {  // read_obj may repair the text
+    return read_obj(path, std::move(result.file), summary);
+  }
+  take_scanned_values(*std::move(scan), result);
   return result;
 }
 

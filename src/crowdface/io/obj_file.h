@@ -48,7 +48,8 @@ ObjFile read_obj(const std::filesystem::path& path);
 ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjSummary& summary);
 
 /// Reads an OBJ file whose polygons and texture coordinates equal those of an earlier file. The
-/// result's topology, texture coordinates and corner normals stay empty.
+/// result's topology, texture coordinates and corner normals stay empty, unless the text needs
+/// repairs; then the result is that of `read_obj`.
 /// \param summary  summary of this file; its `mesh_digest` must equal that of the earlier file.
 ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile file,
                                const ObjSummary& summary);
