@@ -363,6 +363,35 @@ TEST(ScanFile, CoordinatesOfAMapInSinglePrecisionAreRefused) {
                [&] { read_scan(folder.write("map.ply", encode_scan(scan))); });
 }
 
+// The message blamed the landmarks.
+TEST(ScanFile, CoordinatesWithFewDigitsAreRefused) {
+  const TemporaryFolder folder;
+  // A bowl of 30 by 30 vertices, about 0.2 units wide.
+  const auto read = [&](double from_origin, double step) {
+    std::string text;
+    const auto rounded = [&](double x) { return step * std::round((x + from_origin) / step); };
+    for (int i = 0; i < 900; ++i) {
+      const double x = 0.007 * (i % 30) + 1e-5 * i, y = 0.007 * (i / 30) - 1e-5 * i;
+      text += "v";
+      for (const double c : {x, y, x * x + y * y}) {
+        char number[40];
+        std::snprintf(number, sizeof number, " %.9f", rounded(c));
+        text += number;
+      }
+      text += '\n';
+    }
+    for (int i = 0; i < 869; ++i) {
+      if (i % 30 != 29) text += concat("f ", i + 1, ' ', i + 2, ' ', i + 31, '\n');
+    }
+    read_scan(folder.write("scan.obj", text));
+  };
+  EXPECT_NO_THROW(read(0, 1e-4));
+  EXPECT_NO_THROW(read(5e6, 1e-4));
+  expect_error(ExitCode::kBadData,
+               {"scan.obj", "x coordinates near 5000000 have steps of 0.010", "near the origin"},
+               [&] { read(5e6, 0.01); });
+}
+
 TEST(ScanFile, VerticesWithoutAPlaceTakeTheirTrianglesAlong) {
   const TemporaryFolder folder;
   Scan scan = cube();

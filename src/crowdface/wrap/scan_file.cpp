@@ -2,9 +2,12 @@
 #include "crowdface/wrap/scan_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -48,6 +51,50 @@ void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) 
       concat("coordinates near ", format_fixed(farthest, 0), " in single precision have steps of ",
              format_fixed(step, 3), ", too coarse for a scan of size ", format_fixed(size, 1),
              ": move the scan near the origin before exporting it, or export doubles (PLY, OBJ)"));
+}
+
+/// The smallest distance between different coordinates along an axis, in a sample of the vertices.
+/// A scan with enough digits has a far smaller distance than its size.
+double smallest_step(const std::vector<double>& values) {
+  constexpr std::size_t kMinValues = 500, kSample = 2000;
+  if (values.size() < kMinValues) return 0;
+  std::vector<double> sample;
+  const std::size_t stride = std::max<std::size_t>(1, values.size() / kSample);
+  for (std::size_t i = 0; i < values.size(); i += stride) sample.push_back(values[i]);
+  std::ranges::sort(sample);
+  sample.erase(std::unique(sample.begin(), sample.end()), sample.end());
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < sample.size(); ++i) step = std::min(step, sample[i] - sample[i - 1]);
+  return step;
+}
+
+/// Rejects scans that are far from the origin and whose file has too few digits, so that the surface
+/// consists of steps.
+void refuse_few_digits(const Scan& scan, const std::filesystem::path& path) {
+  constexpr double kFar = 10, kMaxOfSize = 5e-3;
+  const std::vector<bool> used = is_vertex_used(scan);
+  std::array<std::vector<double>, 3> values;
+  Eigen::AlignedBox3d box;
+  for (Index v = 0; v < scan.positions.rows(); ++v) {
+    if (!used[static_cast<std::size_t>(v)]) continue;
+    box.extend(row3(scan.positions, v));
+    for (std::size_t k = 0; k < 3; ++k) {
+      values[k].push_back(scan.positions(v, static_cast<Index>(k)));
+    }
+  }
+  const double size = box.diagonal().norm();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto axis = static_cast<Index>(k);
+    const double farthest = std::max(std::abs(box.min()[axis]), std::abs(box.max()[axis]));
+    const double step = smallest_step(values[k]);
+    if (!(farthest > kFar * size && step > kMaxOfSize * size)) continue;
+    refuse_file(
+        path, concat("its ", "xyz"[k], " coordinates near ", format_fixed(farthest, 0),
+                     std::isinf(step) ? " are all equal"
+                                      : concat(" have steps of ", format_fixed(step, 3)),
+                     ", too coarse for a scan of size ", format_fixed(size, 1),
+                     ": move the scan near the origin before exporting it, or export more digits"));
+  }
 }
 
 /// Rejects a large scan in which at least half of the triangles share one vertex, because the
@@ -102,6 +149,7 @@ Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
                              " from the origin, found another"));
   }
   refuse_coarse_numbers(scan, path);
+  refuse_few_digits(scan, path);
   if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
   weld_vertices(scan);
   refuse_fan(scan, path);
