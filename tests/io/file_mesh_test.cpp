@@ -240,7 +240,8 @@ TEST(ParseGltf, ReadsIntegersThatANodeScales) {
 
 TEST(ParseGltf, RefusesUnknownRequiredExtensionsByName) {
   GltfParts parts = plain_parts();
-  parts.more = R"("extensionsRequired":["KHR_materials_unlit","KHR_texture_basisu"],)";
+  parts.more =
+      R"("extensionsRequired":["KHR_materials_unlit","KHR_texture_basisu","VRMC_vrm","KHR_animation_pointer"],)";
   expect_square(mesh_of(parts), 0);
   parts.more = R"("extensionsRequired":["KHR_materials_unlit","XYZ_packed_mesh"],)";
   expect_error(ExitCode::kBadData, {"scene.gltf", "not read: XYZ_packed_mesh; export"},
