@@ -15,7 +15,7 @@ int main(int argc, char** argv) try {
   const Components components = find_components(build_adjacency(a.topology));
   const Axis front = {2, +1};  // heads look along +Z
   const std::vector<double> areas =
-      face_vertex_areas(a.topology, components, a.positions, FaceArea::kFront, front);
+      compared_vertex_areas(a.topology, components, a.positions, ComparedArea::kFront, front);
   const double centimetres = face_distance(a.positions, b.positions, areas);
   std::cout << centimetres * mm_per(LengthUnit::kCentimetre) << " mm\n";
 } catch (const Error& error) {

@@ -70,7 +70,8 @@ def sentences():
         for paragraph in re.split(r"\n\s*\n", prose):
             if re.match(r"\s*[#|!<]|    ", paragraph):
                 continue
-            text = " ".join(re.sub(r"^\s*([-*]|\d+\.) ", "", line).strip() for line in paragraph.strip().split("\n"))
+            lines = [re.sub(r"^\s*> ?", "", line) for line in paragraph.strip().split("\n")]  # quotations
+            text = " ".join(re.sub(r"^\s*([-*]|\d+\.) ", "", line).strip() for line in lines)
             for sentence in re.split(r"(?<=[.!?]) +(?=[A-Z`\[])", text):
                 if len(sentence.split()) > 4 and re.search(r"[.!?:][)*]*$", sentence):  # else a formula goes on
                     yield f"{path.relative_to(ROOT)}: {sentence}"

@@ -222,9 +222,10 @@ Eigen::MatrixXd distances(const HeadSet& heads,
   if (!axis) throw UsageError(concat("front: expected an axis such as +Z, found ", quoted(front)));
   const auto length = parse_length_unit(unit);
   if (!length) throw UsageError(concat("unit: expected a unit such as cm, found ", quoted(unit)));
-  const std::vector<double> areas = face_vertex_areas(
+  const std::vector<double> areas = compared_vertex_areas(
       heads.topology, find_components(build_adjacency(heads.topology)), mean_head(heads),
-      value_of<FaceArea>({{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}}, "area", area),
+      value_of<ComparedArea>({{"front", ComparedArea::kFront}, {"skin", ComparedArea::kSkin}},
+                             "area", area),
       *axis);
   return face_distances(faces, areas) * mm_per(*length);
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The jobs of a config: casting and blending in memory, and crowds in folders.
+#include "crowdface/run/job.h"
+
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -26,7 +28,6 @@
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
 #include "crowdface/run/planned.h"
 #include "crowdface/run/wrap_scans.h"
 

@@ -7,7 +7,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/run/face_builder.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 #include "crowdface/run/write_face.h"
 
 #include "cli/commands.h"

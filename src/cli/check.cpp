@@ -12,8 +12,8 @@
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/pictures/landmark_picture.h"
 #include "crowdface/run/head_traits.h"
+#include "crowdface/run/job.h"
 #include "crowdface/run/output_check.h"
-#include "crowdface/run/pipeline.h"
 #include "crowdface/smooth/level_size.h"
 
 #include "cli/commands.h"

@@ -40,7 +40,7 @@ GlbOptions materials_of(const FileMesh& mesh, const ConvertOptions& options) {
   if (mesh.materials.empty()) return written;
   FaceMaterials materials = face_materials(mesh.materials, mesh.topology.face_count());
   for (std::string& name : materials.names) written.materials.push_back({std::move(name)});
-  written.face_materials = std::move(materials.material_of_face);
+  written.face_materials = std::move(materials.material_of_polygon);
   return written;
 }
 

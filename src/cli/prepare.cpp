@@ -6,7 +6,7 @@
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 #include "crowdface/smooth/level_size.h"
 
 #include "cli/commands.h"

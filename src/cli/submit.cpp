@@ -10,8 +10,8 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
+#include "crowdface/run/job.h"
 #include "crowdface/run/output_check.h"
-#include "crowdface/run/pipeline.h"
 #include "crowdface/run/task_scripts.h"
 
 #include "cli/commands.h"

@@ -6,7 +6,7 @@
 
 #include "crowdface/blend/blend.h"
 #include "crowdface/blend/recipe.h"
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/config/config.h"
 #include "crowdface/config/config_reader.h"
 #include "crowdface/core/cancel.h"

@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/core/error.h"
 
 namespace crowdface::multiscale {
@@ -85,7 +85,7 @@ Positions FrontPatch::rows_of(const Positions& head) const {
 FrontPatch front_patch(const Topology& topology, const Positions& mean, Axis up, Axis front) {
   const Components components = find_components(build_adjacency(topology));
   const std::vector<double> areas =
-      face_vertex_areas(topology, components, mean, FaceArea::kFront, front);
+      compared_vertex_areas(topology, components, mean, ComparedArea::kFront, front);
   std::vector<Triangle> triangles = triangles_of(topology);
   std::erase_if(triangles, [&](const Triangle& t) {
     return std::ranges::any_of(t, [&](std::uint32_t v) { return !(areas[v] > 0); }) ||

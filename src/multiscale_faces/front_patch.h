@@ -28,7 +28,7 @@ struct FrontPatch {
   Positions rows_of(const Positions& head) const;
 };
 
-/// Selects the skin in the front half of the head (FaceArea::kFront) whose normals point forwards.
+/// Selects the skin in the front half of the head (ComparedArea::kFront) whose normals point forwards.
 /// Eye sockets and the inside of the mouth become holes. Omits triangles where a rim touches itself
 /// and triangles whose corners all lie on rims.
 /// \param mean   #V by 3, the mean of all heads.

@@ -11,7 +11,7 @@
 
 #include "crowdface/blend/blend.h"
 #include "crowdface/cast/cast_crowd.h"
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/cast/face_search.h"
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/core/text.h"
@@ -67,8 +67,8 @@ class FaceSpaceTest : public ::testing::Test {
     mean_ = mean;
     const SampleCells cells = find_sample_cells(adjacency_, mean, samples_);
     weights_ = sample_weights(cells, samples_,
-                              face_vertex_areas(faces_.topology, find_components(adjacency_), mean,
-                                                FaceArea::kFront, {2, 1}));
+                              compared_vertex_areas(faces_.topology, find_components(adjacency_),
+                                                    mean, ComparedArea::kFront, {2, 1}));
     space_.emplace(space_of(faces_));
   }
 
@@ -175,14 +175,14 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
       const NodeFields fields = filter_nodes(*filter_, nodes_, head.positions);
       trajectories_.push_back(sample_smoothing_trajectory(*filter_, nodes_, fields, traced));
     }
-    SampledHeads heads =
+    HeadsAtSamples heads =
         sample_heads(faces_, regions_, samples_, trajectories_, kMaxLevel, kMmPerUnit);
     heads.mirror_images = sample_mirror_images(faces_, regions_, mirror, samples_, traced, heads);
     const FaceSpace space(
         std::move(heads),
         sample_weights(find_sample_cells(adjacency_, mean_, samples_), samples_,
-                       face_vertex_areas(faces_.topology, find_components(adjacency_), mean_,
-                                         FaceArea::kFront, {2, 1})));
+                       compared_vertex_areas(faces_.topology, find_components(adjacency_), mean_,
+                                             ComparedArea::kFront, {2, 1})));
     EXPECT_EQ(space.head_point_count(), 8);
     const std::vector<Recipe> faces = crowd(2);
     std::vector<FaceSpace::Point> points;

@@ -30,7 +30,7 @@ TEST_F(ConfigTest, CastingIsRead) {
   EXPECT_EQ(config->diversity.min_distance_mm, 1.5);
   EXPECT_EQ(config->diversity.min_distance_to_heads_mm, 1);
   EXPECT_EQ(config->diversity.max_weight, 0.7);
-  EXPECT_EQ(config->distance.area, FaceArea::kSkin);
+  EXPECT_EQ(config->distance.area, ComparedArea::kSkin);
   EXPECT_EQ(config->believability.max_stretch, 4);
   EXPECT_EQ(config->believability.meshes, BelievabilityOptions::MeshChecks::kNone);
   ASSERT_EQ(config->families.size(), 2U);
@@ -620,7 +620,7 @@ TEST_F(ConfigTest, LimitsOnMeasurementsAreReadAndWritten) {
   const std::vector<TraitTarget> census = {{trait("nose_width"), 36, 2.5},
                                            {trait("facial_index"), 0.85, 0.04}};
   EXPECT_EQ(config->population.targets, census);
-  EXPECT_EQ(config->quantile_distributions.targets, census);
+  EXPECT_EQ(config->quantile_table.targets, census);
   EXPECT_THAT(config->plan_names().traits,
               ElementsAre("face_height", "nose_width", "mouth_width", "intercanthal", "eye_slope",
                           "facial_index", "nasal_index"));

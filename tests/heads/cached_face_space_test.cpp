@@ -23,10 +23,10 @@ namespace fs = std::filesystem;
 constexpr Index kSamples = 60;
 
 /// Heads whose samples move smoothly from level to level, in two regions.
-SampledHeads sampled_heads(std::uint32_t seed, bool mirrored) {
+HeadsAtSamples sampled_heads(std::uint32_t seed, bool mirrored) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
-  SampledHeads sampled;
+  HeadsAtSamples sampled;
   sampled.levels = {0, 2, 8, 32, 128};
   sampled.mean = Positions::Zero(kSamples, 3);
   for (int h = 0; h < 4; ++h) {
@@ -52,13 +52,13 @@ SampledHeads sampled_heads(std::uint32_t seed, bool mirrored) {
   }
   sampled.mm_per_unit = 10;
   if (mirrored)
-    sampled.mirror_images = std::make_shared<SampledHeads>(sampled_heads(seed + 1, false));
+    sampled.mirror_images = std::make_shared<HeadsAtSamples>(sampled_heads(seed + 1, false));
   return sampled;
 }
 
 class KeptFaceSpace : public ::testing::TestWithParam<bool> {
  protected:
-  static SampledHeads heads(std::uint32_t seed = 1) { return sampled_heads(seed, GetParam()); }
+  static HeadsAtSamples heads(std::uint32_t seed = 1) { return sampled_heads(seed, GetParam()); }
   FaceSpace kept(const fs::path& cache, std::uint32_t seed = 1, std::size_t bands = 2) const {
     return cached_face_space(cache, heads(seed), weights_, bands);
   }
@@ -144,7 +144,7 @@ TEST_P(KeptFaceSpace, IsMadeAnewWhereTheEntryIsForged) {
 }
 
 TEST_P(KeptFaceSpace, OfHeadsThatNoSmoothingMoves) {
-  SampledHeads still = heads();
+  HeadsAtSamples still = heads();
   for (Trajectory& trajectory : still.owned_trajectories) trajectory.setZero();
   const FaceSpace first = cached_face_space(folder_.path(), still, weights_, 1);
   EXPECT_EQ(places(cached_face_space(folder_.path(), still, weights_, 1), 1), places(first, 1));
@@ -154,7 +154,7 @@ TEST_P(KeptFaceSpace, OfHeadsThatNoSmoothingMoves) {
 INSTANTIATE_TEST_SUITE_P(MirroredToo, KeptFaceSpace, ::testing::Bool());
 
 TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
-  const SampledHeads heads = sampled_heads(1, false);
+  const HeadsAtSamples heads = sampled_heads(1, false);
   const std::vector<double> weights(kSamples, 1.0 / kSamples);
   const FaceSpace space(heads, weights);
   EXPECT_TRUE(FaceSpace::have_matching_sizes(space.tables(), heads));

@@ -109,7 +109,7 @@ TEST(StatisticsKey, IsAnotherOfWhateverChangesThem) {
   EXPECT_TRUE(is_new()) << "where a corner lies";
   topology.corner_uvs = {0, 2, 1};
   EXPECT_TRUE(is_new()) << "which corner lies there";
-  textures.layout.picture_of_face = {kNoIndex};
+  textures.layout.picture_of_polygon = {kNoIndex};
   EXPECT_TRUE(is_new()) << "a face without a picture";
   scale.detail_iterations = 5;
   EXPECT_TRUE(is_new()) << "what counts as detail";

@@ -196,7 +196,7 @@ TEST_F(Cached, LevelsOfDetailAreThoseOfTheMesh) {
   inputs.head_set.topology = testing::cube_topology();
   inputs.head_set.heads = {{"cube", testing::cube_positions()}};
   inputs.mean_head = testing::cube_positions();
-  inputs.materials.material_of_face.assign(
+  inputs.materials.material_of_polygon.assign(
       static_cast<std::size_t>(inputs.head_set.topology.face_count()), 0);
   find_neighbours(inputs);
   Config config;

@@ -70,7 +70,7 @@ TEST(HeadTextures, ComeFromTheMaterialOfEachFaceInLinearLight) {
   const HeadTextures textures = load(head, 1024);
   ASSERT_EQ(textures.texture_sets.size(), 1U);
   const TextureSet& texture_set = textures.texture_sets[0];
-  EXPECT_EQ(texture_set.texture_of_face, (std::vector<std::uint32_t>{0, TextureSet::kNone}));
+  EXPECT_EQ(texture_set.texture_of_polygon, (std::vector<std::uint32_t>{0, TextureSet::kNone}));
   const LinearRgb colour = colour_at(*texture_set.textures[0], {0.5F, 0.5F});
   EXPECT_FLOAT_EQ(colour[0], 1);
   EXPECT_FLOAT_EQ(colour[1], 0);
@@ -86,7 +86,7 @@ TEST(HeadTextures, TilesAreToldByTheCoordinates) {
                          "newmtl skin left\nmap_Kd skin.<UDIM>.png\n"
                          "newmtl right\nmap_Kd skin.<UDIM>.png\n");
   const HeadTextures textures = load(head, 2);
-  EXPECT_EQ(textures.texture_sets[0].texture_of_face, (std::vector<std::uint32_t>{0, 1}));
+  EXPECT_EQ(textures.texture_sets[0].texture_of_polygon, (std::vector<std::uint32_t>{0, 1}));
   EXPECT_FLOAT_EQ(colour_at(*textures.texture_sets[0].textures[1], {1.5F, 0.5F})[1], 1);
   EXPECT_EQ(textures.texture_sets[0].textures[1]->width, 2) << "made smaller";
 }
@@ -96,7 +96,7 @@ TEST(HeadTextures, AMissingOneIsAWarning) {
   write_png(folder, "left.png", 1, {9, 9, 9});
   const Read one = read(folder, "newmtl skin left\nmap_Kd left.png\nnewmtl right\nmap_Kd no.png\n");
   const HeadTextures textures = load(one, 8);
-  EXPECT_EQ(textures.texture_sets[0].texture_of_face[1], TextureSet::kNone);
+  EXPECT_EQ(textures.texture_sets[0].texture_of_polygon[1], TextureSet::kNone);
   ASSERT_FALSE(textures.warnings.empty());
   EXPECT_THAT(textures.warnings.back(), HasSubstr("no.png"));
   const Read none = read(folder, "newmtl skin left\nnewmtl right\n");
@@ -172,7 +172,7 @@ TEST(HeadTextures, ANameTooLongForTheSystemIsThatOfNoFile) {
   const Read head = read(folder, "newmtl skin left\nmap_Kd left.png\nnewmtl right\nmap_Kd " +
                                      std::string(300, 'x') + ".png\n");
   const HeadTextures textures = load(head, 8);
-  EXPECT_EQ(textures.texture_sets[0].texture_of_face,
+  EXPECT_EQ(textures.texture_sets[0].texture_of_polygon,
             (std::vector<std::uint32_t>{0, TextureSet::kNone}));
   EXPECT_FALSE(textures.warnings.empty());
 }
@@ -183,7 +183,8 @@ TEST(HeadTextures, WarningsOfASharedMaterialFileAreToldOnce) {
   Read heads = read(folder, "newmtl skin left\nmap_Kd left.png\nmap_Ks gone.png\n");
   heads.files.push_back(read_obj(folder.write("second.obj", kHead)));
   const HeadTextures textures = load(heads, 8);
-  EXPECT_EQ(textures.texture_sets[0].texture_of_face, textures.texture_sets[1].texture_of_face);
+  EXPECT_EQ(textures.texture_sets[0].texture_of_polygon,
+            textures.texture_sets[1].texture_of_polygon);
   EXPECT_EQ(textures.warnings.size(), 1U);
 }
 

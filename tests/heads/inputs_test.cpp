@@ -10,7 +10,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

@@ -18,7 +18,7 @@
 #include "crowdface/io/obj_template.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "crowdface/parts/contact_place.h"
+#include "crowdface/parts/gap_section.h"
 
 namespace crowdface {
 namespace {

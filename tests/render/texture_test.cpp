@@ -104,7 +104,7 @@ TEST(FaceRenderer, TexturesColourTheFacesTheyCover) {
   for (int x = 40; x < 56; ++x) {
     for (int c = 0; c < 3; ++c) EXPECT_EQ(image.at(x, 32)[c], plain.at(x, 32)[c]) << x;
   }
-  texture_set.texture_of_face.pop_back();
+  texture_set.texture_of_polygon.pop_back();
   EXPECT_THROW(renderer.render(squares.positions, squares.camera, nullptr, &texture_set),
                BrokenPrecondition);
 }

@@ -19,7 +19,7 @@
 #include "crowdface/run/crowd_sheets.h"
 #include "crowdface/run/face_encoders.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

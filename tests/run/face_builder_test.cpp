@@ -12,8 +12,8 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_mirror.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/run/job.h"
 #include "crowdface/run/mesh_judge.h"
-#include "crowdface/run/pipeline.h"
 #include "head_models/synth/synthetic_head.h"
 
 #include "support/temporary_folder.h"

@@ -15,7 +15,7 @@
 #include "crowdface/io/obj_file.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 #include "head_models/synth/synthetic_head.h"
 
 #include "support/crowd_files.h"

@@ -18,7 +18,7 @@
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 #include "crowdface/shapes/gap_preserver.h"
 #include "crowdface/validity/intersections.h"
 

@@ -22,7 +22,7 @@
 #include "crowdface/mesh/normals.h"
 #include "crowdface/neck/match_rims.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 #include "head_models/synth/synthetic_head.h"
 
 #include "support/expect_error.h"

@@ -9,10 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/mesh/alignment.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "neck_crowd.h"
 #include "support/crowd_files.h"
@@ -144,8 +144,8 @@ TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
   const auto before = testing::plan_lines(folder_ / "plain"), after = testing::plan_lines(out);
   ASSERT_EQ(before.size(), after.size());
   std::vector<double> areas =
-      face_vertex_areas(job.inputs.head_set.topology, job.inputs.skin_components,
-                        job.inputs.mean_head, FaceArea::kFront, {2, 1});
+      compared_vertex_areas(job.inputs.head_set.topology, job.inputs.skin_components,
+                            job.inputs.mean_head, ComparedArea::kFront, {2, 1});
   for (const std::uint32_t v : job.inputs.heads_on_body->seam.neck_bend.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   bool any_asymmetric = false;

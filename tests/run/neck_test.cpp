@@ -10,11 +10,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/crowd/verify.h"
 #include "crowdface/mesh/edge_distances.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "neck_crowd.h"
 #include "support/crowd_files.h"
@@ -62,8 +62,8 @@ TEST_F(Neck, TheCrowdIsTheSame) {
   const auto plain = run("", more, "", "plain"), fitted = run("{body: body.obj}", more);
   const Job job = load_job(folder_ / "out.yaml", {});
   std::vector<double> areas =
-      face_vertex_areas(job.inputs.head_set.topology, job.inputs.skin_components,
-                        job.inputs.mean_head, FaceArea::kFront, {2, 1});
+      compared_vertex_areas(job.inputs.head_set.topology, job.inputs.skin_components,
+                            job.inputs.mean_head, ComparedArea::kFront, {2, 1});
   for (const std::uint32_t v : job.inputs.heads_on_body->seam.neck_bend.vertices()) areas[v] = 0;
   for (const std::uint32_t v : rim_) areas[v] = 0;
   const auto before = testing::plan_lines(plain), after = testing::plan_lines(fitted);

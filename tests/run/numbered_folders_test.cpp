@@ -9,7 +9,7 @@
 #include "crowdface/crowd/verify.h"
 #include "crowdface/run/crowd_sheets.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

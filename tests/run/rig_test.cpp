@@ -17,7 +17,7 @@
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/run/crowd_glb_options.h"
 #include "crowdface/run/generate.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "support/crowd_files.h"
 #include "support/expect_error.h"

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "crowdface/core/text.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include "support/crowd_files.h"
 #include "support/small_crowd.h"

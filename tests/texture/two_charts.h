@@ -32,9 +32,9 @@ class TwoCharts {
       alpha.alpha(v, v % (kSide + 1) <= kSide / 4 ? 0 : regions - 1) = 1;
     }
     textures.layout.pictures = {{size, size}};
-    textures.layout.picture_of_face.assign(static_cast<std::size_t>(faces.topology.face_count()),
-                                           0);
-    textures.layout.tile_of_face.assign(textures.layout.picture_of_face.size(), {0, 0});
+    textures.layout.picture_of_polygon.assign(static_cast<std::size_t>(faces.topology.face_count()),
+                                              0);
+    textures.layout.tile_of_polygon.assign(textures.layout.picture_of_polygon.size(), {0, 0});
     textures.maps.resize(1);
   }
 

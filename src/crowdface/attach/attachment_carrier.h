@@ -5,7 +5,7 @@
 
 #include "crowdface/attach/attachment_move.h"
 #include "crowdface/attach/fitted_skin.h"
-#include "crowdface/attach/rigid_seat.h"
+#include "crowdface/attach/rigid_placement.h"
 #include "crowdface/attach/skin_gaps.h"
 #include "crowdface/attach/smooth_bend.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "crowdface/attach/bend_places.h"
+#include "crowdface/attach/bend_nodes.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/edge_distances.h"

@@ -24,25 +24,25 @@ namespace {
 void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
                      FoundTextureFiles& found) {
   HeadTextureFiles& placed = found.heads[0];
-  if (placed.file_of_face.empty()) placed.file_of_face.assign(is_skin.size(), kNoIndex);
+  if (placed.file_of_polygon.empty()) placed.file_of_polygon.assign(is_skin.size(), kNoIndex);
   std::set<std::uint32_t> used;
   bool tiled = false;
   for (std::size_t f = 0; f < is_skin.size(); ++f) {
     if (!is_skin[f]) continue;
-    if (placed.file_of_face[f] != kNoIndex) {
-      used.insert(placed.file_of_face[f]);
-    } else if (found.tile_of_face[f] != std::array<std::int32_t, 2>{0, 0}) {
+    if (placed.file_of_polygon[f] != kNoIndex) {
+      used.insert(placed.file_of_polygon[f]);
+    } else if (found.tile_of_polygon[f] != std::array<std::int32_t, 2>{0, 0}) {
       tiled = true;
     }
   }
   std::map<std::pair<std::uint32_t, std::array<std::int32_t, 2>>, std::uint32_t> rows;
   for (std::size_t f = 0; f < is_skin.size(); ++f) {
-    std::uint32_t& file = placed.file_of_face[f];
+    std::uint32_t& file = placed.file_of_polygon[f];
     if (file != kNoIndex) {
       if (!used.contains(file)) file = kNoIndex;
     } else if (is_skin[f]) {
-      const std::uint32_t material = materials.material_of_face[f];
-      const auto [row, is_new] = rows.try_emplace({material, found.tile_of_face[f]},
+      const std::uint32_t material = materials.material_of_polygon[f];
+      const auto [row, is_new] = rows.try_emplace({material, found.tile_of_polygon[f]},
                                                   static_cast<std::uint32_t>(placed.files.size()));
       if (is_new) {
         placed.files.push_back({{}, concat(materials.names[material], tiled ? kTileWord : "")});
@@ -88,10 +88,10 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& wrap_templat
   const std::vector<PictureSource> pictures = lay_out_pictures(found, layout);
   picture_names_ = crowdface::picture_names(found, pictures, materials);
   for (TextureLayout::Picture& picture : layout.pictures) picture = {picture_side, picture_side};
-  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
-    if (layout.picture_of_face[f] == kNoIndex) continue;
-    pictures_by_material_.try_emplace(materials.names[materials.material_of_face[f]],
-                                      layout.picture_of_face[f]);
+  for (std::size_t f = 0; f < layout.picture_of_polygon.size(); ++f) {
+    if (layout.picture_of_polygon[f] == kNoIndex) continue;
+    pictures_by_material_.try_emplace(materials.names[materials.material_of_polygon[f]],
+                                      layout.picture_of_polygon[f]);
   }
   maps_ = read_mesh_maps(own, TextureKind::kColour, topology, file.uvs);
   for (std::uint32_t p = 0; p < pictures.size(); ++p) {
@@ -107,9 +107,9 @@ void BakeTemplate::find_picture_vertices(const ObjFile& file, const TextureLayou
   picture_vertices_.resize(wrap_template_.skin.vertices.size());
   const Topology& topology = file.topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const std::uint32_t picture = layout.picture_of_face[static_cast<std::size_t>(f)];
+    const std::uint32_t picture = layout.picture_of_polygon[static_cast<std::size_t>(f)];
     if (picture == kNoIndex) continue;
-    const auto& tile = layout.tile_of_face[static_cast<std::size_t>(f)];
+    const auto& tile = layout.tile_of_polygon[static_cast<std::size_t>(f)];
     const auto vertices = topology.face(f), uvs = topology.face_uvs(f);
     if (std::ranges::count(uvs, kNoIndex) > 0) continue;
     const auto uv_at = [&](std::size_t corner) -> Eigen::Vector2d {

@@ -84,7 +84,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
       positions_(bake_template.wrap_template().skin.rows_of(wrapped)),
       normals_(vertex_normals_or_zero(bake_template.wrap_template().skin.triangles, positions_)),
       scan_spacing_mm_(spacing_of(surface.scan())) {
-  Positions densities = Positions::Zero(positions_.rows(), 3);
+  OpticalDensities densities = OpticalDensities::Zero(positions_.rows(), 3);
   const std::vector<double> confidence = measure_scan_optical_densities(densities);
   compute_edge_weights(confidence);
   if (options.removes_shading) {
@@ -153,7 +153,8 @@ Eigen::Vector3d ScanBake::template_optical_density(std::size_t picture, const Ei
   return density_of(texture->mean_at(uv, to_right_texel, to_lower_texel));
 }
 
-std::vector<double> ScanBake::measure_scan_optical_densities(Positions& optical_densities) const {
+std::vector<double> ScanBake::measure_scan_optical_densities(
+    OpticalDensities& optical_densities) const {
   const SkinMesh& skin = template_.wrap_template().skin;
   std::vector<double> confidence(skin.vertices.size(), 0.0);
   parallel_blocks(positions_.rows(), kVertexBlock, [&](Index begin, Index end) {
@@ -199,7 +200,8 @@ void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
 /// Fits spherical harmonics of the normals to the optical densities, averaged over red, green and
 /// blue (Ramamoorthi & Hanrahan 2001: distant light on a convex surface). Iteratively reweighted
 /// least squares gives lips, brows and hair small weights.
-void ScanBake::estimate_shading(const std::vector<double>& confidence, const Positions& densities) {
+void ScanBake::estimate_shading(const std::vector<double>& confidence,
+                                const OpticalDensities& densities) {
   constexpr int kRounds = 10;
   const SkinMesh& skin = template_.wrap_template().skin;
   const Eigen::VectorXd areas = vertex_areas(skin.triangles, positions_);
@@ -247,7 +249,7 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence, const Pos
 }
 
 void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
-                                        const Positions& differences) {
+                                        const OpticalDensities& differences) {
   const WrapTemplate& wrap_template = template_.wrap_template();
   // If the template has a reduced skin (few vertices), compute the tone differences on the reduced
   // skin.
@@ -275,7 +277,7 @@ void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
     total += weight;
   }
   const Eigen::RowVector3d mean = total > 0 ? Eigen::RowVector3d(sum / total) : sum;
-  Positions tone = mean.replicate(count, 1);
+  OpticalDensities tone = mean.replicate(count, 1);
   const SparseMatrix stiffness = -kMinToneSizeMm * kMinToneSizeMm * laplacian(triangles, places);
   ElasticSolver(stiffness, areas).solve(data, {.max_steps = 300, .tolerance = 1e-6}, tone);
   tone_differences_ = wrap_template.reduced_skin
@@ -287,7 +289,7 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
                                      std::uint32_t& guess) const {
   const SurfaceTexels::Triangle& triangle = *texel.triangle;
   const std::vector<double>& ambient_visibility = template_.wrap_template().skin.ambient_visibility;
-  const auto mix = [&](const Positions& values, const std::array<double, 3>& barycentric) {
+  const auto mix = [&](const OpticalDensities& values, const std::array<double, 3>& barycentric) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (std::size_t k = 0; k < 3; ++k) sum += barycentric[k] * row3(values, texel.rows[k]);
     return sum;

@@ -12,6 +12,9 @@
 
 namespace crowdface {
 
+/// Optical densities of points or vertices: one row each, one column each for red, green and blue.
+using OpticalDensities = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 struct BakeOptions {
   /// Whether to remove shading from the colours. Shading is the variation in brightness that a
   /// function of the surface normal (spherical harmonics) explains.
@@ -71,15 +74,15 @@ class ScanBake {
                                            const Eigen::Vector2d& to_right_texel,
                                            const Eigen::Vector2d& to_lower_texel) const;
   /// Measures the scan's optical density at each skin vertex.
-  /// \param optical_densities  receives one row for each skin vertex, one column for each channel.
+  /// \param optical_densities receives one row for each skin vertex.
   /// \return  the confidence of each row, 0 to 1.
-  std::vector<double> measure_scan_optical_densities(Positions& optical_densities) const;
+  std::vector<double> measure_scan_optical_densities(OpticalDensities& optical_densities) const;
   void compute_edge_weights(const std::vector<double>& confidence);
-  void estimate_shading(const std::vector<double>& confidence, const Positions& densities);
+  void estimate_shading(const std::vector<double>& confidence, const OpticalDensities& densities);
   /// Computes tone_differences_ from the differences at the vertices.
-  /// \param differences  #skin by 3: density of the scan minus density of the template.
+  /// \param differences #skin by 3: scan minus template.
   void compute_tone_differences(const std::vector<double>& confidence,
-                                const Positions& differences);
+                                const OpticalDensities& differences);
 
   /// One texel of a picture.
   struct Texel {
@@ -103,12 +106,11 @@ class ScanBake {
   const ScanColours& colours_;
   Positions positions_, normals_;  ///< #skin by 3
   double scan_spacing_mm_;         ///< mean distance between neighbouring vertices of the scan
-  /// #skin: 0 at the edge of the scan's data, 1 far from this edge
+  /// one per skin vertex: 0 at the edge of the scan's data, 1 far from this edge
   std::vector<double> edge_weights_;
-  Positions tone_differences_;  ///< #skin by 3: density of the scan minus density of the template
-  /// #skin by 3 (red, green, blue): optical density that the scan's baked-in shading adds; no rows
-  /// if the shading is kept
-  Positions shading_densities_;
+  OpticalDensities tone_differences_;  ///< #skin by 3: scan minus template
+  /// #skin by 3: density that the scan's baked-in shading adds; no rows if the shading is kept
+  OpticalDensities shading_densities_;
 };
 
 }  // namespace crowdface

@@ -36,10 +36,10 @@ std::vector<bool> coverage(const MeshMaps& maps, std::uint32_t file, int width, 
                            const Topology& topology, const TextureCoordinates& uvs) {
   std::vector<bool> covered(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   for (Index f = 0; f < topology.face_count(); ++f) {
-    if (maps.texture_of_face[static_cast<std::size_t>(f)] != file) continue;
+    if (maps.texture_of_polygon[static_cast<std::size_t>(f)] != file) continue;
     const auto corners = topology.face_uvs(f);
     if (std::ranges::count(corners, kNoIndex) > 0) continue;
-    const auto& tile = maps.tile_of_face[static_cast<std::size_t>(f)];
+    const auto& tile = maps.tile_of_polygon[static_cast<std::size_t>(f)];
     const auto at = [&](std::size_t corner) -> Eigen::Vector2d {
       const auto uv = uvs.row(corners[corner]);
       return {(uv[0] - tile[0]) * width, (1 - (uv[1] - tile[1])) * height};
@@ -75,12 +75,12 @@ std::array<std::int32_t, 2> unit_square_of(std::span<const std::uint32_t> corner
 MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
                         const Topology& topology, const TextureCoordinates& uvs) {
   MeshMaps maps;
-  maps.texture_of_face = textures.file_of_face;
+  maps.texture_of_polygon = textures.file_of_polygon;
   if (textures.files.empty()) return maps;
-  maps.tile_of_face.resize(static_cast<std::size_t>(topology.face_count()));
+  maps.tile_of_polygon.resize(static_cast<std::size_t>(topology.face_count()));
   constexpr Index kBlock = 16384;
   parallel_for_each(topology.face_count(), kBlock, [&](Index f) {
-    maps.tile_of_face[static_cast<std::size_t>(f)] = unit_square_of(topology.face_uvs(f), uvs);
+    maps.tile_of_polygon[static_cast<std::size_t>(f)] = unit_square_of(topology.face_uvs(f), uvs);
   });
   maps.textures.resize(textures.files.size());
   parallel_for_each(textures.files.size(), [&](std::size_t i) {
@@ -130,7 +130,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
     if (own != mesh.material_colours.end()) colour = own->second;
     material_linear_colours_.push_back(colour);
   }
-  material_of_face_ = std::move(materials.material_of_face);
+  material_of_polygon_ = std::move(materials.material_of_polygon);
   has_colours_ = !colours_.textures.empty() || has_vertex_colours() ||
                  std::ranges::any_of(material_linear_colours_,
                                      [](const auto& light) { return light.has_value(); });
@@ -139,12 +139,12 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
 std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanArea& area) const {
   const TriangleCorners& source = triangle_corners_[scan.file_triangle_indices[area.triangle]];
   const std::uint32_t file =
-      colours_.texture_of_face.empty() ? kNoIndex : colours_.texture_of_face[source.face];
+      colours_.texture_of_polygon.empty() ? kNoIndex : colours_.texture_of_polygon[source.face];
   if (file != kNoIndex) {
     const auto& rows = mesh_.topology.corner_uvs;
     if (rows[source.first] != kNoIndex && rows[source.second] != kNoIndex &&
         rows[source.third] != kNoIndex) {
-      const auto& tile = colours_.tile_of_face[source.face];
+      const auto& tile = colours_.tile_of_polygon[source.face];
       const auto uv_of = [&](std::uint32_t corner) -> Eigen::Vector2d {
         return mesh_.uvs.row(rows[corner]).transpose();
       };
@@ -177,7 +177,7 @@ std::optional<Eigen::Array3f> ScanColours::mean_at(const Scan& scan, const ScanA
         area.barycentric[2] * row3(vertex_linear_colours_, vertices[source.third]);
     return light.cast<float>().array();
   }
-  const auto& light = material_linear_colours_[material_of_face_[source.face]];
+  const auto& light = material_linear_colours_[material_of_polygon_[source.face]];
   if (!light) return std::nullopt;
   return Eigen::Array3f((*light)[0], (*light)[1], (*light)[2]);
 }

@@ -21,10 +21,10 @@ namespace crowdface {
 struct MeshMaps {
   std::vector<std::unique_ptr<const FilteredTexture>> textures;
   /// for each polygon, an index into `textures`, or kNoIndex; may be empty
-  std::vector<std::uint32_t> texture_of_face;
+  std::vector<std::uint32_t> texture_of_polygon;
   /// for each polygon: lower left corner (u, v) of the unit square of texture space that contains
   /// the polygon's centre
-  std::vector<std::array<std::int32_t, 2>> tile_of_face;
+  std::vector<std::array<std::int32_t, 2>> tile_of_polygon;
 };
 
 /// Reads texture files, and marks the texels that the polygons cover.
@@ -60,17 +60,18 @@ class ScanColours {
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:
-  /// A polygon of the file, and the three corners of the polygon that form a triangle.
+  /// A triangle of the file: the index of its polygon, and the numbers of three corners of this
+  /// polygon.
   struct TriangleCorners {
     std::uint32_t face = 0, first = 0, second = 0, third = 0;
   };
 
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file
-  std::vector<TriangleCorners> triangle_corners_;  ///< #triangles of the file
+  std::vector<TriangleCorners> triangle_corners_;  ///< one per triangle of the file
   MeshMaps colours_;
-  Positions vertex_linear_colours_;  ///< #V: colours of vertices in linear light; or no rows
-  std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< #materials
-  std::vector<std::uint32_t> material_of_face_;                               ///< #F; or empty
+  Positions vertex_linear_colours_;  ///< #V by 3: colours of vertices in linear light; or no rows
+  std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< one per material
+  std::vector<std::uint32_t> material_of_polygon_;  ///< one per polygon; or empty
   std::vector<std::string> warnings_;
   bool has_colours_ = false;
 };

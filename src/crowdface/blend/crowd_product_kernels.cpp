@@ -41,34 +41,34 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
   return hn::LoadU(lanes, values);
 }
 
-/// Computes kVectors SIMD vectors of each product, beginning at element `begin`. All sums stay in
-/// registers.
+/// Computes, for kColumns columns, the elements of each product that fill kRegisters SIMD registers,
+/// beginning at element `begin`. All sums stay in registers.
 ///
 /// \param alpha  If null, the products are stored in `products`. Otherwise alpha·product is added
 ///               to `products`.
-template <std::size_t kOfColumns, std::size_t kVectors, class Number>
+template <std::size_t kColumns, std::size_t kRegisters, class Number>
 HWY_INLINE void multiply_some(const MatrixRows<Number>& rows, const float* const* columns,
                               const float* alpha, std::size_t begin, float* const* products) {
   const hn::CappedTag<float, kPatchPadding> lanes;
   using V = hn::VFromD<decltype(lanes)>;
   const std::size_t width = hn::Lanes(lanes);
-  V sums[kOfColumns][kVectors];
+  V sums[kColumns][kRegisters];
   for (auto& of_column : sums) {
     for (V& sum : of_column) sum = hn::Zero(lanes);
   }
   for (const std::uint32_t row : rows.used_rows) {
     const Number* numbers = rows.values + row * rows.stride + begin;
-    V values[kVectors];
-    for (std::size_t v = 0; v < kVectors; ++v) values[v] = numbers_at(lanes, numbers + v * width);
-    for (std::size_t c = 0; c < kOfColumns; ++c) {
+    V values[kRegisters];
+    for (std::size_t v = 0; v < kRegisters; ++v) values[v] = numbers_at(lanes, numbers + v * width);
+    for (std::size_t c = 0; c < kColumns; ++c) {
       const V factor = hn::Set(lanes, columns[c][row]);
-      for (std::size_t v = 0; v < kVectors; ++v) {
+      for (std::size_t v = 0; v < kRegisters; ++v) {
         sums[c][v] = fused_multiply_add(factor, values[v], sums[c][v]);
       }
     }
   }
-  for (std::size_t c = 0; c < kOfColumns; ++c) {
-    for (std::size_t v = 0; v < kVectors; ++v) {
+  for (std::size_t c = 0; c < kColumns; ++c) {
+    for (std::size_t v = 0; v < kRegisters; ++v) {
       float* to = products[c] + begin + v * width;
       if (alpha == nullptr) {
         hn::StoreU(sums[c][v], lanes, to);
@@ -80,21 +80,21 @@ HWY_INLINE void multiply_some(const MatrixRows<Number>& rows, const float* const
   }
 }
 
-template <std::size_t kOfColumns, class Number>
+template <std::size_t kColumns, class Number>
 void multiply_columns(const MatrixRows<Number>& rows, const float* const* columns,
                       const float* alpha, float* const* products) {
   const hn::CappedTag<float, kPatchPadding> lanes;
   const std::size_t width = hn::Lanes(lanes);
-  constexpr std::size_t kMany = kOfColumns <= 2 ? 6 : kOfColumns <= 3 ? 4 : 2;
+  constexpr std::size_t kMany = kColumns <= 2 ? 6 : kColumns <= 3 ? 4 : 2;
   std::size_t i = 0;
   for (; i + kMany * width <= rows.width; i += kMany * width) {
-    multiply_some<kOfColumns, kMany>(rows, columns, alpha, i, products);
+    multiply_some<kColumns, kMany>(rows, columns, alpha, i, products);
   }
   for (; i + 2 * width <= rows.width; i += 2 * width) {
-    multiply_some<kOfColumns, 2>(rows, columns, alpha, i, products);
+    multiply_some<kColumns, 2>(rows, columns, alpha, i, products);
   }
   for (; i < rows.width; i += width) {
-    multiply_some<kOfColumns, 1>(rows, columns, alpha, i, products);
+    multiply_some<kColumns, 1>(rows, columns, alpha, i, products);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "crowdface/cast/hair_sampling.h"
+#include "crowdface/cast/hair_chooser.h"
 #include "crowdface/cast/sampling.h"
 #include "crowdface/cast/shares.h"
 #include "crowdface/core/contains.h"

@@ -19,7 +19,7 @@ constexpr std::uint64_t kMinTooNear = 100;
 void CapacityForecast::add(std::uint64_t too_near_count, std::uint64_t far_enough_count) {
   require(far_enough_count > 0, "a face is chosen from at least one candidate");
   if (placed_count_ >= current_.face_count) {
-    current_.too_near_fraction_sum += static_cast<double>(too_near_count) /
+    current_.rejected_fraction_sum += static_cast<double>(too_near_count) /
                                       static_cast<double>(too_near_count + far_enough_count);
     current_.too_near_count += too_near_count;
   }
@@ -33,11 +33,11 @@ std::optional<double> CapacityForecast::estimated_face_count() const {
   if (placed_count_ < kMinPlaced || before_previous_.too_near_count < kMinTooNear)
     return std::nullopt;
   const double growth =
-      (previous_.mean_too_near_fraction() - before_previous_.mean_too_near_fraction()) /
+      (previous_.mean_rejected_fraction() - before_previous_.mean_rejected_fraction()) /
       (previous_.middle_face_number() - before_previous_.middle_face_number());
   if (!(growth > 0)) return std::nullopt;
   const double placed = 2 * static_cast<double>(previous_.face_count);
-  return placed + kFacesTimesChance * (1 - previous_.mean_too_near_fraction()) / growth;
+  return placed + kFacesTimesChance * (1 - previous_.mean_rejected_fraction()) / growth;
 }
 
 }  // namespace crowdface

@@ -27,14 +27,15 @@ class CapacityForecast {
   std::optional<double> estimated_face_count() const;
 
  private:
-  /// Statistics of the candidates for the faces n + 1 to 2·n, with n = `face_count`.
+  /// Statistics of the candidates for the faces n + 1 to 2·n, with n = `face_count`. A rejected
+  /// candidate was too near to a face of the crowd.
   struct FaceRange {
     std::uint64_t face_count = 16;
     std::uint64_t too_near_count = 0;
-    /// sum over the faces of this range: the fraction of the candidates that were too near
-    double too_near_fraction_sum = 0;
-    double mean_too_near_fraction() const {
-      return too_near_fraction_sum / static_cast<double>(face_count);
+    /// sum over the faces of this range: the fraction of the face's candidates that were rejected
+    double rejected_fraction_sum = 0;
+    double mean_rejected_fraction() const {
+      return rejected_fraction_sum / static_cast<double>(face_count);
     }
     /// Returns the middle of the range from n to 2·n, with n = `face_count`: 1.5·n.
     double middle_face_number() const { return 1.5 * static_cast<double>(face_count); }

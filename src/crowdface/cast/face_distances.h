@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 
 namespace crowdface {
 

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include "crowdface/cast/sampled_heads.h"
+#include "crowdface/cast/heads_at_samples.h"
 #include "crowdface/traits/trait_limits.h"
 
 namespace crowdface {
@@ -28,7 +28,7 @@ class FaceMeasurer {
   /// \param heads               the heads, sampled at the vertices of the landmarks
   /// \param landmarks           one entry per landmark, in the order of trait_landmarks()
   /// \param head_distributions  distributions of the heads' measurements
-  FaceMeasurer(SampledHeads heads, std::vector<Landmark> landmarks,
+  FaceMeasurer(HeadsAtSamples heads, std::vector<Landmark> landmarks,
                TraitDistributions head_distributions, ExactLandmarks exact_landmarks)
       : heads_(std::move(heads)),
         landmarks_(std::move(landmarks)),
@@ -47,7 +47,7 @@ class FaceMeasurer {
   bool meets(const TraitLimits& limits, const Positions& landmarks) const;
 
  private:
-  SampledHeads heads_;
+  HeadsAtSamples heads_;
   std::vector<Landmark> landmarks_;
   TraitDistributions head_distributions_;
   ExactLandmarks exact_landmarks_;

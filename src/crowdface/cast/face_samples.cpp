@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/smooth/level_size.h"
 
 namespace crowdface {
@@ -17,9 +17,9 @@ constexpr int kTrajectorySteps = 63;
 std::vector<double> sampling_density(const Topology& topology, const Components& components,
                                      const Positions& mean, Axis front) {
   const std::vector<double> face =
-      face_vertex_areas(topology, components, mean, FaceArea::kFront, front);
+      compared_vertex_areas(topology, components, mean, ComparedArea::kFront, front);
   const std::vector<double> skin =
-      face_vertex_areas(topology, components, mean, FaceArea::kSkin, front);
+      compared_vertex_areas(topology, components, mean, ComparedArea::kSkin, front);
   std::vector<double> vertices;
   for (const double area : skin) vertices.push_back(area > 0 ? 1 : 0);
   std::vector<double> density(skin.size(), 0.0);

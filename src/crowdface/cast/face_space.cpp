@@ -59,7 +59,7 @@ struct FaceSpace::FunctionOrder {
   Index count(Index regions) const { return of_field(regions * heads, 0); }
 };
 
-FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands)
+FaceSpace::FaceSpace(HeadsAtSamples heads, const std::vector<double>& weights, std::size_t bands)
     : heads_(std::move(heads)) {
   choose_nonzero_weight_samples(weights);
   const FloatRows basis = compute_basis_functions();
@@ -71,7 +71,8 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, std
   find_region_metrics(basis);
 }
 
-FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables)
+FaceSpace::FaceSpace(HeadsAtSamples heads, const std::vector<double>& weights,
+                     FaceSpaceTables tables)
     : heads_(std::move(heads)), tables_(std::move(tables)) {
   require(have_matching_sizes(tables_, heads_), "face space: tables of other heads");
   choose_nonzero_weight_samples(weights);
@@ -80,7 +81,7 @@ FaceSpace::FaceSpace(SampledHeads heads, const std::vector<double>& weights, Fac
   if (heads_.region_weights.cols() > 1) compute_region_area_fractions();
 }
 
-bool FaceSpace::have_matching_sizes(const FaceSpaceTables& tables, const SampledHeads& heads) {
+bool FaceSpace::have_matching_sizes(const FaceSpaceTables& tables, const HeadsAtSamples& heads) {
   const std::size_t mirror_variant_count = heads.mirror_images == nullptr ? 1 : 2;
   const FunctionOrder order{static_cast<Index>(mirror_variant_count * heads.heads.size()),
                             tables.level_coefficients.cols()};

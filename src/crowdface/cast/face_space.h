@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "crowdface/cast/sampled_heads.h"
+#include "crowdface/cast/heads_at_samples.h"
 #include "crowdface/cast/span_basis.h"
 
 namespace crowdface {
@@ -41,14 +41,14 @@ class FaceSpace {
   ///                 ignored.
   /// \param bands    Number of bands of detail in each region. With more bands, faces can differ in
   ///                 more ways.
-  FaceSpace(SampledHeads heads, const std::vector<double>& weights, std::size_t bands = 1);
+  FaceSpace(HeadsAtSamples heads, const std::vector<double>& weights, std::size_t bands = 1);
   /// Restores a face space from `tables()`, computed from the same heads and weights.
   ///
   /// \pre `have_matching_sizes(tables, heads)`.
-  FaceSpace(SampledHeads heads, const std::vector<double>& weights, FaceSpaceTables tables);
+  FaceSpace(HeadsAtSamples heads, const std::vector<double>& weights, FaceSpaceTables tables);
 
   /// Returns whether the sizes of the tables fit these heads.
-  static bool have_matching_sizes(const FaceSpaceTables& tables, const SampledHeads& heads);
+  static bool have_matching_sizes(const FaceSpaceTables& tables, const HeadsAtSamples& heads);
   const FaceSpaceTables& tables() const { return tables_; }
 
   Point point(const Recipe& recipe) const;
@@ -63,7 +63,7 @@ class FaceSpace {
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
   /// Returns the number of heads, including mirror images if there are any.
   Index head_point_count() const { return mirror_variant_count() * head_count(); }
-  const SampledHeads& sampled_heads() const { return heads_; }
+  const HeadsAtSamples& sampled_heads() const { return heads_; }
 
   /// Returns the root mean square distance between two faces in mm: the smaller of the distances
   /// with and without extrapolation.
@@ -101,7 +101,7 @@ class FaceSpace {
   Index mirror_variant_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
   /// Returns the sampled heads that contain the head with this number: the unmirrored heads if the
   /// number is below head_count(), otherwise their mirror images.
-  const SampledHeads& sampled_heads_containing(Index head) const {
+  const HeadsAtSamples& sampled_heads_containing(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
   }
   /// Returns the number of coordinate functions.
@@ -138,7 +138,7 @@ class FaceSpace {
   void align_and_subtract_mean(Eigen::Map<Shape> shape) const;
   std::vector<Eigen::VectorXf> coordinates(const std::vector<float>& coefficients) const;
 
-  SampledHeads heads_;
+  HeadsAtSamples heads_;
   std::vector<Index> nonzero_weight_samples_;  ///< indices of the samples with nonzero weight
   Eigen::VectorXf weight_square_roots_;        ///< √w of each sample in `nonzero_weight_samples_`
   FaceSpaceTables tables_;

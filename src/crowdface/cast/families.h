@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "crowdface/cast/family_draws.h"
+#include "crowdface/cast/family_sampler.h"
 
 namespace crowdface {
 

@@ -114,50 +114,51 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   for (; i < count; ++i) to[i] += factor * from[i];
 }
 
-/// Like add_product, for kVectors rows of `factors` and for a group of columns that fills kWidth
-/// SIMD registers.
+/// Multiplies kRows rows of `factors` by a matrix of `count` rows and `width` columns, and adds the
+/// products to the rows of `to`. Computes only the leading columns that fill kRegisters SIMD
+/// registers.
 ///
 /// \param stride  distance between two rows of `factors`
-template <std::size_t kVectors, std::size_t kWidth>
+template <std::size_t kRows, std::size_t kRegisters>
 void add_product_at_columns(const float* factors, std::size_t stride, std::size_t count,
                             const float* rows, std::size_t width, float* to) {
   const Lanes lanes;
   const std::size_t one = hn::Lanes(lanes);
-  hn::VFromD<Lanes> sums[kVectors][kWidth];
-  for (std::size_t v = 0; v < kVectors; ++v) {
-    for (std::size_t c = 0; c < kWidth; ++c)
+  hn::VFromD<Lanes> sums[kRows][kRegisters];
+  for (std::size_t v = 0; v < kRows; ++v) {
+    for (std::size_t c = 0; c < kRegisters; ++c)
       sums[v][c] = hn::LoadU(lanes, to + v * width + c * one);
   }
   for (std::size_t i = 0; i < count; ++i) {
     bool is_zero = true;
-    for (std::size_t v = 0; v < kVectors; ++v) is_zero = is_zero && factors[v * stride + i] == 0;
+    for (std::size_t v = 0; v < kRows; ++v) is_zero = is_zero && factors[v * stride + i] == 0;
     if (is_zero) continue;
     const float* row = rows + i * width;
-    for (std::size_t v = 0; v < kVectors; ++v) {
+    for (std::size_t v = 0; v < kRows; ++v) {
       const auto factor = hn::Set(lanes, factors[v * stride + i]);
-      for (std::size_t c = 0; c < kWidth; ++c)
+      for (std::size_t c = 0; c < kRegisters; ++c)
         sums[v][c] = hn::Add(sums[v][c], hn::Mul(factor, hn::LoadU(lanes, row + c * one)));
     }
   }
-  for (std::size_t v = 0; v < kVectors; ++v) {
-    for (std::size_t c = 0; c < kWidth; ++c)
+  for (std::size_t v = 0; v < kRows; ++v) {
+    for (std::size_t c = 0; c < kRegisters; ++c)
       hn::StoreU(sums[v][c], lanes, to + v * width + c * one);
   }
 }
 
-template <std::size_t kVectors>
+template <std::size_t kRows>
 void add_product_of_vectors(const float* factors, std::size_t stride, std::size_t count,
                             const float* rows, std::size_t width, float* to) {
   const std::size_t one = hn::Lanes(Lanes());
   std::size_t d = 0;
   for (; d + 4 * one <= width; d += 4 * one)
-    add_product_at_columns<kVectors, 4>(factors, stride, count, rows + d, width, to + d);
+    add_product_at_columns<kRows, 4>(factors, stride, count, rows + d, width, to + d);
   for (; d + 2 * one <= width; d += 2 * one)
-    add_product_at_columns<kVectors, 2>(factors, stride, count, rows + d, width, to + d);
+    add_product_at_columns<kRows, 2>(factors, stride, count, rows + d, width, to + d);
   for (; d + one <= width; d += one)
-    add_product_at_columns<kVectors, 1>(factors, stride, count, rows + d, width, to + d);
+    add_product_at_columns<kRows, 1>(factors, stride, count, rows + d, width, to + d);
   for (; d < width; ++d) {
-    for (std::size_t v = 0; v < kVectors; ++v) {
+    for (std::size_t v = 0; v < kRows; ++v) {
       for (std::size_t i = 0; i < count; ++i)
         to[v * width + d] += factors[v * stride + i] * rows[i * width + d];
     }

@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-Recipe random_training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64_t index) {
+Recipe random_training_recipe(const HeadsAtSamples& heads, std::size_t bands, std::uint64_t index) {
   const auto head_count = static_cast<Index>(heads.heads.size());
   const auto draw = [&](const std::string& purpose, std::uint32_t lane) {
     return random_pair({0, index, purpose, 0}, lane);

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "crowdface/blend/recipe.h"
-#include "crowdface/cast/sampled_heads.h"
+#include "crowdface/cast/heads_at_samples.h"
 
 namespace crowdface {
 
@@ -15,6 +15,6 @@ namespace crowdface {
 ///
 /// \param bands  Number of bands of detail in each region.
 /// \param index  Number of the recipe; the same index always gives the same recipe.
-Recipe random_training_recipe(const SampledHeads& heads, std::size_t bands, std::uint64_t index);
+Recipe random_training_recipe(const HeadsAtSamples& heads, std::size_t bands, std::uint64_t index);
 
 }  // namespace crowdface

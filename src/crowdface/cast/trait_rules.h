@@ -18,9 +18,10 @@ class TraitRules {
       : measurer_(measurer), casting_(casting) {}
 
   /// Returns the limits that apply to a face. A hand-written face has the limits of its recipe. A
-  /// member of a family has the limits of the family and of the family's group (or of the crowd). A
-  /// face in a group has the group's limits. All other faces have the crowd's limits, except faces
-  /// without an index and an id, which are not part of the crowd and have no limits.
+  /// member of a family has the limits of the family, and also the limits of the family's group or,
+  /// if the family has no group, of the crowd. A face in a group has the group's limits. All other
+  /// faces have the crowd's limits, except faces without an index and an id, which are not part of
+  /// the crowd and have no limits.
   TraitLimits limits_of(const FacePlan& face) const;
   /// Checks a face against the limits of the face. Returns nothing if the landmarks meet the
   /// limits.

@@ -12,8 +12,8 @@
 #include "crowdface/attach/attachment_move.h"
 #include "crowdface/blend/normalization.h"
 #include "crowdface/cast/attachment_item.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/cast/diversity.h"
-#include "crowdface/cast/face_area.h"
 #include "crowdface/cast/family.h"
 #include "crowdface/cast/plan_names.h"
 #include "crowdface/cast/review.h"
@@ -249,7 +249,7 @@ struct Config {
 
   /// Which vertices count when the distance between two faces is measured.
   struct Distance {
-    FaceArea area = FaceArea::kFront;
+    ComparedArea area = ComparedArea::kFront;
     /// path of a mask file: an image (the path may contain <UDIM>) or a table of vertex weights;
     /// the first channel gives the weight of each vertex
     std::optional<std::string> mask;
@@ -268,9 +268,9 @@ struct Config {
     std::vector<TraitTarget> targets;  ///< the file's content, sorted by measurement
   };
   TraitTable population;  ///< distributions that the measurements of the sampled faces should have
-  /// The table of the key `quantiles_of`: distributions that turn a percentage in `traits` into a
-  /// measured value (a quantile). Measurements without an entry use the heads' measurements.
-  TraitTable quantile_distributions;
+  /// The table of the key `quantiles_of`. A limit of n % in `traits` is the n % quantile of the
+  /// table's distribution or, for measurements that the table lacks, of the heads' values.
+  TraitTable quantile_table;
 
   struct Reviews {
     std::vector<std::filesystem::path> files;

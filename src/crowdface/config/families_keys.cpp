@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/family_draws.h"
+#include "crowdface/cast/family_sampler.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"

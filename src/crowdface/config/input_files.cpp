@@ -243,7 +243,7 @@ std::vector<fs::path> input_files(const Config& config) {
   add(config.points);
   add(config.landmarks);
   add(config.population.file);
-  add(config.quantile_distributions.file);
+  add(config.quantile_table.file);
   add(config.rig);
   add(config.neck.body);
   add(config.neck.rim);

@@ -277,10 +277,10 @@ const Keys<Config>& root_keys() {
       believability_key().not_affecting_face_files(),
       traits_key().not_affecting_face_files(),
       trait_table_key("population", &Config::population).not_affecting_face_files(),
-      trait_table_key("quantiles_of", &Config::quantile_distributions)
+      trait_table_key("quantiles_of", &Config::quantile_table)
           .not_affecting_face_files()
           .written_if([](const Config& config, const auto&) {
-            return !config.quantile_distributions.file.empty();
+            return !config.quantile_table.file.empty();
           }),
       groups_key().not_affecting_face_files(),
       recipes_key().not_affecting_face_files(),

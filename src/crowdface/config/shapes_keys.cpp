@@ -7,9 +7,9 @@
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/contains.h"
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {

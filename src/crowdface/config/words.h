@@ -78,7 +78,7 @@ inline const auto& all_words() {
                   {"uniform", Kind::kUniform},
                   {"around", Kind::kAround},
                   {"fixed", Kind::kFixed}},
-      Words<FaceArea>{{"front", FaceArea::kFront}, {"skin", FaceArea::kSkin}},
+      Words<ComparedArea>{{"front", ComparedArea::kFront}, {"skin", ComparedArea::kSkin}},
       Words<Mode>{{"first_fit", Mode::kFirstFit}, {"spread", Mode::kSpread}},
       Words<MeshChecks>{{"auto", MeshChecks::kAuto},
                         {"all", MeshChecks::kAll},

@@ -5,9 +5,9 @@
 
 #include "crowdface/config/yaml.h"
 #include "crowdface/core/contains.h"
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/text.h"
 

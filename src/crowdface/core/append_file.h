@@ -5,7 +5,7 @@
 #include <mutex>
 #include <string_view>
 
-#include "crowdface/core/descriptor.h"
+#include "crowdface/core/file_descriptor.h"
 
 namespace crowdface {
 
@@ -22,7 +22,7 @@ class AppendFile {
 
  private:
   std::filesystem::path path_;
-  Descriptor file_;
+  FileDescriptor file_;
   std::mutex mutex_;
 };
 

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Descriptor open_lock_file(const fs::path& path) {
-  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
+FileDescriptor open_lock_file(const fs::path& path) {
+  FileDescriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666));
   if (!file.valid()) throw_with_errno<CannotCreate>(path, "lock file cannot be created");
   return file;
 }

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <functional>
 
-#include "crowdface/core/descriptor.h"
+#include "crowdface/core/file_descriptor.h"
 
 namespace crowdface {
 
@@ -31,7 +31,7 @@ class FileLock {
 
  private:
   std::filesystem::path path_;
-  Descriptor file_;
+  FileDescriptor file_;
 };
 
 }  // namespace crowdface

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <vector>
 
-#include "crowdface/core/descriptor.h"
+#include "crowdface/core/file_descriptor.h"
 
 namespace crowdface {
 
@@ -52,7 +52,7 @@ class DirectoryHandle {
 
  private:
   std::filesystem::path path_;
-  Descriptor opened_;
+  FileDescriptor opened_;
 };
 
 }  // namespace crowdface

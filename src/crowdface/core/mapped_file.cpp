@@ -16,9 +16,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/memory.h"
 #include "crowdface/core/text.h"
 
@@ -88,14 +88,14 @@ int begin_watch(char* begin, std::size_t size, OnTruncation on_truncation, const
 
 /// Opens a new file without a name, for reading and writing.
 /// \throws CannotCreate.
-Descriptor nameless_file(const fs::path& folder) {
+FileDescriptor nameless_file(const fs::path& folder) {
   make_directories(folder);
-  Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
+  FileDescriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
   if (file.valid()) return file;
   // For file systems that do not support O_TMPFILE: create a file with a name, then remove the
   // name.
   std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
-  file = Descriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
+  file = FileDescriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
   if (!file.valid()) throw_with_errno<CannotCreate>(folder, "no file can be created there");
   ::unlink(name.c_str());
   return file;
@@ -120,7 +120,7 @@ struct MappedFile::Mapping {
         size(length) {
     if (data == MAP_FAILED) throw_with_errno<IoError>(name, "cannot be read");
   }
-  Mapping(Descriptor file, std::size_t length, OnTruncation on_truncation, const fs::path& name)
+  Mapping(FileDescriptor file, std::size_t length, OnTruncation on_truncation, const fs::path& name)
       : data(::mmap(nullptr, length, PROT_READ, MAP_PRIVATE, file.get(), 0)), size(length) {
     if (data == MAP_FAILED) throw_with_errno<IoError>(name, "cannot be mapped");
     watch = begin_watch(static_cast<char*>(data), size, on_truncation, name);
@@ -137,7 +137,7 @@ struct MappedFile::Mapping {
   void* data;
   std::size_t size;
   int watch = -1;
-  Descriptor kept{-1};  ///< the open file; kept open only with kFill
+  FileDescriptor kept{-1};  ///< the open file; kept open only with kFill
 };
 
 MappedFile::MappedFile(const fs::path& path, OnTruncation on_truncation) {
@@ -154,7 +154,7 @@ MappedFile::MappedFile(const fs::path& path, OnTruncation on_truncation) {
 }
 
 MappedFile MappedFile::from_temporary_copy(std::string_view bytes, const fs::path& folder) {
-  Descriptor file = nameless_file(folder);
+  FileDescriptor file = nameless_file(folder);
   if (!write_all(file.get(), bytes)) {
     throw_with_errno<IoError>(
         folder, concat("a temporary file of ", format_bytes(bytes.size()), " cannot be written"));

@@ -9,8 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {

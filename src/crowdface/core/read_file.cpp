@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Functions that test whether files exist and read files; declared in file.h, text_pieces.h and
-// descriptor.h.
+// file_descriptor.h.
 #include <algorithm>
 #include <array>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/text_pieces.h"
 
@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Calls POSIX read() once and returns the number of bytes read; 0 at the end of the file.
-std::size_t read_some(const Descriptor& descriptor, char* to, std::size_t size,
+std::size_t read_some(const FileDescriptor& descriptor, char* to, std::size_t size,
                       const fs::path& path) {
   for (;;) {
     const ssize_t got = ::read(descriptor.get(), to, size);
@@ -47,7 +47,7 @@ void throw_if_system_error(const fs::path& path, const std::error_code& error) {
   throw IoError(concat(path.string(), ": its file status cannot be read: ", error.message()));
 }
 
-bool path_leads_to(const fs::path& path, const Descriptor& file) {
+bool path_leads_to(const fs::path& path, const FileDescriptor& file) {
   struct stat by_name {
   }, by_descriptor{};
   const auto look = [&](int failed) {
@@ -85,7 +85,7 @@ OpenedFile open_for_reading(const fs::path& path) {
     throw_with_errno<MissingInput>(path, "cannot be opened");
   }
   struct stat status {};
-  Descriptor descriptor(fd);
+  FileDescriptor descriptor(fd);
   if (::fstat(fd, &status) != 0) throw_with_errno<IoError>(path, "its file status cannot be read");
   if (!S_ISREG(status.st_mode)) {
     throw MissingInput(concat(path.string(), ": expected a regular file"));
@@ -93,7 +93,8 @@ OpenedFile open_for_reading(const fs::path& path) {
   return {std::move(descriptor), static_cast<std::size_t>(status.st_size)};
 }
 
-std::size_t read_up_to(const Descriptor& file, char* to, std::size_t size, const fs::path& path) {
+std::size_t read_up_to(const FileDescriptor& file, char* to, std::size_t size,
+                       const fs::path& path) {
   std::size_t done = 0;
   while (done < size) {
     const std::size_t got = read_some(file, to + done, size - done, path);

@@ -5,8 +5,8 @@
 #include <string>
 #include <system_error>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/text.h"
 
 namespace crowdface {

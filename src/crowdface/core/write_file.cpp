@@ -9,9 +9,9 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/text_pieces.h"
@@ -59,7 +59,7 @@ class TemporaryFile {
     for (int i = 0; i < kTries; ++i) {
       path_ = target;
       path_.replace_filename(temporary_name());
-      file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+      file_ = FileDescriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
       if (!file_.valid() && errno == EEXIST) continue;  // made by a killed run or another machine
       if (!file_.valid()) throw_with_errno<CannotCreate>(target, "cannot be created");
       if (lock_unless_claimed_for_removal()) return;
@@ -98,7 +98,7 @@ class TemporaryFile {
     if (!sync_to_disk(file_.get())) fail("writing to disk");
     // Large new files should not displace other data from the page cache.
     if (written_ >= kWritebackSize) ::posix_fadvise(file_.get(), 0, 0, POSIX_FADV_DONTNEED);
-    lock_ = Descriptor(::dup(file_.get()));  // keeps the lock after the file is closed
+    lock_ = FileDescriptor(::dup(file_.get()));  // keeps the lock after the file is closed
     if (!file_.close()) fail("closing");
   }
 
@@ -127,7 +127,7 @@ class TemporaryFile {
 
   const fs::path& target_;
   fs::path path_;
-  Descriptor file_{-1}, lock_{-1};
+  FileDescriptor file_{-1}, lock_{-1};
   std::size_t written_ = 0;
   std::size_t bytes_in_writeback_ = 0;  ///< bytes for which writing back to disk has started
 };
@@ -139,7 +139,7 @@ fs::path folder_of(const fs::path& file) {
 /// Syncs a folder to disk. After a rename, this is needed so that the new name survives a power
 /// cut.
 void sync_directory(const fs::path& directory) {
-  const Descriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const FileDescriptor descriptor(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   // Accept this error: a folder that is writable but not readable cannot be synced.
   if (!descriptor.valid() && errno == EACCES) return;
   if (!descriptor.valid() || !sync_to_disk(descriptor.get())) {
@@ -196,7 +196,7 @@ std::size_t remove_temporary_files(const fs::path& folder) {
   std::size_t removed = 0;
   for (const fs::path& path : list_folder(folder)) {
     if (!is_temporary(path)) continue;
-    const Descriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    const FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (!file.valid() || claim(file.get()) != Claim::kOurs) continue;
     if (::unlink(path.c_str()) == 0) ++removed;
   }

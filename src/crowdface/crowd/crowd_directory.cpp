@@ -8,9 +8,9 @@
 
 #include <unistd.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"

@@ -211,13 +211,13 @@ std::optional<LedgerEntry> Ledger::find_verified(const std::string& item, const 
   for (const LedgerEntry& entry : candidates) {
     if (entry.key != key || !files_match(root_, entry)) continue;
     const std::lock_guard lock(mutex_);
-    replace_lines(entry);
+    set_finished_entry(entry);
     return entry;
   }
   return std::nullopt;
 }
 
-void Ledger::replace_lines(LedgerEntry entry) {
+void Ledger::set_finished_entry(LedgerEntry entry) {
   Item& item = items_[entry.item];
   for (const LedgerEntry& line : item.lines) {
     for (const LedgerEntry::File& file : line.files) {
@@ -239,7 +239,7 @@ void Ledger::record_all(std::vector<LedgerEntry> entries) {
   file_->append(lines);
   const std::lock_guard lock(mutex_);
   has_appended_ = true;
-  for (LedgerEntry& entry : entries) replace_lines(std::move(entry));
+  for (LedgerEntry& entry : entries) set_finished_entry(std::move(entry));
 }
 
 void Ledger::record(LedgerEntry entry) {

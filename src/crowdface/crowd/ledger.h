@@ -119,15 +119,16 @@ class Ledger {
   void require_files() const;
 
  private:
-  /// The ledger lines of one item. At first, these are the lines that earlier runs wrote. As soon
-  /// as this run has recorded the item, or has found that a line matches the item's files,
-  /// `is_finished` is true and only the recorded or matching line is left.
+  /// The ledger lines of one item. At first, these are the lines that earlier runs wrote. Once this
+  /// run has recorded the item or verified its files, `is_finished` is true and only that entry is
+  /// left.
   struct Item {
     std::vector<LedgerEntry> lines;
     bool is_finished = false;
   };
 
-  void replace_lines(LedgerEntry entry);
+  /// Marks the entry's item as finished: replaces all lines of the item by this entry.
+  void set_finished_entry(LedgerEntry entry);
   void remove_outdated_files() const;
   std::vector<LedgerEntry::File> hash_files(const std::vector<std::string>& names) const;
   void record_remade_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);

@@ -6,9 +6,9 @@
 
 #include <fcntl.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/file_lock.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
@@ -49,7 +49,7 @@ class EditorLock {
   void write_address(const std::string& address) {
     remove_if_exists(address_);
     constexpr mode_t kOwnerOnly = 0600;
-    Descriptor file(
+    FileDescriptor file(
         ::open(address_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kOwnerOnly));
     if (!file.valid() || !write_all(file.get(), address) || !file.close()) {
       throw CannotCreate(concat(address_.string(), ": cannot be written: ", errno_message()));

@@ -9,8 +9,8 @@
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/editor/config_edits.h"
-#include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/recipe_json.h"
+#include "crowdface/editor/sample_faces.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/page/answer_request.h"
 #include "crowdface/page/binary_answer.h"
@@ -207,7 +207,7 @@ nlohmann::ordered_json EditApi::measures_json(const FaceMeasures& measures) cons
   Json json;
   json["nearest_head"] = {{"name", names[static_cast<std::size_t>(measures.nearest_head)]},
                           {"mm", measures.nearest_head_distance_mm},
-                          {"as_built_mm", measures.nearest_head_distance_as_built_mm}};
+                          {"as_built_mm", measures.nearest_head_distance_with_extrapolation_mm}};
   json["nearest_face"] = nullptr;
   if (measures.nearest_face) {
     json["nearest_face"] = {{"id", (*session_.crowd())[*measures.nearest_face].id},

@@ -270,8 +270,9 @@ HttpAnswer EditApi::receive_dropped_file(const HttpRequest& request, const std::
   return json_answer(Json::object());
 }
 
-/// Adds the dropped heads to the config. With {"back": value}, restores an earlier value of the
-/// edits instead. If the heads cannot be loaded, restores the config.
+/// Adds the head files that the user dropped on the page to the config. If the heads cannot be
+/// loaded, undoes this change of the config. A request with {"back": value} adds nothing, but sets
+/// the section `faces` of the edits to `value` again.
 HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& rest) {
   require_editable_config();
   require_no_run();

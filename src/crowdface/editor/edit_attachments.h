@@ -15,7 +15,7 @@
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/pictures/attachment_surfaces.h"
 #include "crowdface/pictures/shown_attachments.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

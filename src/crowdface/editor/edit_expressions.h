@@ -10,7 +10,7 @@
 #include "crowdface/blend/recipe.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/face_shapes.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

@@ -9,7 +9,7 @@
 
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/pictures/crowd_renders.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

@@ -197,7 +197,7 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
   const NearestFaceSearch::NearestFace head = judge.nearest_head(point);
   measures.nearest_head = head.face;
   measures.nearest_head_distance_mm = head.distance_mm;
-  measures.nearest_head_distance_as_built_mm =
+  measures.nearest_head_distance_with_extrapolation_mm =
       (point.coordinates_with_extrapolation -
        judge.space().head_point(head.face).coordinates_with_extrapolation)
           .norm();
@@ -274,7 +274,7 @@ std::vector<float> EditSession::preview_points(const Positions& face) const {
 
 std::vector<std::uint8_t> EditSession::preview_roughness(const TextureSet& texture_set) const {
   std::vector<std::uint8_t> roughness;
-  if (texture_set.roughness.texture_of_face.empty()) return roughness;
+  if (texture_set.roughness.texture_of_polygon.empty()) return roughness;
   const float plain = material_of(SurfaceKind::kSkin).roughness;
   for (std::size_t v = 0; v < preview_.vertices.size(); ++v) {
     const Eigen::Vector2f uv =

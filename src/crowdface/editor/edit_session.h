@@ -13,15 +13,15 @@
 
 #include "crowdface/cast/face_judge.h"
 #include "crowdface/cast/nearest_face_search.h"
-#include "crowdface/editor/draw_faces.h"
 #include "crowdface/editor/mesh_faults.h"
+#include "crowdface/editor/sample_faces.h"
 #include "crowdface/editor/texture_atlas.h"
 #include "crowdface/heads/cache_folder.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/preview/preview_mesh.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 
@@ -34,12 +34,11 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
-  /// Distance to `nearest_head`: the minimum of the distance of the face itself
-  /// (`nearest_head_distance_as_built_mm`) and the distance of the face without extrapolation (all
-  /// extrapolation factors 1).
+  /// Distance to `nearest_head`: the smaller of two distances, with the extrapolation factors of
+  /// the recipe (the next field) and with all extrapolation factors set to 1.
   double nearest_head_distance_mm = 0;
-  /// distance to `nearest_head` of the face as built: with the extrapolation factors of its recipe
-  double nearest_head_distance_as_built_mm = 0;
+  /// distance of the finished face, with the extrapolation factors of its recipe, to `nearest_head`
+  double nearest_head_distance_with_extrapolation_mm = 0;
   /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
   /// which the user began the edit.
   std::optional<std::size_t> nearest_face;

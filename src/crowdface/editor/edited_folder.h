@@ -10,7 +10,7 @@
 
 #include "crowdface/cast/review.h"
 #include "crowdface/core/folder.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

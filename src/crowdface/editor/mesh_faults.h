@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "crowdface/run/face_builder.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 #include "crowdface/validity/protruding_parts_check.h"
 
 namespace crowdface {

@@ -28,14 +28,14 @@ TextureAtlas::TextureAtlas(const Inputs& inputs) : inputs_(inputs) {
     for (const auto& picture : textures.blended.layout.pictures) {
       largest = std::max({largest, picture.width, picture.height});
     }
-    cell_of_polygon_ = textures.blended.layout.picture_of_face;
+    cell_of_polygon_ = textures.blended.layout.picture_of_polygon;
     cell_count_ = static_cast<std::uint32_t>(textures.blended.layout.pictures.size());
   } else {
     const auto first = std::ranges::find_if(
         textures.texture_sets,
         [](const TextureSet& texture_set) { return !texture_set.textures.empty(); });
     if (first == textures.texture_sets.end()) return;
-    cell_of_polygon_ = first->texture_of_face;
+    cell_of_polygon_ = first->texture_of_polygon;
     cell_count_ = static_cast<std::uint32_t>(first->textures.size());
     for (const TextureSet& texture_set : textures.texture_sets) {
       for (const auto& texture : texture_set.textures) {
@@ -109,12 +109,12 @@ std::string TextureAtlas::to_jpeg(const TextureLayer& layer, const LinearRgb& de
     return encode_jpeg(texture.width, texture.height, pixels);
   }
   std::vector<const Texture*> shown(cell_count_, nullptr);
-  for (std::size_t f = 0; f < layer.texture_of_face.size(); ++f) {
-    if (layer.texture_of_face[f] == TextureLayer::kNone ||
+  for (std::size_t f = 0; f < layer.texture_of_polygon.size(); ++f) {
+    if (layer.texture_of_polygon[f] == TextureLayer::kNone ||
         cell_of_polygon_[f] == TextureLayer::kNone)
       continue;
     const Texture*& texture = shown[cell_of_polygon_[f]];
-    if (texture == nullptr) texture = layer.textures[layer.texture_of_face[f]].get();
+    if (texture == nullptr) texture = layer.textures[layer.texture_of_polygon[f]].get();
   }
   const int width = columns_ * cell_px_, height = rows_ * cell_px_;
   const auto side = static_cast<float>(cell_px_);

@@ -83,14 +83,14 @@ HeadTextureFiles texture_files_of(const std::map<std::string, fs::path>& of_mate
                                   std::vector<fs::path>& missing) {
   HeadTextureFiles placed;
   if (of_material.empty()) return placed;
-  placed.file_of_face.assign(tiles.size(), kNoIndex);
+  placed.file_of_polygon.assign(tiles.size(), kNoIndex);
   const FaceMaterials materials = face_materials(ranges, static_cast<Index>(tiles.size()));
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();
-    const std::uint32_t material = materials.material_of_face[f];
-    if (f > 0 && material == materials.material_of_face[f - 1] && tiles[f] == tiles[f - 1]) {
-      placed.file_of_face[f] = placed.file_of_face[f - 1];
+    const std::uint32_t material = materials.material_of_polygon[f];
+    if (f > 0 && material == materials.material_of_polygon[f - 1] && tiles[f] == tiles[f - 1]) {
+      placed.file_of_polygon[f] = placed.file_of_polygon[f - 1];
       continue;
     }
     const auto found = of_material.find(materials.names[material]);
@@ -105,7 +105,7 @@ HeadTextureFiles texture_files_of(const std::map<std::string, fs::path>& of_mate
       // missing files.
       missing.push_back(path);
     }
-    placed.file_of_face[f] = row->second;
+    placed.file_of_polygon[f] = row->second;
   }
   return placed;
 }
@@ -142,7 +142,7 @@ void leave_out_files(FoundTextureFiles& textures, const std::set<fs::path>& file
       kept.push_back(placed.files[i]);
     }
     placed.files = std::move(kept);
-    for (std::uint32_t& file : placed.file_of_face) {
+    for (std::uint32_t& file : placed.file_of_polygon) {
       if (file != kNoIndex) file = row[file];
     }
   }
@@ -221,7 +221,7 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
     }
     if (result.has_files()) {
       for (HeadTextureFiles& placed : result.heads)
-        placed.file_of_face.resize(tile.size(), kNoIndex);
+        placed.file_of_polygon.resize(tile.size(), kNoIndex);
     }
     if (kind == TextureKind::kColour || result.has_files()) all.push_back(std::move(result));
   }

@@ -23,7 +23,7 @@ struct HeadTextureFiles {
   };
   std::vector<File> files;  ///< without duplicates, in the order in which polygons first use them
   /// for each polygon, an index into `files`, or kNoIndex; empty if no head has files of this kind
-  std::vector<std::uint32_t> file_of_face;
+  std::vector<std::uint32_t> file_of_polygon;
 };
 
 /// All heads' textures of one kind, and warnings about missing files.
@@ -31,7 +31,7 @@ struct FoundTextureFiles {
   TextureKind kind = TextureKind::kColour;
   std::vector<HeadTextureFiles> heads;  ///< #heads
   /// column and row of each polygon's UDIM tile
-  std::vector<std::array<std::int32_t, 2>> tile_of_face;
+  std::vector<std::array<std::int32_t, 2>> tile_of_polygon;
   std::vector<std::string> warnings;  ///< without duplicates; each warning names its heads
 
   bool has_files() const;

@@ -31,9 +31,9 @@ std::vector<std::vector<std::uint32_t>> rows_in_pictures(const HeadTextureFiles&
                                                          const TextureLayout& layout,
                                                          std::size_t pictures) {
   std::vector<std::set<std::uint32_t>> rows(pictures);
-  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
-    if (layout.picture_of_face[f] != kNoIndex)
-      rows[layout.picture_of_face[f]].insert(placed.file_of_face[f]);
+  for (std::size_t f = 0; f < layout.picture_of_polygon.size(); ++f) {
+    if (layout.picture_of_polygon[f] != kNoIndex)
+      rows[layout.picture_of_polygon[f]].insert(placed.file_of_polygon[f]);
   }
   std::vector<std::vector<std::uint32_t>> result;
   for (const auto& of_picture : rows) {
@@ -131,7 +131,7 @@ void read_maps(LoadedMaps& maps, const fs::path& scratch) {
 /// Merges several maps, each of which covers some of the polygons that use the image.
 std::shared_ptr<const TextureMap> compose(
     const HeadSet& heads, const TextureLayout& layout, std::uint32_t picture,
-    const std::vector<std::uint32_t>& file_of_face,
+    const std::vector<std::uint32_t>& file_of_polygon,
     const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps,
     const fs::path& scratch) {
   const TextureMap& first = *maps.begin()->second;
@@ -150,7 +150,7 @@ std::shared_ptr<const TextureMap> compose(
   const SurfaceTexels texels(heads.topology, heads.uvs, layout, picture);
   for (int y = 0; y < texels.height(); ++y) {
     for (const SurfaceTexels::Span& span : texels.row(y)) {
-      const TextureMap& from = *maps.at(file_of_face[texels.triangle(span.triangle).face]);
+      const TextureMap& from = *maps.at(file_of_polygon[texels.triangle(span.triangle).face]);
       for (int c = 0; c < coding.channels; ++c) {
         std::transform(from.row(c, y) + span.begin, from.row(c, y) + span.end,
                        composed->row(c, y) + span.begin,
@@ -233,7 +233,7 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       }
       hasher.add(contents[file.path]);
     }
-    hasher.add_array(std::span<const std::uint32_t>(placed.file_of_face));
+    hasher.add_array(std::span<const std::uint32_t>(placed.file_of_polygon));
   }
   choose_sizes(found, sizes, rows, size, layout);
 
@@ -280,7 +280,7 @@ HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& ma
       for (const std::uint32_t row : rows[h][p]) of_row[row] = maps.at(needed(h, row, p));
       if (of_row.size() == 1) map = of_row.begin()->second;
       if (of_row.size() > 1) {
-        map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].file_of_face,
+        map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].file_of_polygon,
                       of_row, out_of_memory);
       }
       if (map) continue;

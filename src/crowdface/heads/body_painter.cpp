@@ -69,8 +69,9 @@ TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
   layout.pictures = {{map.width, map.height}};
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto uvs = topology.face_uvs(f);
-    layout.picture_of_face.push_back(std::ranges::find(uvs, kNoIndex) == uvs.end() ? 0 : kNoIndex);
-    layout.tile_of_face.push_back({0, 0});
+    layout.picture_of_polygon.push_back(std::ranges::find(uvs, kNoIndex) == uvs.end() ? 0
+                                                                                      : kNoIndex);
+    layout.tile_of_polygon.push_back({0, 0});
   }
   return layout;
 }

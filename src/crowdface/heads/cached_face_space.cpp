@@ -17,7 +17,7 @@ void add_matrix(Hasher& hasher, const Matrix& matrix) {
       .add_array(std::span(matrix.data(), static_cast<std::size_t>(matrix.size())));
 }
 
-void add_heads(Hasher& hasher, const SampledHeads& heads) {
+void add_heads(Hasher& hasher, const HeadsAtSamples& heads) {
   hasher.add(heads.heads.size()).add(heads.mm_per_unit);
   for (const Positions& head : heads.heads) add_matrix(hasher, head);
   for (const Trajectory& trajectory : heads.trajectories) add_matrix(hasher, trajectory);
@@ -27,7 +27,7 @@ void add_heads(Hasher& hasher, const SampledHeads& heads) {
   if (heads.mirror_images != nullptr) add_heads(hasher, *heads.mirror_images);
 }
 
-Digest face_space_digest(const SampledHeads& heads, const std::vector<double>& weights,
+Digest face_space_digest(const HeadsAtSamples& heads, const std::vector<double>& weights,
                          std::size_t bands) {
   Hasher hasher;
   hasher.add(kFaceSpaceVersion).add(bands).add_array(std::span(weights));
@@ -46,7 +46,7 @@ constexpr auto kFaceSpaceArrays = [](auto& arrays, auto& tables) {
 
 }  // namespace
 
-FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
+FaceSpace cached_face_space(const CacheFolder& cache, HeadsAtSamples heads,
                             const std::vector<double>& weights, std::size_t bands) {
   if (cache.path.empty()) return FaceSpace(std::move(heads), weights, bands);
   const CacheKey key{"face-space", face_space_digest(heads, weights, bands)};

@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// Makes a FaceSpace (see the constructor of FaceSpace). Reads the tables of the FaceSpace from the
 /// cache if the cache has them.
-FaceSpace cached_face_space(const CacheFolder& cache, SampledHeads heads,
+FaceSpace cached_face_space(const CacheFolder& cache, HeadsAtSamples heads,
                             const std::vector<double>& weights, std::size_t bands);
 
 }  // namespace crowdface

@@ -46,7 +46,7 @@ Digest statistics_key(const Digest& row_order, const Topology& topology,
   hasher.add(kTextureVersion).add(row_order);
   hasher.add_array(std::span(topology.corner_uvs));
   hasher.add_array(std::span(uvs.data(), static_cast<std::size_t>(uvs.size())));
-  hasher.add_array(std::span(textures.layout.picture_of_face));
+  hasher.add_array(std::span(textures.layout.picture_of_polygon));
   for (const TextureLayout::Picture& picture : textures.layout.pictures) {
     hasher.add(picture.width).add(picture.height);
   }

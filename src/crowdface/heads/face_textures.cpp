@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/heads/cached_statistics.h"
 #include "crowdface/smooth/chebyshev_filter.h"
 #include "crowdface/smooth/level_size.h"
@@ -52,7 +52,7 @@ FaceTextures::FaceTextures(const Config& config, const Inputs& inputs)
 
 void FaceTextures::make_blenders(const Config& config) {
   const Inputs& inputs = inputs_;
-  if (!has_own_textures(inputs) && inputs.vertex_colours.empty()) return;
+  if (!blends_textures(inputs) && inputs.vertex_colours.empty()) return;
   const Topology& topology = inputs.head_set.topology;
   TextureBlendOptions options;
   const auto iterations = [&](double size_mm) {
@@ -61,8 +61,8 @@ void FaceTextures::make_blenders(const Config& config) {
   };
   options.statistics_scale = {iterations(kDetailMm), iterations(kStrengthMm)};
   options.vertex_areas =
-      face_vertex_areas(topology, inputs.skin_components, mean_head(inputs.head_set),
-                        FaceArea::kFront, config.faces.front);
+      compared_vertex_areas(topology, inputs.skin_components, mean_head(inputs.head_set),
+                            ComparedArea::kFront, config.faces.front);
   options.uses_target_colours_only.assign(static_cast<std::size_t>(topology.vertex_count), false);
   for (const Part& part : inputs.parts.parts) {
     for (const std::uint32_t vertex : part.vertices)
@@ -70,7 +70,7 @@ void FaceTextures::make_blenders(const Config& config) {
   }
   region_area_fractions_ = region_area_fractions(inputs.regions, options.vertex_areas);
   if (!inputs.vertex_colours.empty()) uses_target_colours_only_ = options.uses_target_colours_only;
-  if (!has_own_textures(inputs)) return;
+  if (!blends_textures(inputs)) return;
   const ChebyshevFilter filter(
       SmoothingOperator(inputs.adjacency, Boundary::kFree, OperatorKind::kLazy),
       inputs.head_set.heads.front().positions);

@@ -17,7 +17,7 @@ namespace crowdface {
 std::vector<PictureName> face_picture_names(const Inputs& inputs);
 
 /// Whether each face gets textures that are blended from the heads' textures.
-inline bool has_own_textures(const Inputs& inputs) {
+inline bool blends_textures(const Inputs& inputs) {
   return inputs.textures.are_blended() || !inputs.other_textures.empty();
 }
 

@@ -104,7 +104,7 @@ MeasuredLevel measured_level(const Inputs& inputs, const HeadSet& resized_head, 
                              double mm) {
   const Borders borders = inputs.heads_on_body ? Borders::kKeep : Borders::kCollapse;
   DetailLevel level = std::move(
-      detail_levels(resized_head, inputs.materials.material_of_face, {&share, 1}, borders)[0]);
+      detail_levels(resized_head, inputs.materials.material_of_polygon, {&share, 1}, borders)[0]);
   require_ring(inputs, level);
   const NearestLevelTriangles map =
       find_level_triangles(inputs.head_set.topology, inputs.adjacency, level, inputs.mean_head);
@@ -121,7 +121,7 @@ Digest key_of(const Inputs& inputs, const HeadSet& resized_head, double share, d
   key.add(kLevelsVersion).add(inputs.topology_digest).add(share).add(mm);
   key.add_array(std::span(inputs.head_set.topology.corner_uvs));
   key.add_array(numbers_of(inputs.head_set.uvs));
-  key.add_array(std::span(inputs.materials.material_of_face));
+  key.add_array(std::span(inputs.materials.material_of_polygon));
   key.add_array(numbers_of(resized_head.heads[0].positions));
   for (const Digest& head : inputs.head_digests) key.add(head);
   if (!inputs.shapes.shapes.empty()) key.add(inputs.shapes_digest);

@@ -114,7 +114,7 @@ FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<He
     for (std::size_t p = 0; p < layout.pictures.size(); ++p) image_indices_.push_back({kind, p});
     if (kind != TextureKind::kColour && !is_shown_in_previews(kind)) return;
     TextureLayer& layer = layer_of(kind, texture_set_);
-    layer.texture_of_face = layout.picture_of_face;
+    layer.texture_of_polygon = layout.picture_of_polygon;
     layer.textures.resize(layout.pictures.size());
   };
   if (colours.are_blended()) {
@@ -122,8 +122,8 @@ FaceTextureSet::FaceTextureSet(const HeadTextures& colours, const std::vector<He
   } else if (auto of_target = texture_set_of_head(colours, target, max_px)) {
     texture_set_ = std::move(*of_target);
   } else {
-    texture_set_.texture_of_face.assign(maps.front().blended.layout.picture_of_face.size(),
-                                        TextureLayer::kNone);
+    texture_set_.texture_of_polygon.assign(maps.front().blended.layout.picture_of_polygon.size(),
+                                           TextureLayer::kNone);
   }
   for (const HeadTextures& of_kind : maps) add_kind(of_kind);
 }
@@ -161,14 +161,14 @@ void add_shading_maps_of_head(const std::vector<HeadTextures>& maps, Index head,
     const TextureKind kind = of_kind.names.front().kind;
     if (!is_shown_in_previews(kind)) continue;
     TextureLayer& layer = layer_of(kind, texture_set);
-    layer.texture_of_face = of_kind.blended.layout.picture_of_face;
+    layer.texture_of_polygon = of_kind.blended.layout.picture_of_polygon;
     for (std::size_t p = 0; p < of_kind.names.size(); ++p) {
       const TextureMap* map = of_kind.blended.maps[p][static_cast<std::size_t>(head)].get();
       layer.textures.push_back(map == nullptr ? nullptr
                                               : std::make_shared<const Texture>(shading_map_of(
                                                     *map, shading_map_texels(max_px))));
       if (map != nullptr) continue;
-      std::ranges::replace(layer.texture_of_face, static_cast<std::uint32_t>(p),
+      std::ranges::replace(layer.texture_of_polygon, static_cast<std::uint32_t>(p),
                            TextureLayer::kNone);
     }
   }
@@ -189,8 +189,9 @@ std::optional<TextureSet> texture_set_of_head(const HeadTextures& textures, Inde
     texture_set.textures.push_back(std::make_shared<const Texture>(
         texture_of(map->width, map->height, srgb8_of(*map), max_px)));
   }
-  for (const std::uint32_t picture : layout.picture_of_face) {
-    texture_set.texture_of_face.push_back(picture == kNoIndex ? TextureSet::kNone : row[picture]);
+  for (const std::uint32_t picture : layout.picture_of_polygon) {
+    texture_set.texture_of_polygon.push_back(picture == kNoIndex ? TextureSet::kNone
+                                                                 : row[picture]);
   }
   return texture_set;
 }
@@ -209,8 +210,8 @@ HeadTextures load_render_textures(FoundTextureFiles found, int max_px) {
       texture_set.textures.push_back(known->second.texture);
       hasher.add(known->second.content);
     }
-    texture_set.texture_of_face = std::move(placed.file_of_face);
-    hasher.add_array(std::span<const std::uint32_t>(texture_set.texture_of_face));
+    texture_set.texture_of_polygon = std::move(placed.file_of_polygon);
+    hasher.add_array(std::span<const std::uint32_t>(texture_set.texture_of_polygon));
     result.texture_sets.push_back(std::move(texture_set));
   }
   result.digest = hasher.digest();

@@ -27,18 +27,18 @@ std::string file_name_part(const std::string& material) {
 }  // namespace
 
 std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, TextureLayout& layout) {
-  layout.tile_of_face = found.tile_of_face;
-  layout.picture_of_face.assign(found.tile_of_face.size(), kNoIndex);
+  layout.tile_of_polygon = found.tile_of_polygon;
+  layout.picture_of_polygon.assign(found.tile_of_polygon.size(), kNoIndex);
   std::vector<PictureSource> first;
   std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> known;
-  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
+  for (std::size_t f = 0; f < layout.picture_of_polygon.size(); ++f) {
     for (std::size_t h = 0; h < found.heads.size(); ++h) {
-      const std::uint32_t row = found.heads[h].file_of_face[f];
+      const std::uint32_t row = found.heads[h].file_of_polygon[f];
       if (row == kNoIndex) continue;
       const auto [picture, is_new] =
           known.emplace(std::pair(h, row), static_cast<std::uint32_t>(first.size()));
       if (is_new) first.push_back({h, row, static_cast<Index>(f)});
-      layout.picture_of_face[f] = picture->second;
+      layout.picture_of_polygon[f] = picture->second;
       break;
     }
   }
@@ -55,7 +55,7 @@ std::vector<PictureName> picture_names(const FoundTextureFiles& found,
     const fs::path& file = found.heads[picture.head].files[picture.file_index].name;
     if (parts.contains(file)) continue;
     const auto face = static_cast<std::size_t>(picture.polygon);
-    std::string part = file_name_part(materials.names[materials.material_of_face[face]]);
+    std::string part = file_name_part(materials.names[materials.material_of_polygon[face]]);
     if (part.empty() || taken.contains(part)) part += std::to_string(parts.size() + 1);
     taken.insert(part);
     parts.emplace(file, part);
@@ -63,7 +63,7 @@ std::vector<PictureName> picture_names(const FoundTextureFiles& found,
   std::vector<PictureName> names;
   for (const PictureSource& picture : pictures) {
     const fs::path& file = found.heads[picture.head].files[picture.file_index].name;
-    const auto& tile = found.tile_of_face[static_cast<std::size_t>(picture.polygon)];
+    const auto& tile = found.tile_of_polygon[static_cast<std::size_t>(picture.polygon)];
     const bool tiled = file.native().find(kTileWord) != std::string::npos;
     names.push_back({parts.size() > 1 ? parts.at(file) : "",
                      tiled ? tile_number(tile[0], tile[1]) : 0, found.kind});

@@ -125,9 +125,11 @@ HeadCacheSizes expected_sizes(const Config& config, const Inputs& inputs,
           config.smoothing.levels};
 }
 
-/// Patches of all heads' fields, from the cache or computed.
-CachedPatches patches_of(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
-                         const std::vector<Digest>& keys, const CacheFolder& cache) {
+/// Loads the smoothing fields of all heads, grouped into patches of vertices, from the cache, or
+/// else computes and caches them.
+CachedPatches load_or_compute_patches(const Config& config, const Inputs& inputs,
+                                      const PreparedHeads& prepared,
+                                      const std::vector<Digest>& keys, const CacheFolder& cache) {
   const double tolerance = config.smoothing.tolerance_mm / mm_per(config.faces.units);
   double missed = 0;  // largest error of the heads' own fields
   std::vector<Index> ranks;
@@ -210,7 +212,7 @@ PreparedHeads prepare(const Config& config, const Inputs& inputs,
     preparation.filter();
   } else {
     prepared.filter.reset();
-    prepared.patches = patches_of(config, inputs, prepared, keys, cache);
+    prepared.patches = load_or_compute_patches(config, inputs, prepared, keys, cache);
   }
   if (prepared.cached_head_count > 0) {
     log_info(concat(prepared.cached_head_count, " of ", inputs.head_set.heads.size(),

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/parallel.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/mesh/edge_distances.h"
 #include "crowdface/texture/optical_density.h"
@@ -24,8 +24,9 @@ Positions sampled_densities(const TextureSet& textures, const HeadSet& heads,
     Eigen::Array3d sum = Eigen::Array3d::Zero();
     double count = 0;
     for (const std::uint32_t face : around.items_of(vertices[i])) {
-      const std::uint32_t texture =
-          textures.texture_of_face.empty() ? TextureSet::kNone : textures.texture_of_face[face];
+      const std::uint32_t texture = textures.texture_of_polygon.empty()
+                                        ? TextureSet::kNone
+                                        : textures.texture_of_polygon[face];
       if (texture == TextureSet::kNone) continue;
       const auto corners = heads.topology.face(face);
       const auto uvs = heads.topology.face_uvs(face);
@@ -71,7 +72,7 @@ Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_
 /// kNoIndex if these polygons have no image.
 std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const TextureLayout& layout) {
   for (const std::uint32_t face : around.items_of(rim.front())) {
-    if (layout.picture_of_face[face] != kNoIndex) return layout.picture_of_face[face];
+    if (layout.picture_of_polygon[face] != kNoIndex) return layout.picture_of_polygon[face];
   }
   return kNoIndex;
 }
@@ -88,8 +89,8 @@ SeamColours::SeamColours(const Inputs& inputs, const TextureBlender* blended) {
   for (const std::uint32_t v : distances.reached()) {
     if (distances.distance(v) > 0) vertices_.push_back(v);
   }
-  const std::vector<double> areas = face_vertex_areas(heads.topology, inputs.skin_components,
-                                                      inputs.mean_head, FaceArea::kSkin, {2, 1});
+  const std::vector<double> areas = compared_vertex_areas(
+      heads.topology, inputs.skin_components, inputs.mean_head, ComparedArea::kSkin, {2, 1});
   double total = 0;
   for (const std::uint32_t v : vertices_) total += areas[v];
   for (const std::uint32_t v : vertices_) areas_.push_back(areas[v] / total);

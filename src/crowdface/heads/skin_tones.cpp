@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/skin_tones.h"
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/texture/texture_blender.h"
 
@@ -36,8 +36,8 @@ HeadColourWeights::HeadColourWeights(const Config& config, const Inputs& inputs)
     : head_count_(inputs.head_set.heads.size()),
       region_area_fractions_(region_area_fractions(
           inputs.regions,
-          face_vertex_areas(inputs.head_set.topology, inputs.skin_components, inputs.mean_head,
-                            FaceArea::kFront, config.faces.front))) {}
+          compared_vertex_areas(inputs.head_set.topology, inputs.skin_components, inputs.mean_head,
+                                ComparedArea::kFront, config.faces.front))) {}
 
 std::vector<double> HeadColourWeights::weights_of(const Recipe& recipe) const {
   return face_colour_weights(recipe, head_count_, region_area_fractions_).weights_for_skin;

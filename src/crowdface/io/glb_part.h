@@ -11,7 +11,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crowdface/io/encoded_file.h"
-#include "crowdface/io/fixed_normals.h"
+#include "crowdface/io/given_normals.h"
 #include "crowdface/io/glb_skin.h"
 #include "crowdface/io/part_look.h"
 #include "crowdface/mesh/displacements.h"

@@ -7,9 +7,9 @@
 #include <system_error>
 #include <utility>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/input_limits.h"
 #include "crowdface/core/interrupt.h"

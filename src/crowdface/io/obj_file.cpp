@@ -175,8 +175,8 @@ FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index fac
     if (begin == end) return;
     const auto [row, is_new] = rows.emplace(name, static_cast<std::uint32_t>(result.names.size()));
     if (is_new) result.names.emplace_back(name);
-    result.material_of_face.insert(result.material_of_face.end(),
-                                   static_cast<std::size_t>(end - begin), row->second);
+    result.material_of_polygon.insert(result.material_of_polygon.end(),
+                                      static_cast<std::size_t>(end - begin), row->second);
   };
   use("", 0, ranges.empty() ? face_count : ranges.front().first_face);
   for (std::size_t m = 0; m < ranges.size(); ++m) {

@@ -58,7 +58,7 @@ ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile fil
 struct FaceMaterials {
   /// unique names, in order of their first use by a polygon; the name "" stands for no material
   std::vector<std::string> names;
-  std::vector<std::uint32_t> material_of_face;  ///< for each polygon, an index into `names`
+  std::vector<std::uint32_t> material_of_polygon;  ///< for each polygon, an index into `names`
 };
 
 /// Returns the material of each polygon.

@@ -161,7 +161,7 @@ void ObjTemplate::add_block(const std::vector<NumberRange>& ranges) {
   Block block;
   block.begin = blocks_.empty() ? 0 : blocks_.back().end;
   block.end = ranges.back().begin + ranges.back().length;
-  block.buffer = buffer_size_;
+  block.output_offset = buffer_size_;
   // Upper bound of the output's length: the new numbers at maximum length, plus the old text
   // without the digits of positions. The digits of normals stay in the sum, because a normal that
   // no polygon uses keeps its text.
@@ -201,7 +201,7 @@ EncodedFile ObjTemplate::encode(const Positions& positions, const std::string& w
   char* buffer = file.reserve(buffer_size_);
   std::vector<std::string_view> pieces(blocks_.size());
   parallel_for_each(blocks_.size(), [&](std::size_t b) {
-    char* begin = buffer + blocks_[b].buffer;
+    char* begin = buffer + blocks_[b].output_offset;
     const char* end = encode_block(blocks_[b], rows, begin);
     pieces[b] = {begin, static_cast<std::size_t>(end - begin)};
   });

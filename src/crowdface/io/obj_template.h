@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "crowdface/io/encoded_file.h"
-#include "crowdface/io/fixed_normals.h"
+#include "crowdface/io/given_normals.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/normals.h"
@@ -61,8 +61,8 @@ class ObjTemplate {
   struct Block {
     /// offset in the text at which the block starts: the end of the preceding block
     std::uint64_t begin = 0;
-    std::uint64_t end = 0;     ///< offset in the text at which the block ends
-    std::uint64_t buffer = 0;  ///< offset of the block's output in the output buffer
+    std::uint64_t end = 0;            ///< offset in the text at which the block ends
+    std::uint64_t output_offset = 0;  ///< where the block's output starts in the output buffer
     std::vector<NumberRange> ranges;
   };
   /// The new values of the `v` and `vn` lines.

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/io/fixed_normals.h"
+#include "crowdface/io/given_normals.h"
 #include "crowdface/io/part_look.h"
 #include "crowdface/io/usda_material.h"
 #include "crowdface/io/usda_mesh.h"

@@ -22,8 +22,8 @@
 #include <sys/random.h>
 #include <sys/socket.h>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/text.h"
 #include "crowdface/page/http_head.h"
 
@@ -100,9 +100,9 @@ struct Connection {
     /// answer and closes the connection.
     kLeaving
   };
-  explicit Connection(Descriptor accepted) : socket(std::move(accepted)) {}
+  explicit Connection(FileDescriptor accepted) : socket(std::move(accepted)) {}
 
-  Descriptor socket;
+  FileDescriptor socket;
   State state = State::kReading;
   std::string in, out;
   std::size_t sent = 0;
@@ -118,7 +118,7 @@ struct Connection {
 }  // namespace
 
 struct LocalServer::State {
-  Descriptor listening{-1}, woken{-1};
+  FileDescriptor listening{-1}, woken{-1};
   std::function<HttpAnswer(const HttpRequest&)> answer;
   std::string token = random_token();
   std::string prefix = "/" + token + "/";
@@ -206,7 +206,8 @@ bool LocalServer::State::is_full() {
 /// is not closed in favour of later clients.
 void LocalServer::State::accept_clients() {
   for (std::size_t i = 0; i < kMaxAtOnce && !is_full(); ++i) {
-    Descriptor accepted(::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    FileDescriptor accepted(
+        ::accept4(listening.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
     const bool is_short = !accepted.valid() && is_system_error(errno);
     if (!accepted.valid() && !is_short) return;
     if (is_short || connections.size() >= kMaxConnections) {
@@ -226,7 +227,7 @@ void LocalServer::State::read_from(Connection& client) {
   const ssize_t got = ::recv(client.socket.get(), bytes.data(), bytes.size(), 0);
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (got <= 0) {
-    client.socket = Descriptor(-1);
+    client.socket = FileDescriptor(-1);
     return;
   }
   if (client.state == Connection::State::kLeaving) return;
@@ -279,7 +280,7 @@ void LocalServer::State::write_to(Connection& client) {
                                  client.out.size() - client.sent, MSG_NOSIGNAL);
   if (written < 0 && (errno == EAGAIN || errno == EINTR)) return;
   if (written < 0) {
-    client.socket = Descriptor(-1);
+    client.socket = FileDescriptor(-1);
     return;
   }
   client.sent += static_cast<std::size_t>(written);
@@ -352,8 +353,9 @@ void LocalServer::State::work() {
 LocalServer::LocalServer(std::function<HttpAnswer(const HttpRequest&)> answer, int port)
     : state_(std::make_unique<State>()) {
   state_->answer = std::move(answer);
-  state_->woken = Descriptor(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  state_->listening = Descriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  state_->woken = FileDescriptor(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  state_->listening =
+      FileDescriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   const int socket = state_->listening.get(), yes = 1;
   sockaddr_in here{};
   here.sin_family = AF_INET;

@@ -64,8 +64,9 @@ class PartContact {
     Triangle corners;      ///< triangle of the skin
     /// point of the triangle that is nearest to the vertex on the head where the pair was found
     std::array<double, 3> barycentric;
-    /// Skin vertices at which the search for the nearest skin starts. If both lips are near, the
-    /// list may contain vertices of both lips.
+    /// Skin vertices, as vertex indices of the mesh, from which the search for the nearest point of
+    /// the skin walks over the mesh. Near both lips, some lie on the upper and some on the lower
+    /// lip.
     SearchStarts search_starts;
     double min_height;  ///< smallest height of the vertex above the skin in all heads
   };

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crowdface/mesh/topology.h"
-#include "crowdface/parts/ball_map.h"
+#include "crowdface/parts/ball_radii.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/parts/rigid_motion.h"

@@ -88,7 +88,7 @@ EyeSocket bind_eye(const Part& part, const ComponentShape& ball, const SkinOfMea
   parallel_for_each(maps.size(), [&](std::size_t i) {
     const Positions& head = skin.heads.heads[i].positions;
     const RigidMotion motion = fit_rigid_motion(skin.mean, head, part.vertices, equal_weights);
-    maps[i] = BallRadii(skin.heads.topology, skin.around, head, part.surface,
+    maps[i] = BallRadii(skin.heads.topology, skin.around, head, part.ball_vertices,
                         motion.apply(ball.centre), motion.scale * ball.radius, skin.axes);
   });
   return {find_lids(skin.mean, PointGrid(skin.mean, part.vertices), ball.centre, ball.radius,

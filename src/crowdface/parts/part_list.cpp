@@ -31,7 +31,7 @@ constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
 /// box, in radii. The diagonal is 3.5 radii for a ball and 3 radii for half a ball. Both are at
 /// least one radius thick. A row of teeth also fits a sphere, but is only half as thick.
 constexpr double kMinBallDiagonal = 2.6, kMinBallThickness = 0.8;
-// largest root mean square distance of an eyeball's surface from the fitted sphere, in radii; not
+// largest root mean square distance of an eyeball's ball_vertices from the fitted sphere, in radii; not
 // zero, because the cornea bulges out of the sphere
 constexpr double kMaxRoughness = 0.1;
 static_assert(kBoundDistance < kFarFromSkin);
@@ -213,7 +213,7 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
   }
   for (Part& part : list.parts) {
     std::ranges::sort(part.vertices);
-    if (part.is_eyeball) part.surface = members[part.ball_component];
+    if (part.is_eyeball) part.ball_vertices = members[part.ball_component];
   }
   return list;
 }

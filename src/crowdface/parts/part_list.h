@@ -22,11 +22,11 @@ enum class PartClass : std::uint8_t {
 struct Part {
   PartClass part_class = PartClass::kRigid;
   bool is_eyeball = false;                  ///< whether the part is round and as large as an eye
-  std::vector<std::uint32_t> components;    ///< ascending
+  std::vector<std::uint32_t> components;    ///< indices of components, ascending
   std::vector<std::uint32_t> vertices;      ///< vertices of all components, ascending
-  std::uint32_t ball_component = kNoIndex;  ///< only for an eyeball: index of its largest component
-  /// only for an eyeball: the vertices of the eyeball's largest component
-  std::vector<std::uint32_t> surface;
+  std::uint32_t ball_component = kNoIndex;  ///< only for an eyeball: the largest of `components`
+  /// only for an eyeball: the vertices of `ball_component`
+  std::vector<std::uint32_t> ball_vertices;
 };
 
 /// The parts of a mesh.
@@ -39,8 +39,9 @@ struct PartList {
 
 /// The user's assignments of components to classes and parts.
 struct PartOverrides {
-  std::vector<std::optional<PartClass>> classes;              ///< one per component, or empty
-  std::vector<std::vector<std::uint32_t>> joined_components;  ///< components of each part
+  std::vector<std::optional<PartClass>> classes;  ///< one per component, or empty
+  /// for each part, the indices of its components
+  std::vector<std::vector<std::uint32_t>> joined_components;
 };
 
 /// Classifies the components of a mesh by their shapes and joins them into parts:

@@ -8,7 +8,7 @@
 #include "crowdface/core/compressed_rows.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/mesh/topology.h"
-#include "crowdface/parts/contact_place.h"
+#include "crowdface/parts/gap_section.h"
 
 namespace crowdface {
 

@@ -68,8 +68,8 @@ const AttachmentSurface& AttachmentSurfaces::at(const Attachment& item) const {
       }
     }
     if (materials.empty()) materials.emplace_back();
-    return std::make_unique<const AttachmentSurface>(item.file.topology, item.file.uvs,
-                                                     std::move(materials), named.material_of_face);
+    return std::make_unique<const AttachmentSurface>(
+        item.file.topology, item.file.uvs, std::move(materials), named.material_of_polygon);
   });
 }
 

@@ -116,15 +116,15 @@ CrowdRenders::CrowdRenders(const Config& config, const Config::ContactSheet& she
 FacePictures CrowdRenders::render_files(const std::string& id, Index target,
                                         const Positions& positions,
                                         std::span<const Displacements> moves,
-                                        const FaceTextureSet* own_textures,
+                                        const FaceTextureSet* face_textures,
                                         const std::vector<PlacedAttachment>& placed,
                                         const ColourRows& colours,
                                         const BlendedPicture* body) const {
   std::optional<TextureSet> of_target;
-  if (own_textures == nullptr) of_target = texture_set_of(target);
-  const TextureSet* painted = own_textures != nullptr ? &own_textures->texture_set()
-                              : of_target             ? &*of_target
-                                                      : nullptr;
+  if (face_textures == nullptr) of_target = texture_set_of(target);
+  const TextureSet* painted = face_textures != nullptr ? &face_textures->texture_set()
+                              : of_target              ? &*of_target
+                                                       : nullptr;
   const std::optional<VertexColours> shown = shown_colours(colours, painted);
   FacePictures pictures{render_png(positions, shown ? &*shown : nullptr, painted, placed, body),
                         std::nullopt};
@@ -184,7 +184,7 @@ std::optional<TextureSet> CrowdRenders::texture_set_of(Index head) const {
   if (!shows_textures_) return std::nullopt;
   std::optional<TextureSet> texture_set = texture_set_of_head(inputs_.textures, head, max_texels_);
   if (!texture_set && are_any_rendered(inputs_.other_textures)) {
-    texture_set.emplace().texture_of_face.assign(
+    texture_set.emplace().texture_of_polygon.assign(
         static_cast<std::size_t>(inputs_.head_set.topology.face_count()), TextureLayer::kNone);
   }
   if (texture_set)
@@ -209,11 +209,11 @@ std::string CrowdRenders::render_png(const Positions& positions, const VertexCol
 
 std::string CrowdRenders::render_png(const Positions& positions, const FaceTextures& textures,
                                      const Recipe& recipe) const {
-  const std::optional<FaceTextureSet> own_textures = face_texture_set(textures, recipe);
+  const std::optional<FaceTextureSet> face_textures = face_texture_set(textures, recipe);
   const auto body = blend_body_texture(recipe);
   const BlendedPicture* const shown_body = body ? &*body : nullptr;
-  if (own_textures)
-    return render_png(positions, nullptr, &own_textures->texture_set(), {}, shown_body);
+  if (face_textures)
+    return render_png(positions, nullptr, &face_textures->texture_set(), {}, shown_body);
   const auto colours = shown_colours(textures.vertex_colours(recipe), nullptr);
   return colours ? render_png(positions, &*colours, nullptr, {}, shown_body)
                  : render_png(positions, recipe.target);

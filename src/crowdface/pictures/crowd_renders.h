@@ -62,16 +62,16 @@ class CrowdRenders {
   const AttachmentSurfaces& attachment_surfaces() const { return attachment_surfaces_; }
 
   /// Renders a face and makes its gallery script.
-  /// \param target        the head whose textures the face shows if `own_textures` is null.
+  /// \param target        the head whose textures the face shows if `face_textures` is null.
   /// \param positions     in single precision, as in mesh files.
   /// \param moves         displacements of each shape, for the gallery.
-  /// \param own_textures  the face's own textures, from face_texture_set, or null.
+  /// \param face_textures the textures blended for this face, from face_texture_set, or null.
   /// \param placed        the attachments that the face wears.
   /// \param colours       vertex colours, shown if there are no textures; may have no rows.
   /// \param body          texture of the body, or null.
   FacePictures render_files(const std::string& id, Index target, const Positions& positions,
                             std::span<const Displacements> moves,
-                            const FaceTextureSet* own_textures,
+                            const FaceTextureSet* face_textures,
                             const std::vector<PlacedAttachment>& placed = {},
                             const ColourRows& colours = {},
                             const BlendedPicture* body = nullptr) const;

@@ -73,10 +73,11 @@ std::vector<std::uint32_t> texture_labels_of(const HeadTextures& textures,
           known.try_emplace({kBody}, static_cast<std::uint32_t>(known.size())).first->second);
       continue;
     }
-    if (textures.are_blended()) pictures.push_back(textures.blended.layout.picture_of_face[f]);
+    if (textures.are_blended()) pictures.push_back(textures.blended.layout.picture_of_polygon[f]);
     for (const TextureSet& texture_set : textures.texture_sets) {
-      pictures.push_back(texture_set.texture_of_face.empty() ? TextureSet::kNone
-                                                             : texture_set.texture_of_face[f]);
+      pictures.push_back(texture_set.texture_of_polygon.empty()
+                             ? TextureSet::kNone
+                             : texture_set.texture_of_polygon[f]);
     }
     const auto number = static_cast<std::uint32_t>(known.size());
     labels.push_back(kinds[f] == SurfaceKind::kHidden
@@ -253,7 +254,7 @@ std::string GalleryMeshes::textures_as_json(const TextureLayer& layer,
   for (const std::uint32_t first : mesh_.material_starts) {
     const std::uint32_t face = mesh_.face_of_vertex[mesh_.triangles[3 * first]];
     const std::uint32_t texture =
-        layer.texture_of_face.empty() ? TextureLayer::kNone : layer.texture_of_face[face];
+        layer.texture_of_polygon.empty() ? TextureLayer::kNone : layer.texture_of_polygon[face];
     if (texture == TextureLayer::kNone) {
       of_look.push_back(nullptr);
       continue;
@@ -271,7 +272,7 @@ std::string GalleryMeshes::textures_as_json(const TextureLayer& layer,
 
 std::string GalleryMeshes::pack_roughness(const TextureSet& texture_set) const {
   std::string bytes;
-  if (texture_set.roughness.texture_of_face.empty()) return bytes;
+  if (texture_set.roughness.texture_of_polygon.empty()) return bytes;
   constexpr float kSkin = 0.56F;  // roughness that the page uses for skin without a roughness map
   for (const TexturePoint& place : texture_points_) {
     const float rough = roughness_at(texture_set, place).value_or(kSkin);

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/crowd/crowd_directory.h"
 
 namespace crowdface {

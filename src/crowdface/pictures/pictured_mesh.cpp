@@ -125,18 +125,18 @@ TextureSet PicturedMesh::add_body(TextureSet textures, const BlendedPicture* bod
                                   int max_px) const {
   const auto polygons = static_cast<std::size_t>(body_->topology.face_count());
   const auto faces = static_cast<std::size_t>(inputs_.head_set.topology.face_count());
-  textures.texture_of_face.resize(faces, TextureSet::kNone);
-  textures.texture_of_face.resize(
+  textures.texture_of_polygon.resize(faces, TextureSet::kNone);
+  textures.texture_of_polygon.resize(
       polygons,
       body == nullptr ? TextureSet::kNone : static_cast<std::uint32_t>(textures.textures.size()));
   if (body != nullptr) {
     textures.textures.push_back(std::make_shared<const Texture>(texture_of(*body, max_px)));
   }
-  if (!textures.slopes.texture_of_face.empty()) {
-    textures.slopes.texture_of_face.resize(polygons, TextureLayer::kNone);
+  if (!textures.slopes.texture_of_polygon.empty()) {
+    textures.slopes.texture_of_polygon.resize(polygons, TextureLayer::kNone);
   }
   TextureLayer& roughness = textures.roughness;
-  if (roughness.texture_of_face.empty()) return textures;
+  if (roughness.texture_of_polygon.empty()) return textures;
   float sum = 0, count = 0;
   for (const TexturePoint& place : body_->ring_texture_points) {
     if (const auto rough = roughness_at(textures, place)) {
@@ -145,7 +145,7 @@ TextureSet PicturedMesh::add_body(TextureSet textures, const BlendedPicture* bod
     }
   }
   const bool known = count > 0 && body != nullptr;
-  roughness.texture_of_face.resize(
+  roughness.texture_of_polygon.resize(
       polygons,
       known ? static_cast<std::uint32_t>(roughness.textures.size()) : TextureLayer::kNone);
   if (known) {

@@ -71,7 +71,7 @@ const ShownAttachments::MaterialMeshes& ShownAttachments::material_meshes(
     const std::size_t materials = std::max<std::size_t>(1, named.names.size());
     for (std::uint32_t m = 0; m < materials; ++m) {
       std::vector<bool> drawn;
-      for (const std::uint32_t of_face : named.material_of_face) drawn.push_back(of_face == m);
+      for (const std::uint32_t of_face : named.material_of_polygon) drawn.push_back(of_face == m);
       const auto faces = static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), true));
       const std::size_t most =
           kMaxAttachmentTriangles * faces / std::max<std::size_t>(1, drawn.size());

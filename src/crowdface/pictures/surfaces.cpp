@@ -73,7 +73,8 @@ std::vector<bool> see_through_materials(const Inputs& inputs) {
   std::vector<std::vector<Index>> faces(inputs.materials.names.size());
   std::vector<bool> is_skin(faces.size(), false), see_through(faces.size(), false);
   for (Index f = 0; f < topology.face_count(); ++f) {
-    const std::uint32_t material = inputs.materials.material_of_face[static_cast<std::size_t>(f)];
+    const std::uint32_t material =
+        inputs.materials.material_of_polygon[static_cast<std::size_t>(f)];
     faces[material].push_back(f);
     const std::uint32_t component = inputs.components.component_of_vertex[topology.face(f)[0]];
     if (component == inputs.components.largest()) is_skin[material] = true;
@@ -91,7 +92,7 @@ std::vector<bool> see_through_materials(const Inputs& inputs) {
 }  // namespace
 
 Surfaces surfaces_of(const Config& config, const Inputs& inputs) {
-  const std::vector<std::uint32_t>& of_face = inputs.materials.material_of_face;
+  const std::vector<std::uint32_t>& of_face = inputs.materials.material_of_polygon;
   const std::size_t count = inputs.materials.names.size();
   std::vector<SurfaceKind> kinds(count);
   std::vector<std::optional<Eigen::Array3f>> paints(count);

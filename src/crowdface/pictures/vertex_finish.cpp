@@ -8,8 +8,8 @@ namespace {
 
 /// Returns the texture of the polygon `place.face`; null if this polygon has no texture in `layer`.
 const Texture* picture_at(const TextureLayer& layer, const TexturePoint& place) {
-  if (place.face < 0 || layer.texture_of_face.empty()) return nullptr;
-  const std::uint32_t picture = layer.texture_of_face[static_cast<std::size_t>(place.face)];
+  if (place.face < 0 || layer.texture_of_polygon.empty()) return nullptr;
+  const std::uint32_t picture = layer.texture_of_polygon[static_cast<std::size_t>(place.face)];
   return picture == TextureLayer::kNone ? nullptr : layer.textures[picture].get();
 }
 

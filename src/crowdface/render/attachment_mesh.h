@@ -27,10 +27,10 @@ class AttachmentSurface {
  public:
   /// \param uvs        #T by 2, may be empty.
   /// \param materials  at least one.
-  /// \param material_of_face  for each polygon, an index into `materials`.
+  /// \param material_of_polygon  for each polygon, an index into `materials`.
   AttachmentSurface(const Topology& topology, const TextureCoordinates& uvs,
                     std::vector<AttachmentMaterial> materials,
-                    const std::vector<std::uint32_t>& material_of_face);
+                    const std::vector<std::uint32_t>& material_of_polygon);
 
   const Topology& topology() const { return topology_; }
   const NormalFans& fans() const { return fans_; }

@@ -14,9 +14,10 @@ using Vector = Eigen::Vector3f;
 /// The index of the layer's texture on a quad, or kNone.
 std::uint32_t texture_of(const HeadScene& scene, const TextureLayer& layer,
                          std::uint32_t primitive) {
-  if (scene.textured_quads.empty() || layer.texture_of_face.empty()) return TextureLayer::kNone;
+  if (scene.textured_quads.empty() || layer.texture_of_polygon.empty()) return TextureLayer::kNone;
   const TexturedQuad& quad = scene.textured_quads[primitive];
-  return quad.face == TextureLayer::kNone ? TextureLayer::kNone : layer.texture_of_face[quad.face];
+  return quad.face == TextureLayer::kNone ? TextureLayer::kNone
+                                          : layer.texture_of_polygon[quad.face];
 }
 
 /// The index of the colour texture on a quad, or kNone.

@@ -229,7 +229,7 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   require(colours == nullptr || colours->rows() == topology.vertex_count,
           "render: colours of another number than vertices");
   require(texture_set == nullptr ||
-              static_cast<Index>(texture_set->texture_of_face.size()) == topology.face_count(),
+              static_cast<Index>(texture_set->texture_of_polygon.size()) == topology.face_count(),
           "render: textures of another number than faces");
   std::unique_ptr<Workspace> workspace = prepared_->workspaces.take();
   to_camera_space(positions, camera, workspace->points);

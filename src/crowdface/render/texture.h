@@ -51,7 +51,7 @@ struct TextureLayer {
   static constexpr std::uint32_t kNone = 0xffffffffU;
   std::vector<std::shared_ptr<const Texture>> textures;
   /// for each polygon: index into `textures`, or kNone; if empty, no polygon has a texture
-  std::vector<std::uint32_t> texture_of_face;
+  std::vector<std::uint32_t> texture_of_polygon;
 };
 
 /// Colour textures, normal maps and roughness maps of one head. Polygons with kNone have the

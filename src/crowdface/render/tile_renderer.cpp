@@ -10,9 +10,9 @@
 #include <Eigen/Geometry>
 
 #include "crowdface/render/camera_hit.h"
-#include "crowdface/render/light_sharing.h"
 #include "crowdface/render/perpendicular.h"
 #include "crowdface/render/skin_specular.h"
+#include "crowdface/render/visibility_filter.h"
 
 namespace crowdface {
 namespace {
@@ -42,14 +42,16 @@ Vector disc_offset(const Vector& axis, const Eigen::Vector2f& disc) {
 /// only in normals; kEdge: in surface or colour.
 enum class PixelVariation : std::uint8_t { kNone, kRelief, kEdge };
 
-/// Storage for PointVisibility of a row of points: one list per field.
+/// Storage for PointVisibility of a row of points: one field_values per field.
 class PointLists {
  public:
   void resize(std::size_t count) {
     capacity_ = std::max(capacity_, count + kMaxLanes);
     numbers_.resize(PointVisibility::kFields * capacity_);
   }
-  float* list(int field) { return numbers_.data() + static_cast<std::size_t>(field) * capacity_; }
+  float* field_values(int field) {
+    return numbers_.data() + static_cast<std::size_t>(field) * capacity_;
+  }
   PointVisibility lights() const {
     PointVisibility lights;
     for (std::size_t f = 0; f < lights.field_values.size(); ++f)
@@ -66,13 +68,13 @@ class PointLists {
 template <class Lists>
 void put(const CameraHit& hit, std::size_t at, Lists& lists) {
   for (int c = 0; c < 3; ++c) {
-    lists.list(PointVisibility::kPoint + c)[at] = hit.point[c];
-    lists.list(PointVisibility::kNormal + c)[at] = hit.surface.normal[c];
+    lists.field_values(PointVisibility::kPoint + c)[at] = hit.point[c];
+    lists.field_values(PointVisibility::kNormal + c)[at] = hit.surface.normal[c];
   }
-  lists.list(PointVisibility::kKeyVisible)[at] = hit.key_visibility.unblocked_rays;
-  lists.list(PointVisibility::kKeyTraced)[at] = hit.key_visibility.traced_rays;
-  lists.list(PointVisibility::kSkyVisible)[at] = hit.sky_visibility.unblocked_rays;
-  lists.list(PointVisibility::kSkyTraced)[at] = hit.sky_visibility.traced_rays;
+  lists.field_values(PointVisibility::kKeyVisible)[at] = hit.key_visibility.unblocked_rays;
+  lists.field_values(PointVisibility::kKeyTraced)[at] = hit.key_visibility.traced_rays;
+  lists.field_values(PointVisibility::kSkyVisible)[at] = hit.sky_visibility.unblocked_rays;
+  lists.field_values(PointVisibility::kSkyTraced)[at] = hit.sky_visibility.traced_rays;
 }
 
 /// Averages the positions, normals and albedos of hits, and adds up their numbers of rays. If the

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/child_skin_colours.h"
+#include "crowdface/cast/compared_area.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/cast/merge_reviews.h"
 #include "crowdface/cast/sample_cells.h"
-#include "crowdface/cast/skin_draw.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
@@ -21,7 +21,7 @@
 #include "crowdface/run/changed_faces.h"
 #include "crowdface/run/iris_cover.h"
 #include "crowdface/run/mesh_judge.h"
-#include "crowdface/run/shortfall.h"
+#include "crowdface/run/scarcity_warning.h"
 #include "crowdface/run/trait_advice.h"
 
 namespace crowdface {
@@ -180,11 +180,11 @@ CastingOptions with_existing_faces(const Config& config, CastingOptions casting)
 
 CastingSpace casting_space(const Config& config, const Inputs& inputs,
                            const PreparedHeads& prepared, const std::filesystem::path& cache) {
-  const std::vector<double> areas = face_vertex_areas(
+  const std::vector<double> areas = compared_vertex_areas(
       inputs.head_set.topology, inputs.skin_components, mean_before_placement(inputs),
       config.distance.area, config.faces.front, inputs.distance_weights);
   const SampleCells cells = find_cells(inputs, prepared.samples);
-  SampledHeads heads =
+  HeadsAtSamples heads =
       sample_heads(inputs.head_set, inputs.regions, prepared.samples, prepared.trajectories,
                    inputs.max_level, mm_per(config.faces.units));
   if (inputs.mirror_map != nullptr) {

@@ -10,7 +10,7 @@
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_statistics.h"
 #include "crowdface/run/face_builder.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 #include "crowdface/run/trait_reports.h"
 
 namespace crowdface {

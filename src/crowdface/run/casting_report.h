@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crowdface/run/casting.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

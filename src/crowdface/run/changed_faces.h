@@ -7,8 +7,8 @@
 
 #include "crowdface/cast/attachment_sampling.h"
 #include "crowdface/cast/casting_result.h"
-#include "crowdface/cast/colour_draw.h"
 #include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/face_colours.h"
 #include "crowdface/config/config.h"
 
 namespace crowdface {

@@ -16,7 +16,7 @@
 #include "crowdface/render/rgb8_image.h"
 #include "crowdface/render/shading.h"
 #include "crowdface/render/vertex_colours.h"
-#include "crowdface/run/own_textures.h"
+#include "crowdface/run/face_texture_encoder.h"
 
 namespace crowdface {
 namespace {
@@ -75,7 +75,7 @@ std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const 
   std::size_t first = 0;
   const auto of_textures = [&](const HeadTextures& textures) {
     std::vector<std::uint32_t> images;
-    for (const std::uint32_t picture : textures.blended.layout.picture_of_face) {
+    for (const std::uint32_t picture : textures.blended.layout.picture_of_polygon) {
       const auto image = std::find_if(held.begin(), held.end(), [&](const GlbPicture& one) {
         return picture != kNoIndex && one.picture_index == first + picture;
       });
@@ -145,14 +145,14 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   options.unit = config.faces.units;
   options.up = config.faces.up;
   options.front = config.faces.front;
-  options.face_materials = inputs.materials.material_of_face;
+  options.face_materials = inputs.materials.material_of_polygon;
   options.point_names = inputs.points.names;
   options.skin = inputs.rig.skin;
   for (const Shape& shape : inputs.shapes.shapes) {
     options.targets.push_back({shape.name, shape.moves.vertices});
   }
   const std::vector<GlbPicture> held = glb_pictures(config, inputs);
-  const std::vector<std::string> names = own_texture_names(config, inputs, "_");
+  const std::vector<std::string> names = face_picture_paths(config, inputs, "_");
   for (std::size_t i = 0; i < held.size(); ++i) {
     const std::string stem = std::filesystem::path(names[i]).stem().string();
     options.images.push_back(

@@ -11,8 +11,8 @@
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/face_files.h"
+#include "crowdface/run/job.h"
 #include "crowdface/run/lazy.h"
-#include "crowdface/run/pipeline.h"
 
 namespace crowdface {
 

@@ -8,7 +8,7 @@
 
 #include "crowdface/blend/crowd_blender.h"
 #include "crowdface/config/config.h"
-#include "crowdface/heads/face_turns.h"
+#include "crowdface/heads/face_poses.h"
 #include "crowdface/heads/prepare.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/rigid_motion.h"

@@ -70,7 +70,7 @@ FaceEncoders::FaceEncoders(const Config& config, const Inputs& inputs,
                                 });
     }
   }
-  if (has_own_textures(inputs)) own_textures_.emplace(config, inputs, crowd, shared);
+  if (blends_textures(inputs)) texture_encoder_.emplace(config, inputs, crowd, shared);
   if (need_normals) fans_.emplace(inputs.head_set.topology);
   const auto carrier_of = [&](const PointSet& points) {
     return PointCarrier(points, inputs.parts, skin_vertices(inputs),
@@ -122,8 +122,8 @@ void FaceEncoders::prepare(FinishedFace& face) const {
   if (need_normals) face.normals = normals_of(face.positions);
   if (points_) face.points = points_->place_points(target, face.positions);
   if (joints_) face.joints = joints_->place_points(target, face.positions);
-  if (holds_textures()) face.images = own_textures_->glb_images(*face.textures);
-  face.image_names = own_texture_names(config_, inputs_, face.face.id);
+  if (holds_textures()) face.images = texture_encoder_->glb_images(*face.textures);
+  face.image_names = face_picture_paths(config_, inputs_, face.face.id);
   for (std::size_t level = 0; level < levels_.size(); ++level) {
     face.meshes.push_back(mesh_at_level(level, face));
   }
@@ -148,7 +148,7 @@ FaceMesh FaceEncoders::mesh_at_level(std::size_t level, FinishedFace& face) cons
                 .joints = &face.joints,
                 .images = face.images,
                 .image_names = face.image_names};
-  if (own_textures_) mesh.material_file = material_file_name(face.face.id);
+  if (texture_encoder_) mesh.material_file = material_file_name(face.face.id);
   if (level == 0) {
     mesh.points = &face.points;
     return mesh;
@@ -246,7 +246,7 @@ std::size_t FaceEncoders::encoding_memory_bytes() const {
   for (const MeshLevel& level : levels_) {
     if (!level.is_whole_mesh()) bytes += level.face_level->vertices.size() * 2 * 3 * sizeof(double);
   }
-  return bytes + (own_textures_ ? own_textures_->encoding_memory_bytes() : 0);
+  return bytes + (texture_encoder_ ? texture_encoder_->encoding_memory_bytes() : 0);
 }
 
 }  // namespace crowdface

@@ -20,9 +20,9 @@
 #include "crowdface/mesh/normals.h"
 #include "crowdface/pictures/crowd_renders.h"
 #include "crowdface/run/attachments_in_format.h"
+#include "crowdface/run/face_texture_encoder.h"
 #include "crowdface/run/mesh_encoder.h"
 #include "crowdface/run/mesh_level.h"
-#include "crowdface/run/own_textures.h"
 #include "crowdface/shapes/point_carrier.h"
 
 namespace crowdface {
@@ -43,7 +43,8 @@ struct FinishedFace {
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's own textures, encoded as image files; empty if no output file uses them. With
   /// `neck.body_texture`, the last texture belongs to the body.
-  std::shared_ptr<OwnTextures::Encoded> textures = std::make_shared<OwnTextures::Encoded>();
+  std::shared_ptr<FaceTextureEncoder::Encoded> textures =
+      std::make_shared<FaceTextureEncoder::Encoded>();
   std::optional<BlendedPicture> body_texture;  ///< texture of the body; empty if nothing shows it
   std::optional<FacePictures> pictures;        ///< empty if the face is not rendered
 
@@ -81,8 +82,8 @@ class FaceEncoders {
   /// Whether any file contains blend shapes.
   bool holds_shapes() const;
   /// Whether the faces' own textures are written, either inside mesh files or as separate files.
-  bool holds_textures() const { return own_textures_ && !formats_.empty(); }
-  const OwnTextures& textures() const { return *own_textures_; }
+  bool holds_textures() const { return texture_encoder_ && !formats_.empty(); }
+  const FaceTextureEncoder& textures() const { return *texture_encoder_; }
 
   /// Whether GLB and USD files contain the body, as an attachment of each face.
   bool holds_body() const { return config_.neck.write_body; }
@@ -123,7 +124,8 @@ class FaceEncoders {
   std::map<MeshFormat, MeshEncoders> encoders_;
   /// one per level of detail; empty if attachments are not written to separate files
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
-  std::optional<OwnTextures> own_textures_;  ///< empty if faces have no textures of their own
+  std::optional<FaceTextureEncoder>
+      texture_encoder_;  ///< empty if faces have no textures of their own
   /// `points_`: empty if the inputs have no named points. `joints_`: empty if no file has a rig.
   std::optional<PointCarrier> points_, joints_;
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals

@@ -9,7 +9,7 @@
 #include "crowdface/io/npy.h"
 #include "crowdface/pictures/gallery_page.h"
 #include "crowdface/run/face_encoders.h"
-#include "crowdface/run/own_textures.h"
+#include "crowdface/run/face_texture_encoder.h"
 
 namespace crowdface {
 namespace {
@@ -34,7 +34,7 @@ class MeshFileList {
     if (has([](const auto& format) { return format.attachments == DataStorage::kOwnFiles; })) {
       for (std::size_t level = 0; level <= levels; ++level) add_attachments(level);
     }
-    if (has_own_textures(inputs_)) add_textures();
+    if (blends_textures(inputs_)) add_textures();
     if (options_.includes_all_variants && !config_.neck.body_texture.empty()) {
       files_.push_back({options_.folder / kBlendedFolder / concat(face_.id, ".body.png"),
                         {},
@@ -57,14 +57,14 @@ class MeshFileList {
     return options_.includes_all_variants ? inputs_.shapes.shapes.size() : 0;
   }
 
-  /// Joins the parts of a file name that stand between stem and extension, for example
-  /// "LOD1+bob+smile".
-  static std::string joined_parts(const std::vector<std::string>& parts) {
-    std::string name;
-    for (const std::string& part : parts) {
-      if (!part.empty()) name += concat(name.empty() ? "" : "+", part);
+  /// Joins the non-empty words with "+", for example to "LOD1+bob+smile". File names contain this
+  /// text between the face's id and the extension.
+  static std::string joined_with_plus(const std::vector<std::string>& words) {
+    std::string joined;
+    for (const std::string& word : words) {
+      if (!word.empty()) joined += concat(joined.empty() ? "" : "+", word);
     }
-    return name;
+    return joined;
   }
   template <class Make>
   void add(const std::string& end, const std::string& section, std::string key, const Make& make) {
@@ -90,9 +90,9 @@ class MeshFileList {
 
   void add_mesh(MeshFormat format, std::size_t level, ShapeNumber shape) {
     const MeshFormatTraits& traits = traits_of(format);
-    const std::string end =
-        joined_parts({level_suffix(level, ""), shape ? inputs_.shapes.shapes[*shape].name : ""}) +
-        std::string(traits.extension);
+    const std::string end = joined_with_plus({level_suffix(level, ""),
+                                              shape ? inputs_.shapes.shapes[*shape].name : ""}) +
+                            std::string(traits.extension);
     const std::string section = level > 0 ? "lods" : shape ? "shapes" : "";
     add(end, section, section.empty() ? std::string(traits.report_key) : end,
         [=](const FinishedFace& face) { return face.encoders->mesh(face, format, level, shape); });
@@ -108,9 +108,10 @@ class MeshFileList {
   }
 
   void add_attachment(const std::string& name, std::size_t level, ShapeNumber shape) {
-    const std::string end = concat(joined_parts({level_suffix(level, ""), name,
-                                                 shape ? inputs_.shapes.shapes[*shape].name : ""}),
-                                   extension_of(MeshFormat::kObj));
+    const std::string end =
+        concat(joined_with_plus({level_suffix(level, ""), name,
+                                 shape ? inputs_.shapes.shapes[*shape].name : ""}),
+               extension_of(MeshFormat::kObj));
     add(end, level > 0 ? "lods" : "attachments", end, [=](const FinishedFace& face) {
       return face.encoders->attachment(face, name, level, shape);
     });
@@ -118,7 +119,7 @@ class MeshFileList {
 
   void add_textures() {
     if (!has([](const auto& format) { return format.textures != DataStorage::kInside; })) return;
-    for (const OwnTextureFile& file : own_texture_files(config_, inputs_, face_.id)) {
+    for (const FaceTextureFile& file : face_texture_files(config_, inputs_, face_.id)) {
       files_.push_back({options_.folder / file.name, {}, {}, [=](const FinishedFace& face) {
                           EncodedFile bytes;
                           bytes.add_without_copy(

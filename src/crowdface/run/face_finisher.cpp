@@ -10,7 +10,8 @@ namespace crowdface {
 /// Blends the textures in parallel. To save memory, each thread encodes a texture and discards it
 /// before the thread blends the next texture.
 /// \return the textures that renders need.
-std::optional<FaceTextureSet> FaceFinisher::paint(const Recipe& recipe, OwnTextures::Encoded& files,
+std::optional<FaceTextureSet> FaceFinisher::paint(const Recipe& recipe,
+                                                  FaceTextureEncoder::Encoded& files,
                                                   StageTimes& busy) const {
   std::optional<FaceTextureSet> texture_set;
   if (renders != nullptr) texture_set = renders->face_texture_set(recipe.target);

@@ -29,7 +29,7 @@ struct FaceFinisher {
  private:
   /// Computes the body's texture, and encodes it if mesh files are written.
   void paint_body(FinishedFace& face, StageTimes& busy) const;
-  std::optional<FaceTextureSet> paint(const Recipe& recipe, OwnTextures::Encoded& files,
+  std::optional<FaceTextureSet> paint(const Recipe& recipe, FaceTextureEncoder::Encoded& files,
                                       StageTimes& busy) const;
 };
 

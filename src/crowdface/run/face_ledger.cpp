@@ -38,7 +38,7 @@ Digest digest_of_common(const Job& job) {
   if (!inputs.rig.empty()) hasher.add(kRigVersion).add(inputs.rig.digest);
   if (!inputs.attachments.empty()) hasher.add(kAttachmentsVersion).add(inputs.attachments.digest);
   if (!inputs.detail_levels.empty()) hasher.add(kLevelsVersion);
-  if (has_own_textures(inputs)) hasher.add(kTextureVersion);
+  if (blends_textures(inputs)) hasher.add(kTextureVersion);
   hasher.add(inputs.textures.digest).add(materials_digest(inputs));
   if (!inputs.vertex_colours.empty()) hasher.add(inputs.colours_digest);
   for (const HeadTextures& maps : inputs.other_textures) {

@@ -7,7 +7,7 @@
 
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/run/face_files.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

@@ -50,14 +50,14 @@ std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inpu
   return trajectories;
 }
 
-SampledHeads heads_at(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
-                      const FaceSamples& samples) {
+HeadsAtSamples heads_at(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
+                        const FaceSamples& samples) {
   const FaceSamples traced = inputs.mirror_map == nullptr
                                  ? samples
                                  : samples_and_mirror_corners(samples, *inputs.mirror_map);
   std::vector<Trajectory> trajectories = trajectories_at(config, inputs, prepared, traced);
-  SampledHeads heads = sample_heads(inputs.head_set, inputs.regions, samples, trajectories,
-                                    inputs.max_level, mm_per(config.faces.units));
+  HeadsAtSamples heads = sample_heads(inputs.head_set, inputs.regions, samples, trajectories,
+                                      inputs.max_level, mm_per(config.faces.units));
   heads.owned_trajectories = std::move(trajectories);
   heads.trajectories = heads.owned_trajectories;
   if (inputs.mirror_map != nullptr) {

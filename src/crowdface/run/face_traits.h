@@ -51,7 +51,7 @@ class FaceTraits {
   /// the vertices on which the exact landmark positions depend, ascending; `heads_` holds the
   /// heads' data at these vertices
   FaceSamples samples_;
-  SampledHeads heads_;
+  HeadsAtSamples heads_;
   Index vertex_count_;
   std::optional<FaceMeasurer> measurer_;
 };

@@ -127,7 +127,7 @@ struct GlbLook {
 GlbLook look_of(const Attachment& item, bool own_texture) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   GlbLook look;
-  look.of_face = std::move(named.material_of_face);
+  look.of_face = std::move(named.material_of_polygon);
   if (own_texture) {
     for (const std::string& name : named.names) {
       GlbPartMaterial& material = look.materials.emplace_back();

@@ -95,8 +95,7 @@ std::vector<std::vector<std::optional<double>>> measure_each(const Config& confi
 
 TraitDistributions measure_heads(const Config& config, const Inputs& inputs,
                                  const HeadLandmarks& landmarks) {
-  return TraitDistributions(measure_each(config, inputs, landmarks),
-                            config.quantile_distributions.targets);
+  return TraitDistributions(measure_each(config, inputs, landmarks), config.quantile_table.targets);
 }
 
 std::vector<std::vector<double>> head_traits_of_config(const Config& config, const Inputs& inputs) {

@@ -63,7 +63,7 @@ std::vector<IrisCover::Eye> IrisCover::eyes_of(const Positions& positions) const
   std::vector<Eye> eyes;
   for (const Part& part : inputs_.parts.parts) {
     if (!part.is_eyeball) continue;
-    const Eigen::AlignedBox3d box = bounding_box(positions, part.surface);
+    const Eigen::AlignedBox3d box = bounding_box(positions, part.ball_vertices);
     eyes.push_back({box.center(), box.sizes().maxCoeff() / 2});
   }
   return eyes;

@@ -21,9 +21,10 @@ std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const Measu
   for (const MeasuredLevel& level : levels) {
     shares.push_back(std::min(1.0, std::max(level.level.share, kMinTriangles / triangles)));
   }
-  return detail_levels({topology, item.file.uvs, {{item.name, item.file.positions}}},
-                       face_materials(item.file.materials, topology.face_count()).material_of_face,
-                       shares, borders);
+  return detail_levels(
+      {topology, item.file.uvs, {{item.name, item.file.positions}}},
+      face_materials(item.file.materials, topology.face_count()).material_of_polygon, shares,
+      borders);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/face_attachments.h"
 #include "crowdface/heads/inputs.h"
-#include "crowdface/io/fixed_normals.h"
+#include "crowdface/io/given_normals.h"
 
 namespace crowdface {
 

@@ -25,7 +25,7 @@ std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
   const FaceMaterials materials = face_materials(file.materials, faces);
   std::vector<MaterialRange> ranges;
   for (std::size_t t = 0; t < level.source_faces.size(); ++t) {
-    const std::string& name = materials.names[materials.material_of_face[level.source_faces[t]]];
+    const std::string& name = materials.names[materials.material_of_polygon[level.source_faces[t]]];
     if (name.empty() || (!ranges.empty() && ranges.back().name == name)) continue;
     ranges.push_back({name, static_cast<Index>(t)});
   }

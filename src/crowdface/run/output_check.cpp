@@ -4,9 +4,9 @@
 #include <system_error>
 
 #include "crowdface/config/input_files.h"
-#include "crowdface/core/descriptor.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/file_descriptor.h"
 #include "crowdface/core/folder.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/shallow_json.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "crowdface/crowd/crowd_directory.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

@@ -30,7 +30,7 @@ Digest key_of(const Job& job, const CrowdDirectory& directory) {
   if (job.inputs.heads_on_body) hasher.add(kNeckVersion).add(job.inputs.heads_on_body->digest);
   hasher.add_array(std::span(job.inputs.distance_weights));
   for (const std::string& review : job.config.review.texts) hasher.add(review);
-  for (const auto& table : {job.config.population, job.config.quantile_distributions}) {
+  for (const auto& table : {job.config.population, job.config.quantile_table}) {
     for (const TraitTarget& target : table.targets) {
       hasher.add(target.trait).add(target.mean).add(target.deviation);
     }

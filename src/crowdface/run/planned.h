@@ -13,7 +13,7 @@
 #include "crowdface/crowd/ledger.h"
 #include "crowdface/crowd/shard.h"
 #include "crowdface/run/casting.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

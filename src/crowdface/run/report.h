@@ -13,7 +13,7 @@
 #include "crowdface/core/text_pieces.h"
 #include "crowdface/run/casting.h"
 #include "crowdface/run/face_files.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

@@ -51,7 +51,7 @@ struct PrimLook {
 PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource& source) {
   FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
   if (has_own_texture(source, item)) {
-    PrimLook look{std::move(prim), {}, std::move(named.material_of_face)};
+    PrimLook look{std::move(prim), {}, std::move(named.material_of_polygon)};
     for (const std::string& name : named.names) {
       look.materials.push_back({name, {}});
       look.materials.back().surface.colour_map =
@@ -66,7 +66,7 @@ PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource
     if (item.tint != Tint::kNone) folder /= UsdaPart::kLookPlaceholder;
     return (folder / file->destination).generic_string();
   };
-  PrimLook look{std::move(prim), {}, std::move(named.material_of_face)};
+  PrimLook look{std::move(prim), {}, std::move(named.material_of_polygon)};
   for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
     look.materials.push_back({material.name, {}});
     try {

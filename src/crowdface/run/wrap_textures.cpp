@@ -11,8 +11,8 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
+#include "crowdface/io/merged_materials.h"
 #include "crowdface/io/mesh_as_obj.h"
-#include "crowdface/io/own_materials.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {

@@ -5,7 +5,7 @@
 
 #include "crowdface/cast/face_plan.h"
 #include "crowdface/heads/face_textures.h"
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 namespace crowdface {
 

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "crowdface/mesh/adjacency.h"
-#include "crowdface/parts/ball_map.h"
-#include "crowdface/parts/contact_place.h"
+#include "crowdface/parts/ball_radii.h"
 #include "crowdface/parts/eye_socket.h"
+#include "crowdface/parts/gap_section.h"
 #include "crowdface/parts/rigid_motion.h"
 #include "crowdface/shapes/shape_set.h"
 

@@ -21,8 +21,8 @@ double nearest(const Eigen::Vector3d& point, const Positions& mesh,
 
 /// Returns whether a point is nearer to an eyeball's centre than all vertices of the eyeball.
 bool is_in_eyeball(const Eigen::Vector3d& point, const Positions& mesh, const Part& eyeball) {
-  const Eigen::Vector3d middle = centre_of(mesh, eyeball.surface);
-  return (point - middle).norm() < nearest(middle, mesh, eyeball.surface);
+  const Eigen::Vector3d middle = centre_of(mesh, eyeball.ball_vertices);
+  return (point - middle).norm() < nearest(middle, mesh, eyeball.ball_vertices);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ Socket PointCarrier::find_carrying_vertices(const Eigen::Vector3d& point, const 
   };
   const double to_skin = nearest(point, mesh, skin);
   for (const Part& part : parts.parts) {
-    if (part.is_eyeball && is_in_eyeball(point, mesh, part)) return whole(part.surface);
+    if (part.is_eyeball && is_in_eyeball(point, mesh, part)) return whole(part.ball_vertices);
   }
   for (const Part& part : parts.parts) {
     if (part.part_class == PartClass::kRigid && nearest(point, mesh, part.vertices) < to_skin) {

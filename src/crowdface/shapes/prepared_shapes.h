@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "crowdface/mesh/adjacency.h"
-#include "crowdface/parts/ball_map.h"
+#include "crowdface/parts/ball_radii.h"
 #include "crowdface/parts/head_axes.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/region/region_weights.h"

@@ -232,12 +232,13 @@ bool is_step(float step) {
   return step == 0 || (std::isfinite(step) && std::frexp(step, &exponent) == 0.5F);
 }
 
-/// Whether `vertices` contains each number below `count` exactly once, ascending within each patch.
-bool are_patches(std::span<const std::uint32_t> vertices, std::size_t count) {
-  if (vertices.size() != count) return false;
-  std::vector<bool> seen(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    if (vertices[i] >= count || seen[vertices[i]]) return false;
+/// Whether `vertices` is a permutation of the vertex indices 0 … `vertex_count` − 1 in which the
+/// indices of each patch (kPatchVertices consecutive entries) ascend.
+bool is_valid_patch_order(std::span<const std::uint32_t> vertices, std::size_t vertex_count) {
+  if (vertices.size() != vertex_count) return false;
+  std::vector<bool> seen(vertex_count);
+  for (std::size_t i = 0; i < vertex_count; ++i) {
+    if (vertices[i] >= vertex_count || seen[vertices[i]]) return false;
     if (i % kPatchVertices != 0 && vertices[i] < vertices[i - 1]) return false;
     seen[vertices[i]] = true;
   }
@@ -250,7 +251,8 @@ std::optional<FieldPatches> FieldPatches::from_arrays(PatchArrays arrays, Index 
                                                       std::span<const Index> head_field_counts) {
   const auto vertices = static_cast<std::size_t>(vertex_count);
   const std::size_t patches = patch_count(vertices);
-  if (!are_patches(arrays.vertices, vertices) || arrays.stored_vertex_counts.size() != patches ||
+  if (!is_valid_patch_order(arrays.vertices, vertices) ||
+      arrays.stored_vertex_counts.size() != patches ||
       arrays.field_counts.size() != patches * head_field_counts.size()) {
     return std::nullopt;
   }

@@ -78,13 +78,13 @@ SurfaceTexels::SurfaceTexels(const Topology& topology, const TextureCoordinates&
   std::vector<std::uint32_t> corners;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto face = static_cast<std::size_t>(f);
-    if (layout.picture_of_face[face] != picture) continue;
+    if (layout.picture_of_polygon[face] != picture) continue;
     const auto vertices = topology.face(f), face_uvs = topology.face_uvs(f);
     if (std::ranges::count(face_uvs, kNoIndex) > 0) continue;
     const auto at = [&](std::size_t corner) {
       const auto uv = uvs.row(face_uvs[corner]);
-      return Point((uv[0] - layout.tile_of_face[face][0]) * size_.width,
-                   (1 - (uv[1] - layout.tile_of_face[face][1])) * size_.height);
+      return Point((uv[0] - layout.tile_of_polygon[face][0]) * size_.width,
+                   (1 - (uv[1] - layout.tile_of_polygon[face][1])) * size_.height);
     };
     for (std::size_t c = 1; c + 1 < vertices.size(); ++c) {
       const std::array<Point, 3> points = {at(0), at(c), at(c + 1)};

@@ -19,10 +19,10 @@ struct TextureLayout {
     bool operator==(const Picture&) const = default;
   };
   std::vector<Picture> pictures;
-  std::vector<std::uint32_t> picture_of_face;  ///< index of each polygon's picture, or kNoIndex
+  std::vector<std::uint32_t> picture_of_polygon;  ///< index of each polygon's picture, or kNoIndex
   /// For each polygon: the lower corner (u, v) of the unit square of texture space that contains
   /// the polygon.
-  std::vector<std::array<std::int32_t, 2>> tile_of_face;
+  std::vector<std::array<std::int32_t, 2>> tile_of_polygon;
   bool operator==(const TextureLayout&) const = default;
 };
 

@@ -188,12 +188,12 @@ TextureBlender::TextureBlender(const Topology& topology, std::shared_ptr<const L
       options_(std::move(options)),
       texels_(std::move(texels)) {
   const auto vertices = static_cast<std::size_t>(topology.vertex_count);
-  require(
-      textures.layout.picture_of_face.size() == static_cast<std::size_t>(topology.face_count()) &&
-          textures.maps.size() == textures.layout.pictures.size() &&
-          texels_->size() == textures.layout.pictures.size() &&
-          options_.vertex_areas.size() == vertices,
-      "textures of another mesh");
+  require(textures.layout.picture_of_polygon.size() ==
+                  static_cast<std::size_t>(topology.face_count()) &&
+              textures.maps.size() == textures.layout.pictures.size() &&
+              texels_->size() == textures.layout.pictures.size() &&
+              options_.vertex_areas.size() == vertices,
+          "textures of another mesh");
   for (std::size_t p = 0; p < texels_->size(); ++p) {
     const SurfaceTexels& of_picture = (*texels_)[p];
     for (const auto& map : textures.maps[p]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/shortfall.h"
+#include "crowdface/run/scarcity_warning.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// The part of the head over which the distance between two faces is measured.
-enum class FaceArea {
+/// The part of the head that distances between faces compare.
+enum class ComparedArea {
   kFront,  ///< the front half of the skin
   kSkin,   ///< the whole skin, including the back of the head and the neck
 };
@@ -20,9 +20,9 @@ enum class FaceArea {
 /// component, so eyeballs, teeth and lashes have weight zero.
 ///
 /// \param mask  factors on the weights, one per vertex; or empty.
-std::vector<double> face_vertex_areas(const Topology& topology, const Components& components,
-                                      const Positions& mean, FaceArea area, Axis front,
-                                      const std::vector<double>& mask = {});
+std::vector<double> compared_vertex_areas(const Topology& topology, const Components& components,
+                                          const Positions& mean, ComparedArea area, Axis front,
+                                          const std::vector<double>& mask = {});
 
 /// Returns the distance between two faces whose meshes have the same topology: the root mean square
 /// distance over all vertices, after the second face is aligned rigidly with the first. The

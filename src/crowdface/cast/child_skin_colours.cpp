@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/skin_draw.h"
+#include "crowdface/cast/child_skin_colours.h"
 
 #include <algorithm>
 #include <map>
@@ -33,7 +33,8 @@ int differing_tag_count(Index a, Index b, const HeadTags& tags) {
 /// is first clamped to this range. Of all such mixtures, chooses the mixture whose heads differ
 /// least in sex and age from the head `like` (weighted mean of differing_tag_count). If several
 /// mixtures differ equally, chooses the two heads whose tones are closest to each other.
-std::vector<SourceWeight> mixture_of_tone(double tone, Index like, const SkinOptions& options) {
+std::vector<SourceWeight> mixture_of_tone(double tone, Index like,
+                                          const ChildSkinOptions& options) {
   const auto [lightest, darkest] = std::ranges::minmax(options.tones);
   tone = std::clamp(tone, lightest, darkest);
   const auto tone_of = [&](Index head) { return options.tones[static_cast<std::size_t>(head)]; };
@@ -62,7 +63,7 @@ std::vector<SourceWeight> mixture_of_tone(double tone, Index like, const SkinOpt
 
 }  // namespace
 
-void choose_skin_colours_of_children(const SkinOptions& draw, std::vector<FacePlan>& crowd) {
+void choose_skin_colours_of_children(const ChildSkinOptions& draw, std::vector<FacePlan>& crowd) {
   std::map<std::string, double> tones;  // tones of heads and faces, by name
   for (std::size_t h = 0; h < draw.head_names.size(); ++h)
     tones[draw.head_names[h]] = draw.tones[h];

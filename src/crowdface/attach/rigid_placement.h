@@ -19,7 +19,7 @@ class RigidPlacement {
   /// \param gaps    Distances of the points from the skin; must outlive this object.
   RigidPlacement(const FittedSkin& skin, const Positions& points, const SkinGaps& gaps);
 
-  /// Returns the points on a face, #P by 3.
+  /// Returns the positions, #P by 3, of the attachment's points on the face `face`.
   ///
   /// \param face     #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.

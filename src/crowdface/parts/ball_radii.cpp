@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/parts/ball_map.h"
+#include "crowdface/parts/ball_radii.h"
 
 #include <algorithm>
 

@@ -34,9 +34,9 @@ std::string grey_png(int side, int grey) {
 }
 
 /// Four heads, each with a material file and a grey of its own, and a map that is no colour.
-class OwnTextures : public ::testing::Test {
+class FaceTextureEncoder : public ::testing::Test {
  protected:
-  OwnTextures() : folder_(crowd()) {
+  FaceTextureEncoder() : folder_(crowd()) {
     int grey = 60;
     for (const std::string& name : folder_.names()) {
       std::string text = read_text(folder_.head(name));
@@ -62,7 +62,7 @@ class OwnTextures : public ::testing::Test {
   SmallCrowdFolder folder_;
 };
 
-TEST_F(OwnTextures, LieBesideMeshesThatNameThem) {
+TEST_F(FaceTextureEncoder, LieBesideMeshesThatNameThem) {
   run(folder_);
   std::set<std::string> greys;
   for (const char* id : {"mob_0001", "mob_0002", "mob_0003", "mob_0004"}) {
@@ -95,7 +95,7 @@ std::string without_usemtl(const std::string& text) {
 }
 
 // The material file still named the target's texture, and no face used it.
-TEST_F(OwnTextures, OfTheOnlyMaterialBelongToFacesWithoutOne) {
+TEST_F(FaceTextureEncoder, OfTheOnlyMaterialBelongToFacesWithoutOne) {
   for (const std::string& name : folder_.names()) {
     folder_.folder().write(concat("heads/", name, ".obj"),
                            without_usemtl(read_text(folder_.head(name))));
@@ -107,7 +107,7 @@ TEST_F(OwnTextures, OfTheOnlyMaterialBelongToFacesWithoutOne) {
 }
 
 // A variant had the skin of the people whose detail it got.
-TEST_F(OwnTextures, OfAVariantAreThoseOfItsFace) {
+TEST_F(FaceTextureEncoder, OfAVariantAreThoseOfItsFace) {
   std::string config = read_text(folder_.config());
   config.replace(config.find("align: none"), 11, "align: none, tags: {bob: [old], cyd: [old]}");
   folder_.folder().write("config.yaml", config);
@@ -133,7 +133,7 @@ TEST_F(OwnTextures, OfAVariantAreThoseOfItsFace) {
   EXPECT_EQ(picture("mob_0003"), picture("mob_0004"));
 }
 
-TEST_F(OwnTextures, AreMadeAgainIfTheyAreLostAndOnlyThen) {
+TEST_F(FaceTextureEncoder, AreMadeAgainIfTheyAreLostAndOnlyThen) {
   run(folder_, {"output.meshes=[obj, glb]"});
   const auto files = testing::crowd_files(folder_.out());
   const fs::path kept = meshes() / "blended/mob_0001.png", lost = meshes() / "blended/mob_0003.png";
@@ -150,7 +150,7 @@ TEST_F(OwnTextures, AreMadeAgainIfTheyAreLostAndOnlyThen) {
   EXPECT_NE(testing::crowd_files(folder_.out()), files) << "another texture, other faces";
 }
 
-TEST_F(OwnTextures, AreInsideGlbFiles) {
+TEST_F(FaceTextureEncoder, AreInsideGlbFiles) {
   run(folder_, {"output.meshes=[glb]", "textures.formats=[jpeg]"});
   EXPECT_FALSE(fs::exists(meshes() / "blended/mob_0001.jpg"));
   const std::string glb = read_text(meshes() / "mob_0001.glb");
@@ -160,7 +160,7 @@ TEST_F(OwnTextures, AreInsideGlbFiles) {
   EXPECT_THAT(glb, HasSubstr("\xFF\xD8\xFF"));
 }
 
-TEST_F(OwnTextures, AreTheSameOnAnyNumberOfThreads) {
+TEST_F(FaceTextureEncoder, AreTheSameOnAnyNumberOfThreads) {
   {
     const ThreadLimit limit(1);
     run(folder_, {"output.contact_sheet={cell: 32}"});
@@ -173,7 +173,7 @@ TEST_F(OwnTextures, AreTheSameOnAnyNumberOfThreads) {
               ::testing::IsEmpty());
 }
 
-TEST_F(OwnTextures, AreTheSameWhereTheHeadsMapsLieOnTheDisk) {
+TEST_F(FaceTextureEncoder, AreTheSameWhereTheHeadsMapsLieOnTheDisk) {
   run(folder_, {"output.contact_sheet={cell: 32}"});
   const auto first = testing::crowd_files(folder_.out());
   fs::remove_all(folder_.out());
@@ -185,7 +185,7 @@ TEST_F(OwnTextures, AreTheSameWhereTheHeadsMapsLieOnTheDisk) {
               ::testing::IsEmpty());
 }
 
-TEST_F(OwnTextures, AreTheSameWithStatisticsFromTheCache) {
+TEST_F(FaceTextureEncoder, AreTheSameWithStatisticsFromTheCache) {
   const auto statistics = [&] {
     std::vector<fs::path> entries;
     for (const auto& entry : fs::directory_iterator(folder_.cache())) {
@@ -206,14 +206,14 @@ TEST_F(OwnTextures, AreTheSameWithStatisticsFromTheCache) {
               ::testing::IsEmpty());
 }
 
-TEST_F(OwnTextures, AreOfTheSizeAndFormatsAskedFor) {
+TEST_F(FaceTextureEncoder, AreOfTheSizeAndFormatsAskedFor) {
   run(folder_, {"textures={size: 16, formats: [jpeg, png]}"});
   EXPECT_EQ(read_image(meshes() / "blended/mob_0002.png").width, 16);
   EXPECT_TRUE(fs::exists(meshes() / "blended/mob_0002.jpg"));
   EXPECT_THAT(read_text(meshes() / "mob_0002.mtl"), HasSubstr("map_Kd blended/mob_0002.jpg"));
 }
 
-TEST_F(OwnTextures, AreNotMadeWhereTheTargetsAreAskedFor) {
+TEST_F(FaceTextureEncoder, AreNotMadeWhereTheTargetsAreAskedFor) {
   run(folder_);
   run(folder_, {"textures.blend=target"}, Replace::kForce);
   EXPECT_FALSE(fs::exists(meshes() / "blended")) << "the old crowd's are removed";
@@ -223,7 +223,7 @@ TEST_F(OwnTextures, AreNotMadeWhereTheTargetsAreAskedFor) {
 }
 
 // EXR files were left behind, because only two of three endings were known.
-TEST_F(OwnTextures, OfAnOldCrowdAreRemovedInEachFormat) {
+TEST_F(FaceTextureEncoder, OfAnOldCrowdAreRemovedInEachFormat) {
   run(folder_, {"textures.formats=[png, jpeg, exr]"});
   EXPECT_TRUE(fs::exists(meshes() / "blended/mob_0001.exr"));
   run(folder_, {"textures.blend=target"}, Replace::kForce);
@@ -231,7 +231,7 @@ TEST_F(OwnTextures, OfAnOldCrowdAreRemovedInEachFormat) {
 }
 
 // Faces kept their textures while heads turned plain: the ledger did not know the key.
-TEST_F(OwnTextures, SheetsWithoutThemShowPlainFaces) {
+TEST_F(FaceTextureEncoder, SheetsWithoutThemShowPlainFaces) {
   const std::string sheet = "output.contact_sheet={columns: 2, cell: 48";
   const auto render = [&](const char* out) {
     return read_text(folder_ / concat(out, "/renders/mob_0001.png"));
@@ -244,7 +244,7 @@ TEST_F(OwnTextures, SheetsWithoutThemShowPlainFaces) {
 }
 
 // What only arranges pages makes no picture anew.
-TEST_F(OwnTextures, SheetsOfOtherPagesKeepThePicturesOfFaces) {
+TEST_F(FaceTextureEncoder, SheetsOfOtherPagesKeepThePicturesOfFaces) {
   run(folder_, {"output.contact_sheet={columns: 2, cell: 48}"});
   const fs::path render = folder_.out() / "renders/mob_0001.png";
   const auto written = fs::last_write_time(render);
@@ -255,7 +255,7 @@ TEST_F(OwnTextures, SheetsOfOtherPagesKeepThePicturesOfFaces) {
 }
 
 // Sheets showed textures that no mesh has.
-TEST_F(OwnTextures, SheetsOfOtherTexturesAreRefused) {
+TEST_F(FaceTextureEncoder, SheetsOfOtherTexturesAreRefused) {
   const std::string sheet = "output.contact_sheet={columns: 2, cell: 48}";
   run(folder_, {sheet});
   remake_sheets(folder_.out(), {}, folder_.cache());
@@ -279,7 +279,7 @@ std::map<std::string, std::string> pictures_in(const fs::path& folder) {
   return pictures;
 }
 
-TEST_F(OwnTextures, AHeadWhoseTextureIsMissingOrDamagedIsToldAndGoesWithout) {
+TEST_F(FaceTextureEncoder, AHeadWhoseTextureIsMissingOrDamagedIsToldAndGoesWithout) {
   const auto warnings = [&] {
     return testing::read_json(folder_.out() / "report.json").at("warnings").dump();
   };
@@ -321,7 +321,7 @@ std::string normal_png(int side, double lean) {
 }
 
 /// The four heads with maps of all kinds: normals in bytes, roughness in 16 bits, heights in floats.
-class OwnMaps : public OwnTextures {
+class OwnMaps : public FaceTextureEncoder {
  protected:
   OwnMaps() {
     double lean = 0;

@@ -12,9 +12,9 @@
 
 namespace crowdface {
 
-/// The heads, reduced to the samples. From these data, the face of any recipe can be computed at
-/// the samples.
-struct SampledHeads {
+/// The data of all heads that the blend needs at the sample vertices. These data suffice to compute
+/// the face of any recipe at the sample vertices.
+struct HeadsAtSamples {
   /// for each head, the positions of the samples, #S by 3, in millimetres
   std::vector<Positions> heads;
   Positions mean;          ///< the mean of the heads at the samples, #S by 3
@@ -29,13 +29,13 @@ struct SampledHeads {
   /// storage of `trajectories` if this object owns them, otherwise empty
   std::vector<Trajectory> owned_trajectories;
   /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.
-  std::shared_ptr<const SampledHeads> mirror_images;
+  std::shared_ptr<const HeadsAtSamples> mirror_images;
 };
 
 /// Returns the data of the heads at the samples, without mirror images.
-SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
-                          const FaceSamples& samples, std::span<const Trajectory> trajectories,
-                          std::uint64_t max_level, double mm_per_unit);
+HeadsAtSamples sample_heads(const HeadSet& head_set, const RegionWeights& regions,
+                            const FaceSamples& samples, std::span<const Trajectory> trajectories,
+                            std::uint64_t max_level, double mm_per_unit);
 
 /// Computes the mirror images of the heads at the same samples. If the mirror image of a sample is
 /// not a vertex, the weights and trajectories there are interpolated.
@@ -43,17 +43,20 @@ SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
 /// \param heads   The heads at the samples.
 /// \param trajectory_vertices  The vertices that the trajectories of `heads` contain: samples_and_mirror_corners
 ///                of the samples.
-std::shared_ptr<const SampledHeads> sample_mirror_images(
-    const HeadSet& head_set, const RegionWeights& regions, const MirrorMap& mirror,
-    const FaceSamples& samples, const FaceSamples& trajectory_vertices, const SampledHeads& heads);
+std::shared_ptr<const HeadsAtSamples> sample_mirror_images(const HeadSet& head_set,
+                                                           const RegionWeights& regions,
+                                                           const MirrorMap& mirror,
+                                                           const FaceSamples& samples,
+                                                           const FaceSamples& trajectory_vertices,
+                                                           const HeadsAtSamples& heads);
 
 /// Returns the target of a recipe at the samples, #S by 3 in millimetres, mirrored like the face.
-Positions sample_target(const SampledHeads& heads, const Recipe& recipe);
+Positions sample_target(const HeadsAtSamples& heads, const Recipe& recipe);
 
 /// Returns the face of a recipe at the samples, #S by 3 in millimetres, not aligned (Eq. 7).
 ///
 /// \throws BrokenPrecondition if the face is mirrored or its asymmetry is not 1, and there are no
 /// mirror images.
-Positions sample_face(const SampledHeads& heads, const Recipe& recipe);
+Positions sample_face(const HeadsAtSamples& heads, const Recipe& recipe);
 
 }  // namespace crowdface

@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// Surface points with the results of their shadow rays, as one list per field: position, normal,
+/// Surface points with the results of their shadow rays, as one field_values per field: position, normal,
 /// and for each light the number of rays that reached the light and the number of traced rays.
 struct PointVisibility {
   enum Field {
@@ -43,8 +43,10 @@ class PixelVisibility {
     return static_cast<std::size_t>(y + 1) * kStride + static_cast<std::size_t>(x + 1);
   }
   /// Returns the values of a PointVisibility field; index() gives the position of a pixel's value.
-  float* list(int field) { return field_values_.data() + static_cast<std::size_t>(field) * kSize; }
-  const float* list(int field) const {
+  float* field_values(int field) {
+    return field_values_.data() + static_cast<std::size_t>(field) * kSize;
+  }
+  const float* field_values(int field) const {
     return field_values_.data() + static_cast<std::size_t>(field) * kSize;
   }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/hair_sampling.h"
+#include "crowdface/cast/hair_chooser.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/attach/rigid_seat.h"
+#include "crowdface/attach/rigid_placement.h"
 
 #include <algorithm>
 #include <numeric>

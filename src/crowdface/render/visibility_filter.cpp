@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/render/light_sharing.h"
+#include "crowdface/render/visibility_filter.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "crowdface/render/light_sharing.cpp"
+#define HWY_TARGET_INCLUDE "crowdface/render/visibility_filter.cpp"
 #include "hwy/foreach_target.h"
 // Highway requires this order: foreach_target.h first, then the code that is compiled once per
 // target.
@@ -58,8 +58,8 @@ void share(const PointVisibility& points, std::size_t count, const PixelVisibili
         const std::size_t at =
             pixel + row * PixelVisibility::kStride + column - PixelVisibility::kStride - 1;
         const auto there = [&](int field) {
-          return kInARow ? hn::LoadU(Lanes(), pixels.list(field) + at + i)
-                         : number(pixels.list(field)[at]);
+          return kInARow ? hn::LoadU(Lanes(), pixels.field_values(field) + at + i)
+                         : number(pixels.field_values(field)[at]);
         };
         const auto along = [&](Numbers a, Numbers b, Numbers c) {
           return hn::Add(hn::Add(hn::Mul(u, a), hn::Mul(v, b)), hn::Mul(w, c));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/colour_draw.h"
+#include "crowdface/cast/face_colours.h"
 
 #include <algorithm>
 #include <map>

@@ -13,19 +13,19 @@
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/io/encoded_file.h"
-#include "crowdface/io/own_materials.h"
+#include "crowdface/io/merged_materials.h"
 
 namespace crowdface {
 
 /// A texture file of one face.
-struct OwnTextureFile {
+struct FaceTextureFile {
   std::string name;  ///< path relative to the folder of the face's meshes
-  std::size_t picture_index = 0, format_index = 0;  ///< indices into OwnTextures::Encoded
+  std::size_t picture_index = 0, format_index = 0;  ///< indices into FaceTextureEncoder::Encoded
 };
-/// Lists the texture files of the face `id`. Returns an empty list if faces use the textures of
-/// their target heads and have none of their own.
-std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
-                                              const std::string& id);
+/// Lists the texture files of the face `id`. Returns an empty list if faces have no blended
+/// textures and use the textures of their target heads.
+std::vector<FaceTextureFile> face_texture_files(const Config& config, const Inputs& inputs,
+                                                const std::string& id);
 
 /// An image in a GLB file. GLB files contain only colour, normal and roughness maps, and no EXR
 /// images.
@@ -36,23 +36,23 @@ struct GlbPicture {
 /// Lists the images that each GLB file contains, in the order of face_picture_names.
 std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs);
 
-/// For each image of glb_pictures: the path relative to a face's mesh, such as "./blended/ID.png".
-/// If an image is written in several formats, returns the path of the first format. Empty if faces
-/// have no textures of their own.
-std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
-                                           const std::string& id);
+/// For each image of glb_pictures: its path relative to the mesh of the face `id`, such as
+/// "./blended/ID.png". If an image is written in several formats, this is the path of the first
+/// format. Empty if faces have no blended textures.
+std::vector<std::string> face_picture_paths(const Config& config, const Inputs& inputs,
+                                            const std::string& id);
 
-/// Name of a face's own material file: "ID.mtl".
+/// Name of the material file of the face `id`: "ID.mtl".
 std::string material_file_name(const std::string& id);
 
-/// Encodes the textures of faces and makes the faces' material files.
-class OwnTextures {
+/// Encodes the blended textures of faces as image files, and writes the faces' material files.
+class FaceTextureEncoder {
  public:
   /// \param config, inputs  must outlive this object.
   /// \param crowd   all faces that may be written
   /// \param shared  see MeshSource
-  OwnTextures(const Config& config, const Inputs& inputs, std::span<const FacePlan> crowd,
-              const std::string& shared = {});
+  FaceTextureEncoder(const Config& config, const Inputs& inputs, std::span<const FacePlan> crowd,
+                     const std::string& shared = {});
 
   /// For each image of face_picture_names, and for each format of the image: the bytes of the
   /// encoded file.

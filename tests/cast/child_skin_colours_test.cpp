@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/skin_draw.h"
+#include "crowdface/cast/child_skin_colours.h"
 
 #include <algorithm>
 
@@ -10,8 +10,8 @@ namespace crowdface {
 namespace {
 
 /// Tones 0, 10, 20, 30 of women, then of men.
-SkinOptions draw_of() {
-  SkinOptions draw{3, {}, {}, {0, 10, 20, 30, 0, 10, 20, 30}, {}};
+ChildSkinOptions draw_of() {
+  ChildSkinOptions draw{3, {}, {}, {0, 10, 20, 30, 0, 10, 20, 30}, {}};
   for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) draw.head_names.push_back(name);
   for (int h = 0; h < 8; ++h) draw.tags.push_back({h < 4 ? "female" : "male"});
   draw.colour_weights = [](const Recipe& recipe) {
@@ -62,7 +62,7 @@ TEST(SkinDraw, AChildLiesBetweenItsParents) {
 }
 
 TEST(SkinDraw, TwinsHaveOneTone) {
-  SkinOptions draw = draw_of();
+  ChildSkinOptions draw = draw_of();
   draw.twin_families = {"clan"};
   std::vector<FacePlan> crowd = {child_of("ona", "a", "h", 1), child_of("una", "a", "h", 2)};
   choose_skin_colours_of_children(draw, crowd);
@@ -97,7 +97,7 @@ double weight_of(const FacePlan& face, Index begin, Index end) {
 }
 
 TEST(SkinDraw, HeadsMayHaveNoTags) {
-  SkinOptions draw = draw_of();
+  ChildSkinOptions draw = draw_of();
   draw.tags.clear();
   std::vector<FacePlan> crowd = {child_of("girl", "a", "h", 1)};
   choose_skin_colours_of_children(draw, crowd);
@@ -106,7 +106,7 @@ TEST(SkinDraw, HeadsMayHaveNoTags) {
 }
 
 TEST(SkinDraw, AnotherAgeLendsAsLittleAsPossibleIfNoLikeHeadIsDarkEnough) {
-  SkinOptions draw = draw_of();
+  ChildSkinOptions draw = draw_of();
   draw.tags[2] = draw.tags[3] = {"female", "old"};  // young women have the tones 0 and 10
   double darkest = 0;
   for (int i = 0; i < 40; ++i) {
@@ -124,7 +124,7 @@ TEST(SkinDraw, AnotherAgeLendsAsLittleAsPossibleIfNoLikeHeadIsDarkEnough) {
 }
 
 TEST(SkinDraw, ADaughterWhoseSexHasOnlyLightHeadsIsDarkerThanHerMother) {
-  SkinOptions draw = draw_of();
+  ChildSkinOptions draw = draw_of();
   draw.tones = {0, 1, 2, 3, 0, 10, 20, 30};  // all women are light
   for (int i = 0; i < 40; ++i) {
     std::vector<FacePlan> crowd = {child_of("girl_" + std::to_string(i), "b", "h", 1)};

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "crowdface/cast/sampled_heads.h"
+#include "crowdface/cast/heads_at_samples.h"
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/prepare.h"
 
@@ -33,8 +33,8 @@ class FacePoses {
 
   const HeadsOnBody& heads_on_body_;
   /// the heads above the bend of the neck, in file units, as placed on the body
-  SampledHeads placed_heads_;
-  SampledHeads heads_in_common_pose_;  ///< `placed_heads_`, rotated to the common pose
+  HeadsAtSamples placed_heads_;
+  HeadsAtSamples heads_in_common_pose_;  ///< `placed_heads_`, rotated to the common pose
   /// motion of the mean head from its pose on the body to the common pose
   RigidMotion mean_motion_;
 };

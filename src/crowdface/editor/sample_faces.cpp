@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/editor/draw_faces.h"
+#include "crowdface/editor/sample_faces.h"
 
 #include <algorithm>
 #include <map>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/pipeline.h"
+#include "crowdface/run/job.h"
 
 #include <algorithm>
 #include <functional>

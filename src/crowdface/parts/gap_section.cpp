@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/parts/contact_place.h"
+#include "crowdface/parts/gap_section.h"
 
 #include <algorithm>
 #include <limits>

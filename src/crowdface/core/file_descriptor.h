@@ -28,14 +28,14 @@ template <class Failure>
 }
 
 /// A file descriptor that is closed on destruction.
-class Descriptor {
+class FileDescriptor {
  public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
+  explicit FileDescriptor(int fd) : fd_(fd) {}
+  ~FileDescriptor() {
     if (fd_ >= 0) ::close(fd_);
   }
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
+  FileDescriptor(FileDescriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     std::swap(fd_, other.fd_);
     return *this;
   }
@@ -62,11 +62,11 @@ void throw_if_system_error(const std::filesystem::path& path, const std::error_c
 /// Whether `path`, with links followed, still names the open file `file`. False after the file was
 /// removed, renamed or replaced. \throws IoError on a system error (disk, memory, too many open
 /// files).
-bool path_leads_to(const std::filesystem::path& path, const Descriptor& file);
+bool path_leads_to(const std::filesystem::path& path, const FileDescriptor& file);
 
 /// A file opened for reading, with its size in bytes.
 struct OpenedFile {
-  Descriptor descriptor;
+  FileDescriptor descriptor;
   std::size_t size;
 };
 /// Opens a regular file.
@@ -76,7 +76,7 @@ OpenedFile open_for_reading(const std::filesystem::path& path);
 /// Reads `size` bytes, or all bytes up to the end of the file if there are fewer.
 /// \param path  named in the error message.
 /// \return      number of bytes read. \throws IoError.
-std::size_t read_up_to(const Descriptor& file, char* to, std::size_t size,
+std::size_t read_up_to(const FileDescriptor& file, char* to, std::size_t size,
                        const std::filesystem::path& path);
 
 /// Writes all bytes, with as many system calls as needed. \return whether it succeeded.

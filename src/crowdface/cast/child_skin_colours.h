@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// Parameters for choosing the skin colours of children.
-struct SkinOptions {
+/// Parameters for choosing the skin colours of faces with parents.
+struct ChildSkinOptions {
   std::uint64_t seed = 1;
   std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
   HeadTags tags;                        ///< the tags of each head, or empty
@@ -33,6 +33,6 @@ struct SkinOptions {
 /// lies in this range.
 ///
 /// \param crowd  In the order of the plan: parents before children.
-void choose_skin_colours_of_children(const SkinOptions& options, std::vector<FacePlan>& crowd);
+void choose_skin_colours_of_children(const ChildSkinOptions& options, std::vector<FacePlan>& crowd);
 
 }  // namespace crowdface

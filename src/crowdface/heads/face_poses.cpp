@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/face_turns.h"
+#include "crowdface/heads/face_poses.h"
 
 #include <algorithm>
 #include <numeric>
@@ -29,8 +29,8 @@ std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
   return evenly_spaced_items(above.size() < kFewest ? all : above, kPoints);
 }
 
-SampledHeads heads_above(const Inputs& inputs, const PreparedHeads& prepared,
-                         const RegionWeights& regions) {
+HeadsAtSamples heads_above(const Inputs& inputs, const PreparedHeads& prepared,
+                           const RegionWeights& regions) {
   const std::vector<Index> columns = columns_above(inputs.heads_on_body->seam, prepared.samples);
   FaceSamples samples;
   for (const Index s : columns) samples.push_back(prepared.samples[static_cast<std::size_t>(s)]);
@@ -41,7 +41,7 @@ SampledHeads heads_above(const Inputs& inputs, const PreparedHeads& prepared,
       to.middleCols<3>(3 * static_cast<Index>(i)) = from.middleCols<3>(3 * columns[i]);
     }
   }
-  SampledHeads heads = sample_heads(inputs.head_set, regions, samples, own, inputs.max_level, 1);
+  HeadsAtSamples heads = sample_heads(inputs.head_set, regions, samples, own, inputs.max_level, 1);
   heads.owned_trajectories = std::move(own);
   heads.trajectories = heads.owned_trajectories;
   return heads;
@@ -49,7 +49,7 @@ SampledHeads heads_above(const Inputs& inputs, const PreparedHeads& prepared,
 
 /// Rotates each head about the middle of the neck's ring into the common pose of all heads. Rotates
 /// the smoothing trajectories too, because smoothing commutes with rotations.
-void turn_heads(const HeadsOnBody& neck, SampledHeads& heads) {
+void turn_heads(const HeadsOnBody& neck, HeadsAtSamples& heads) {
   for (std::size_t h = 0; h < heads.heads.size(); ++h) {
     if (neck.heads[h].pose_rotation.isZero(0)) continue;
     const Positions before = heads.heads[h];

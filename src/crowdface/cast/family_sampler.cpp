@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/family_draws.h"
+#include "crowdface/cast/family_sampler.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/render/light_sharing.h"
+#include "crowdface/render/visibility_filter.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +24,11 @@ class LightSharing : public ::testing::Test {
         if (random_() % 7 == 0) continue;
         const std::size_t at = PixelVisibility::index(x, y);
         const std::array<float, kFields> pixel = draw(x, y);
-        for (std::size_t f = 0; f < kFields; ++f) pixels_.list(static_cast<int>(f))[at] = pixel[f];
+        for (std::size_t f = 0; f < kFields; ++f)
+          pixels_.field_values(static_cast<int>(f))[at] = pixel[f];
       }
     }
-    for (auto& list : lists_) list.assign(kSquareSide + kMaxLanes, 0);
+    for (auto& field_values : lists_) field_values.assign(kSquareSide + kMaxLanes, 0);
     for (int x = 0; x < kSquareSide; ++x) {
       const std::array<float, kFields> point = draw(x, kRow);
       for (std::size_t f = 0; f < kFields; ++f) lists_[f][static_cast<std::size_t>(x)] = point[f];
@@ -76,7 +77,7 @@ class LightSharing : public ::testing::Test {
     for (int j = kRow - 1; j <= kRow + 1; ++j) {
       for (int i = x - 1; i <= x + 1; ++i) {
         const auto there = [&](int field) {
-          return static_cast<double>(pixels_.list(field)[PixelVisibility::index(i, j)]);
+          return static_cast<double>(pixels_.field_values(field)[PixelVisibility::index(i, j)]);
         };
         double cosine = 0, height = 0;
         for (int c = 0; c < 3; ++c) {

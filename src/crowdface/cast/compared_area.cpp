@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/face_area.h"
+#include "crowdface/cast/compared_area.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,12 +24,12 @@ double middle_of_skin(const Components& components, const Positions& mean, Axis 
 
 }  // namespace
 
-std::vector<double> face_vertex_areas(const Topology& topology, const Components& components,
-                                      const Positions& mean, FaceArea area, Axis front,
-                                      const std::vector<double>& mask) {
+std::vector<double> compared_vertex_areas(const Topology& topology, const Components& components,
+                                          const Positions& mean, ComparedArea area, Axis front,
+                                          const std::vector<double>& mask) {
   const std::uint32_t skin = components.largest();
   const double middle =
-      area == FaceArea::kFront ? middle_of_skin(components, mean, front) : -HUGE_VAL;
+      area == ComparedArea::kFront ? middle_of_skin(components, mean, front) : -HUGE_VAL;
   std::vector<double> areas(static_cast<std::size_t>(mean.rows()), 0.0);
   for (Index f = 0; f < topology.face_count(); ++f) {
     const Eigen::Vector3d twice = face_area_vector(topology, f, mean);

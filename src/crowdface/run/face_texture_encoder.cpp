@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/own_textures.h"
+#include "crowdface/run/face_texture_encoder.h"
 
 #include <algorithm>
 #include <array>
@@ -85,9 +85,10 @@ std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
       face_materials(inputs.head_files[static_cast<std::size_t>(head)].materials,
                      inputs.head_set.topology.face_count());
   std::map<std::string, std::size_t> pictures;
-  for (std::size_t f = 0; f < layout.picture_of_face.size(); ++f) {
-    if (layout.picture_of_face[f] == kNoIndex) continue;
-    pictures.try_emplace(materials.names[materials.material_of_face[f]], layout.picture_of_face[f]);
+  for (std::size_t f = 0; f < layout.picture_of_polygon.size(); ++f) {
+    if (layout.picture_of_polygon[f] == kNoIndex) continue;
+    pictures.try_emplace(materials.names[materials.material_of_polygon[f]],
+                         layout.picture_of_polygon[f]);
   }
   return pictures;
 }
@@ -132,9 +133,9 @@ std::vector<GlbPicture> glb_pictures(const Config& config, const Inputs& inputs)
   return result;
 }
 
-std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs& inputs,
-                                              const std::string& id) {
-  std::vector<OwnTextureFile> files;
+std::vector<FaceTextureFile> face_texture_files(const Config& config, const Inputs& inputs,
+                                                const std::string& id) {
+  std::vector<FaceTextureFile> files;
   const std::vector<PictureName> pictures = face_picture_names(inputs);
   for (std::size_t p = 0; p < pictures.size(); ++p) {
     const std::vector<TextureFormat> formats = formats_of(config, pictures[p]);
@@ -145,8 +146,8 @@ std::vector<OwnTextureFile> own_texture_files(const Config& config, const Inputs
   return files;
 }
 
-std::vector<std::string> own_texture_names(const Config& config, const Inputs& inputs,
-                                           const std::string& id) {
+std::vector<std::string> face_picture_paths(const Config& config, const Inputs& inputs,
+                                            const std::string& id) {
   std::vector<std::string> names;
   const std::vector<PictureName> pictures = face_picture_names(inputs);
   for (const GlbPicture& held : glb_pictures(config, inputs)) {
@@ -156,8 +157,8 @@ std::vector<std::string> own_texture_names(const Config& config, const Inputs& i
   return names;
 }
 
-OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
-                         std::span<const FacePlan> crowd, const std::string& shared)
+FaceTextureEncoder::FaceTextureEncoder(const Config& config, const Inputs& inputs,
+                                       std::span<const FacePlan> crowd, const std::string& shared)
     : config_(config), inputs_(inputs), pictures_(face_picture_names(inputs)) {
   for (const FacePlan& face : crowd) {
     const Index target = face.recipe.target;
@@ -178,8 +179,8 @@ OwnTextures::OwnTextures(const Config& config, const Inputs& inputs,
   }
 }
 
-std::vector<std::string> OwnTextures::encode(std::size_t picture_index,
-                                             const BlendedPicture& picture) const {
+std::vector<std::string> FaceTextureEncoder::encode(std::size_t picture_index,
+                                                    const BlendedPicture& picture) const {
   std::vector<std::string> encoded;
   for (const TextureFormat format : formats_of(config_, pictures_[picture_index])) {
     encoded.push_back(encode_picture(picture, pictures_[picture_index], format));
@@ -187,7 +188,7 @@ std::vector<std::string> OwnTextures::encode(std::size_t picture_index,
   return encoded;
 }
 
-std::vector<std::string_view> OwnTextures::glb_images(const Encoded& encoded) const {
+std::vector<std::string_view> FaceTextureEncoder::glb_images(const Encoded& encoded) const {
   std::vector<std::string_view> held;
   for (const auto& [picture_index, format] : glb_pictures(config_, inputs_)) {
     const std::vector<TextureFormat> formats = formats_of(config_, pictures_[picture_index]);
@@ -197,7 +198,7 @@ std::vector<std::string_view> OwnTextures::glb_images(const Encoded& encoded) co
   return held;
 }
 
-EncodedFile OwnTextures::material_file(const FacePlan& face) const {
+EncodedFile FaceTextureEncoder::material_file(const FacePlan& face) const {
   const Materials& materials = materials_of_target_.at(face.recipe.target);
   MergedMaterials::Replacements textures;
   for (const auto& [kind, picture_indices] : materials.picture_indices) {
@@ -210,7 +211,7 @@ EncodedFile OwnTextures::material_file(const FacePlan& face) const {
   return {materials.merged_materials.text(textures)};
 }
 
-std::uint64_t OwnTextures::encoding_memory_bytes() const {
+std::uint64_t FaceTextureEncoder::encoding_memory_bytes() const {
   std::uint64_t bytes = 0, largest = 0;
   std::size_t picture = 0;
   const auto add = [&](const HeadTextures& textures) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/cast/sampled_heads.h"
+#include "crowdface/cast/heads_at_samples.h"
 
 #include <algorithm>
 #include <unordered_map>
@@ -11,7 +11,7 @@
 namespace crowdface {
 namespace {
 
-void find_sample_ranges(SampledHeads& sampled) {
+void find_sample_ranges(HeadsAtSamples& sampled) {
   // ranges at most this far apart are joined, because a short gap costs less than another range
   constexpr Index kMaxJoinedGap = 8;
   for (Index k = 0; k < sampled.region_weights.cols(); ++k) {
@@ -30,7 +30,7 @@ void find_sample_ranges(SampledHeads& sampled) {
 /// \param whole  whole(head) returns all positions of a head, or of the head's mirror image.
 template <class Whole>
 void copy_samples(const HeadSet& head_set, const FaceSamples& samples, const Whole& whole,
-                  SampledHeads& sampled) {
+                  HeadsAtSamples& sampled) {
   const auto count = static_cast<Index>(samples.size());
   sampled.mean = Positions::Zero(count, 3);
   for (const Head& head : head_set.heads) {
@@ -44,13 +44,13 @@ void copy_samples(const HeadSet& head_set, const FaceSamples& samples, const Who
   sampled.mean /= static_cast<double>(head_set.heads.size());
 }
 
-Positions target_samples(const SampledHeads& heads, const Recipe& recipe) {
+Positions target_samples(const HeadsAtSamples& heads, const Recipe& recipe) {
   return target_matrix<Positions>(recipe, [&](Index head) -> const Positions& {
     return heads.heads[static_cast<std::size_t>(head)];
   });
 }
 
-Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
+Positions blended_samples(const HeadsAtSamples& heads, const Recipe& recipe) {
   Positions face = target_samples(heads, recipe);
   // The displacements have single precision, which is precise enough and saves time: casting calls
   // this function for every accepted face.
@@ -87,7 +87,7 @@ Positions blended_samples(const SampledHeads& heads, const Recipe& recipe) {
 /// Returns property(heads), property(mirror images of the heads), or a blend of both, as the
 /// recipe's mirroring and asymmetry require.
 template <class Property>
-Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Property& property) {
+Positions mirrored_as(const HeadsAtSamples& heads, const Recipe& recipe, const Property& property) {
   const double w = mirror_image_weight(recipe);
   if (w == 0) return property(heads);
   require(heads.mirror_images != nullptr, "a mirrored face, and no mirror images of heads");
@@ -97,11 +97,11 @@ Positions mirrored_as(const SampledHeads& heads, const Recipe& recipe, const Pro
 
 }  // namespace
 
-SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
-                          const FaceSamples& samples, std::span<const Trajectory> trajectories,
-                          std::uint64_t max_level, double mm_per_unit) {
+HeadsAtSamples sample_heads(const HeadSet& head_set, const RegionWeights& regions,
+                            const FaceSamples& samples, std::span<const Trajectory> trajectories,
+                            std::uint64_t max_level, double mm_per_unit) {
   const auto count = static_cast<Index>(samples.size());
-  SampledHeads sampled;
+  HeadsAtSamples sampled;
   sampled.trajectories = trajectories;
   sampled.levels = stored_smoothing_levels(max_level);
   sampled.mm_per_unit = mm_per_unit;
@@ -116,14 +116,17 @@ SampledHeads sample_heads(const HeadSet& head_set, const RegionWeights& regions,
   return sampled;
 }
 
-std::shared_ptr<const SampledHeads> sample_mirror_images(
-    const HeadSet& head_set, const RegionWeights& regions, const MirrorMap& mirror,
-    const FaceSamples& samples, const FaceSamples& trajectory_vertices, const SampledHeads& heads) {
+std::shared_ptr<const HeadsAtSamples> sample_mirror_images(const HeadSet& head_set,
+                                                           const RegionWeights& regions,
+                                                           const MirrorMap& mirror,
+                                                           const FaceSamples& samples,
+                                                           const FaceSamples& trajectory_vertices,
+                                                           const HeadsAtSamples& heads) {
   const auto count = static_cast<Index>(samples.size());
   std::unordered_map<std::uint32_t, Index> column;
   for (std::size_t i = 0; i < trajectory_vertices.size(); ++i)
     column[trajectory_vertices[i]] = 3 * static_cast<Index>(i);
-  auto images = std::make_shared<SampledHeads>();
+  auto images = std::make_shared<HeadsAtSamples>();
   images->levels = heads.levels;
   images->mm_per_unit = heads.mm_per_unit;
   copy_samples(
@@ -166,14 +169,14 @@ std::shared_ptr<const SampledHeads> sample_mirror_images(
   return images;
 }
 
-Positions sample_target(const SampledHeads& heads, const Recipe& recipe) {
+Positions sample_target(const HeadsAtSamples& heads, const Recipe& recipe) {
   return mirrored_as(heads, recipe,
-                     [&](const SampledHeads& of) { return target_samples(of, recipe); });
+                     [&](const HeadsAtSamples& of) { return target_samples(of, recipe); });
 }
 
-Positions sample_face(const SampledHeads& heads, const Recipe& recipe) {
+Positions sample_face(const HeadsAtSamples& heads, const Recipe& recipe) {
   return mirrored_as(heads, recipe,
-                     [&](const SampledHeads& of) { return blended_samples(of, recipe); });
+                     [&](const HeadsAtSamples& of) { return blended_samples(of, recipe); });
 }
 
 }  // namespace crowdface

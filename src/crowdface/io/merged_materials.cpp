@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/io/own_materials.h"
+#include "crowdface/io/merged_materials.h"
 
 #include <algorithm>
 #include <optional>
