@@ -39,9 +39,10 @@ CLI::App& add_subcommand(CLI::App& program, const char* name, const char* descri
 OptionHandle add_flag(CLI::App& command, const std::string& name, bool& value,
                       const std::string& help);
 
-/// Adds an option with a value (name such as "-o,--output") or a positional argument (name such as
-/// "config"). The help shows the initial content of `value` as the default. \param type name of the
-/// value in the help, such as "DIR".
+/// Adds an option with a value or a positional argument. The help shows the initial content of
+/// `value` as the default.
+/// \param name  such as "-o,--output" for an option, "config" for a positional argument.
+/// \param type  name of the value in the help, such as "DIR".
 OptionHandle add_option(CLI::App& command, const std::string& name, std::string& value,
                         const std::string& type, const std::string& help);
 

@@ -25,8 +25,8 @@ struct CommonOptions {
   std::vector<std::string> limits;
 
   void add_to(CLI::App& command);
-  /// Returns the `--limit` options of this command line (limits on the size of inputs), to pass
-  /// them on to processes that this run starts.
+  /// Returns this command line's `--limit` options (limits on the size of inputs), for processes
+  /// that this run starts.
   std::vector<std::string> input_limit_arguments() const;
   /// Applies the options. \return an object that limits the number of threads during its lifetime.
   [[nodiscard]] std::unique_ptr<ThreadLimit> apply() const;
@@ -80,6 +80,7 @@ void require_obj_output(const std::string& out);
 /// Writes the result of a command to standard output, with control characters escaped as in logs.
 void print(std::string_view text);
 
+/// Whether to open a page in the user's browser.
 enum class Browser { kOpen, kNone };
 
 /// Prints the address of the page that the process serves. With kOpen, also opens the page in the

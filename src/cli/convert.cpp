@@ -38,9 +38,9 @@ GlbOptions materials_of(const FileMesh& mesh, const ConvertOptions& options) {
   written.unit = parse_unit("--units", options.units);
   written.has_colours = mesh.colours.rows() > 0;
   if (mesh.materials.empty()) return written;
-  FaceMaterials materials = face_materials(mesh.materials, mesh.topology.face_count());
+  PolygonMaterials materials = polygon_materials(mesh.materials, mesh.topology.face_count());
   for (std::string& name : materials.names) written.materials.push_back({std::move(name)});
-  written.face_materials = std::move(materials.material_of_polygon);
+  written.polygon_materials = std::move(materials.material_of_polygon);
   return written;
 }
 

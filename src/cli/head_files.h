@@ -13,8 +13,8 @@
 
 namespace crowdface::cli {
 
-inline constexpr std::uint64_t kMaxGeneratedHeads =
-    1000;                               ///< largest number of heads that one command makes
+/// largest number of heads that one command makes
+inline constexpr std::uint64_t kMaxGeneratedHeads = 1000;
 inline constexpr int kMaskSize = 1024;  ///< width and height of masks in pixels
 inline constexpr std::uint64_t kMinTexturePx = 64,
                                kMaxTexturePx = 8192;  ///< width and height of textures in pixels

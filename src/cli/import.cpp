@@ -10,7 +10,7 @@
 #include "crowdface/io/obj_template.h"
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/mesh/subdivision.h"
-#include "crowdface/paint/bands.h"
+#include "crowdface/paint/mask_bands.h"
 #include "crowdface/region/mask_painting.h"
 #include "head_models/morph/ict_heads.h"
 #include "head_models/morph/makehuman_heads.h"

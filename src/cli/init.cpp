@@ -111,8 +111,8 @@ struct ShapeAnalysis {
   std::optional<Orientation> orientation;  ///< up and front axes
   std::optional<PaintedMasks> masks;
   bool has_uvs = true;
-  bool has_misaligned_head =
-      false;        ///< some head is rotated or shifted relative to the other heads
+  /// some head is rotated or shifted relative to the other heads
+  bool has_misaligned_head = false;
   double face = 0;  ///< distance from eyes to mouth, in mesh units; 0: not found
 };
 

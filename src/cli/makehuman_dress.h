@@ -15,8 +15,8 @@
 
 namespace crowdface::cli {
 
-/// The files that `import makehuman --dress` writes in addition to the heads. The object computes a
-/// texture only when the texture's file is written.
+/// Collects the files that `import makehuman --dress` writes in addition to the heads. Each texture
+/// is computed when its file is written.
 class MakeHumanDress {
  public:
   /// Adds eyes, lashes, teeth and tongue to the model's heads.
@@ -40,7 +40,7 @@ class MakeHumanDress {
                         std::vector<HeadFile>& files);
 
  private:
-  /// Fits an attachment to the average head and adapts it: see makehuman_grooming.h.
+  /// Fits an attachment to the average head, then trims it as makehuman_grooming.h describes.
   /// \param hair_end  height below which hair is cut
   Mesh groomed(const MakeHumanAttachment& item, const FittedMesh& mesh, double hair_end) const;
   void add_attachment(const std::filesystem::path& folder, const MakeHumanAttachment& item,

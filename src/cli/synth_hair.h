@@ -20,9 +20,10 @@ namespace crowdface::cli {
 /// wear. All heads share each attachment, which has a neutral texture.
 class SynthHair {
  public:
-  /// Registers a head. \return the tags of the head for skin, hair colour and hair form, such as
-  /// "light_skin, brown_hair, straight_hair". The hair colour is the colour in the person's youth.
-  /// The hair form is "bald" if the crown of the head is bald.
+  /// Registers a head.
+  /// \return  the head's tags for skin, hair colour and hair form, such as "light_skin, brown_hair,
+  /// straight_hair". The hair colour is that of the person's youth. The hair form is "bald" if the
+  /// crown of the head is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
   /// Adds the files of the folder `attachments`, which is inside the folder of the heads: meshes,

@@ -40,7 +40,8 @@ class Heads {
     int count = 0;
     for (; fs::exists(file(count + 1)); ++count) sum += read_obj(file(count + 1)).positions;
     patch_ = front_patch(first_.topology, sum / count, HeadFrame{}.up, HeadFrame{}.front);
-    const FaceMaterials materials = face_materials(first_.materials, first_.topology.face_count());
+    const PolygonMaterials materials =
+        polygon_materials(first_.materials, first_.topology.face_count());
     for (const std::uint32_t material : materials.material_of_polygon) {
       surfaces_.kinds.push_back(surface_kind_of_material(materials.names[material]));
     }

@@ -28,9 +28,9 @@ struct FrontPatch {
   Positions rows_of(const Positions& head) const;
 };
 
-/// Selects the skin in the front half of the head (ComparedArea::kFront) whose normals point forwards.
-/// Eye sockets and the inside of the mouth become holes. Omits triangles where a rim touches itself
-/// and triangles whose corners all lie on rims.
+/// Selects the skin in the front half of the head (ComparedArea::kFront) whose normals point
+/// forwards. Eye sockets and the inside of the mouth become holes. Omits triangles where a rim
+/// touches itself and triangles whose corners all lie on rims.
 /// \param mean   #V by 3, the mean of all heads.
 /// \param up     axis towards the top of the head.
 /// \param front  axis that points to the front of the head.

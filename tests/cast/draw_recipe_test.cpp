@@ -111,7 +111,7 @@ TEST(Ageing, MeetsAnAgeInYears) {
     FacePlan face = draw_any_face(casting, 7);
     for (RegionRecipe& region : face.recipe.regions) region.weights = weights;
     const Age age = {years, AgeUnit::kYears};
-    apply_age(face, fraction_of_age(age, face, heads, casting.sampling), heads, casting.sampling);
+    apply_age(face, age_as_fraction(age, face, heads, casting.sampling), heads, casting.sampling);
     double mean = 0;
     for (const SourceWeight& source : face.recipe.regions[0].weights) {
       mean += source.weight * casting.head_ages_years[static_cast<std::size_t>(source.head)];

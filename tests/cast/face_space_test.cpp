@@ -200,7 +200,7 @@ TEST_F(FaceSpaceTest, DistancesOfMirroredFacesAreThoseOfWholeMeshes) {
           return blend_with_mirrored(blended, mirrored(mirror, blended), w);
         };
         as_built.push_back(built(recipe));
-        const Positions sampled = sample_face(space.sampled_heads(), recipe);
+        const Positions sampled = sample_face(space.heads_at_samples(), recipe);
         for (std::size_t s = 0; s < samples_.size(); ++s) {
           const Eigen::RowVector3d there = kMmPerUnit * as_built.back().row(samples_[s]);
           ASSERT_LT((sampled.row(static_cast<Index>(s)) - there).norm(), 0.05);
@@ -366,7 +366,7 @@ TEST_F(FaceSpaceTest, CandidatesTooNearToTheCrowdCountInARound) {
 TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
   const ProxySkin skin(
       cell_triangles(faces_.topology, find_sample_cells(adjacency_, mean_, samples_)),
-      space_->sampled_heads().mean, space_->sampled_heads().heads);
+      space_->heads_at_samples().mean, space_->heads_at_samples().heads);
   const Recipe recipe = crowd(1).front();
   int asked = 0;
   SkinDefects found{{}, 0};
@@ -398,7 +398,7 @@ TEST_F(FaceSpaceTest, MeshesAreJudgedWhereTheSamplesFindNothing) {
 TEST_F(FaceSpaceTest, SampledFacesAreThoseOfWholeMeshes) {
   for (const Recipe& recipe : crowd(5)) {
     const Positions built = kMmPerUnit * blend_exact(faces_, *filter_, regions_, recipe);
-    const Positions sampled = sample_face(space_->sampled_heads(), recipe);
+    const Positions sampled = sample_face(space_->heads_at_samples(), recipe);
     for (std::size_t s = 0; s < samples_.size(); ++s) {
       EXPECT_LT((sampled.row(static_cast<Index>(s)) - built.row(samples_[s])).norm(), 0.05);
     }

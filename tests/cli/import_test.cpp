@@ -47,7 +47,7 @@ TEST(Import, MakeHumanHeadsAreReadyForACrowd) {
   const ObjFile fine = read_obj(folder / "fine/makehuman_01.obj");
   EXPECT_GT(fine.topology.vertex_count, 700);
   EXPECT_LT(fine.topology.vertex_count, 1700);
-  EXPECT_THAT(face_materials(fine.materials, fine.topology.face_count()).names.back(),
+  EXPECT_THAT(polygon_materials(fine.materials, fine.topology.face_count()).names.back(),
               ::testing::Eq("eyeball_l"));
 }
 
@@ -129,7 +129,8 @@ TEST(Import, MakeHumanHeadsAreDressed) {
             {"attachments.yaml:1:", "kind: missing"});
   folder.write("heads/attachments/attachments.yaml", wearables);
   folder.write("heads/tags.yaml", tags);
-  // A second run finds all as it should be and writes what is missing; what was changed is not lost.
+  // A second run finds all as it should be and writes what is missing; what was changed is not
+  // lost.
   fs::remove(folder / "heads/attachments/base.obj");
   import(0, "heads", {"--dress"});
   EXPECT_TRUE(fs::exists(folder / "heads/attachments/base.obj"));

@@ -47,7 +47,7 @@ TEST(TextPieces, FileHoldsTheWhole) {
 TEST(TextPieces, FailureLeavesTheFileAsItWas) {
   const testing::TemporaryFolder folder;
   write_file(folder / "file", "as it was");
-  const TextPieces text = [](const TakePiece& take) {
+  const TextPieces text = [](const TextSink& take) {
     take("half of it");
     throw std::runtime_error("no more");
   };

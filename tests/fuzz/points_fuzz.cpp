@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "crowdface/core/problems.h"
-#include "crowdface/heads/load_carried.h"
+#include "crowdface/heads/load_transferred.h"
 
 #include "fuzz/input_file.h"
 #include "fuzz/job_folder.h"

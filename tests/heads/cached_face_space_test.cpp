@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr Index kSamples = 60;
 
 /// Heads whose samples move smoothly from level to level, in two regions.
-HeadsAtSamples sampled_heads(std::uint32_t seed, bool mirrored) {
+HeadsAtSamples heads_at_samples(std::uint32_t seed, bool mirrored) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   HeadsAtSamples sampled;
@@ -52,13 +52,13 @@ HeadsAtSamples sampled_heads(std::uint32_t seed, bool mirrored) {
   }
   sampled.mm_per_unit = 10;
   if (mirrored)
-    sampled.mirror_images = std::make_shared<HeadsAtSamples>(sampled_heads(seed + 1, false));
+    sampled.mirror_images = std::make_shared<HeadsAtSamples>(heads_at_samples(seed + 1, false));
   return sampled;
 }
 
 class KeptFaceSpace : public ::testing::TestWithParam<bool> {
  protected:
-  static HeadsAtSamples heads(std::uint32_t seed = 1) { return sampled_heads(seed, GetParam()); }
+  static HeadsAtSamples heads(std::uint32_t seed = 1) { return heads_at_samples(seed, GetParam()); }
   FaceSpace kept(const fs::path& cache, std::uint32_t seed = 1, std::size_t bands = 2) const {
     return cached_face_space(cache, heads(seed), weights_, bands);
   }
@@ -67,7 +67,7 @@ class KeptFaceSpace : public ::testing::TestWithParam<bool> {
     std::vector<float> all;
     for (std::uint64_t i = 0; i < 20; ++i) {
       const FaceSpace::Point at =
-          space.point(random_training_recipe(space.sampled_heads(), bands, i));
+          space.point(random_training_recipe(space.heads_at_samples(), bands, i));
       all.insert(
           all.end(), at.coordinates_with_extrapolation.data(),
           at.coordinates_with_extrapolation.data() + at.coordinates_with_extrapolation.size());
@@ -154,7 +154,7 @@ TEST_P(KeptFaceSpace, OfHeadsThatNoSmoothingMoves) {
 INSTANTIATE_TEST_SUITE_P(MirroredToo, KeptFaceSpace, ::testing::Bool());
 
 TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
-  const HeadsAtSamples heads = sampled_heads(1, false);
+  const HeadsAtSamples heads = heads_at_samples(1, false);
   const std::vector<double> weights(kSamples, 1.0 / kSamples);
   const FaceSpace space(heads, weights);
   EXPECT_TRUE(FaceSpace::have_matching_sizes(space.tables(), heads));
@@ -165,7 +165,7 @@ TEST(FaceSpaceTables, FitHeadsOfTheirSizesAlone) {
   FaceSpaceTables narrower = space.tables();
   narrower.principal_directions = narrower.principal_directions.leftCols(3).eval();
   EXPECT_FALSE(FaceSpace::have_matching_sizes(narrower, heads));
-  EXPECT_FALSE(FaceSpace::have_matching_sizes(space.tables(), sampled_heads(1, true)));
+  EXPECT_FALSE(FaceSpace::have_matching_sizes(space.tables(), heads_at_samples(1, true)));
 }
 
 }  // namespace

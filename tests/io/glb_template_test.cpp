@@ -51,7 +51,7 @@ struct SmallMesh {
     uvs << 0, 0, 0.25, 0, 0.25, 1, 0, 1, 0.5, 0, 0.5, 1, 1, 0.75, 3.25, 0.125;
     options.unit = LengthUnit::kCentimetre;
     options.materials = {{"skin", {0.8F, 0.6F, 0.5F, 1}}, {"lashes", {0, 0, 0, 0}}};
-    options.face_materials = {0, 1, 0};
+    options.polygon_materials = {0, 1, 0};
   }
 };
 

@@ -40,17 +40,17 @@ TEST(ReadObj, KeepsQuadsNgonsOrderAndGroups) {
   EXPECT_EQ(file.positions.row(4), Eigen::RowVector3d(2, 0.5, 0));
   EXPECT_EQ(file.uvs.row(4), Eigen::RowVector2d(0.5, 0));
   EXPECT_EQ(file.material_libraries, (std::vector<std::string>{"a.mtl"}));
-  const FaceMaterials materials = face_materials(file.materials, file.topology.face_count());
+  const PolygonMaterials materials = polygon_materials(file.materials, file.topology.face_count());
   EXPECT_EQ(materials.names, (std::vector<std::string>{"skin", "lips of rose"}));
   EXPECT_EQ(materials.material_of_polygon, (std::vector<std::uint32_t>{0, 1, 1}));
 }
 
-TEST(FaceMaterials, NameIsKeptOnceAndOnlyIfAFaceHasIt) {
+TEST(PolygonMaterials, NameIsKeptOnceAndOnlyIfAFaceHasIt) {
   const std::vector<MaterialRange> ranges = {{"skin", 1}, {"unused", 2}, {"lips", 2}, {"skin", 3}};
-  const FaceMaterials materials = face_materials(ranges, 5);
+  const PolygonMaterials materials = polygon_materials(ranges, 5);
   EXPECT_EQ(materials.names, (std::vector<std::string>{"", "skin", "lips"}));
   EXPECT_EQ(materials.material_of_polygon, (std::vector<std::uint32_t>{0, 1, 2, 1, 1}));
-  EXPECT_EQ(face_materials({}, 2).material_of_polygon, (std::vector<std::uint32_t>{0, 0}));
+  EXPECT_EQ(polygon_materials({}, 2).material_of_polygon, (std::vector<std::uint32_t>{0, 0}));
 }
 
 /// A small mesh in many ways of writing it.

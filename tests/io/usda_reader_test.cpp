@@ -40,7 +40,8 @@ TEST(ParseUsda, ReadsWhatWeWrite) {
   GlbOptions options;
   options.has_colours = true;
   options.materials = {{"skin"}, {"eyes"}};
-  for (Index f = 0; f < topology.face_count(); ++f) options.face_materials.push_back(f < 2 ? 0 : 1);
+  for (Index f = 0; f < topology.face_count(); ++f)
+    options.polygon_materials.push_back(f < 2 ? 0 : 1);
   const Positions positions = cube_positions();
   ColourRows colours(8, 3);
   for (Index i = 0; i < colours.size(); ++i) colours.data()[i] = static_cast<std::uint8_t>(9 * i);

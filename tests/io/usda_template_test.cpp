@@ -40,7 +40,7 @@ struct Scene {
     for (Index i = 0; i < 9; ++i) uvs(i, 0) += 0.1 * static_cast<double>(i);
     options.unit = LengthUnit::kCentimetre;
     options.materials = {{"skin", {0.5F, 0.25F, 0.125F, 1}}, {"2 eyes", {1, 1, 1, 0}}};
-    options.face_materials = {0, 1, 0};
+    options.polygon_materials = {0, 1, 0};
     options.targets = {{"smile-L", {1, 4}}, {"smile.L", {0}}};
     moves = {{{1, 4}, testing::random_positions(2, 3)}, {{0}, testing::random_positions(1, 4)}};
   }
@@ -128,7 +128,7 @@ TEST(UsdaTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
 
 TEST(UsdaTemplate, NamesTexturesBeside) {
   Scene scene;
-  scene.options.face_materials = {0, 0, 0};
+  scene.options.polygon_materials = {0, 0, 0};
   scene.options.materials[0].image = 1;
   const UsdaTemplate form(scene.topology, scene.uvs, scene.options, Subdivision::kNone);
   const std::vector<std::string> images = {"./a.png", "./b.png"};
@@ -141,7 +141,7 @@ TEST(UsdaTemplate, NamesTexturesBeside) {
 // An @ in a file's name ended the asset path, and no reader could parse the layer.
 TEST(UsdaTemplate, PutsNamesWithAnAtSignBetweenThreeOfThem) {
   Scene scene;
-  scene.options.face_materials = {0, 0, 0};
+  scene.options.polygon_materials = {0, 0, 0};
   scene.options.materials[0].image = 0;
   const UsdaTemplate form(scene.topology, scene.uvs, scene.options, Subdivision::kNone);
   const auto layer = [&](const std::string& image) {

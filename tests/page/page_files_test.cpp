@@ -36,7 +36,7 @@ TEST(PageFiles, ANoticeStandsWhereThePageIsNotBuilt) {
 TEST(AnswerRequest, MistakesAreAnswers) {
   const HttpRequest request{"GET", "api/job", ""};
   const auto answer = [&](const auto& act) {
-    return answer_or_refuse(request, [&](const HttpRequest&) -> HttpAnswer { return act(); });
+    return answer_or_error(request, [&](const HttpRequest&) -> HttpAnswer { return act(); });
   };
   const HttpAnswer usage = answer([]() -> HttpAnswer { throw UsageError("the \"name\""); });
   EXPECT_EQ(usage.status, 400);

@@ -56,14 +56,16 @@ struct Sheets {
 /// A lip with a flat top from z = 0 to z = 1.
 const Line kLower = {{-3, 0}, {0, 0}, {0, 1}, {-3, 1}};
 
-// A lower lip was pushed down until it cleared the rim that hangs behind it, and the mouth stood open.
+// A lower lip was pushed down until it cleared the rim that hangs behind it, and the mouth stood
+// open.
 TEST(Clearance, OfARimThatHangsBehindTheLipIsThatInFrontOfIt) {
   EXPECT_NEAR(Sheets(kLower, {{3, -1}, {-0.5, -1}, {1.5, 1}, {3, 2}}).clearance(), 0.5, 1e-12);
 }
 
 TEST(Clearance, OfProfilesThatCrossIsNegative) {
   EXPECT_NEAR(Sheets(kLower, {{2, -1}, {-0.25, 0.5}, {2, 2}}).clearance(), -0.25, 1e-12);
-  // The point of the roof lies between two points of the lip, and the lip's edge between two of the roof.
+  // The point of the roof lies between two points of the lip, and the lip's edge between two of the
+  // roof.
   EXPECT_NEAR(Sheets(kLower, {{-1, -1}, {1, 1}}).clearance(), 0, 1e-12);
 }
 

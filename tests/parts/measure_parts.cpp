@@ -24,7 +24,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/mesh/normals.h"
-#include "crowdface/paint/bands.h"
+#include "crowdface/paint/mask_bands.h"
 #include "crowdface/parts/follower.h"
 #include "crowdface/parts/part_list.h"
 #include "crowdface/parts/point_grid.h"

@@ -67,7 +67,7 @@ TEST_F(CheckedWrap, RightLandmarksGiveFeaturesThatAgree) {
   for (const FeatureCheck& feature : result.features) {
     EXPECT_GT(feature.correlation.correlation_at_feature, 0.75) << feature.name;
   }
-  EXPECT_TRUE(wrap_doubts(shape_, result).empty());
+  EXPECT_TRUE(doubtful_part_warnings(shape_, result).empty());
   EXPECT_TRUE(result.dropped_landmarks.empty());
 }
 
@@ -79,7 +79,7 @@ TEST_F(CheckedWrap, FoundLandmarksThatPutTheMouthOnTheChinAreDropped) {
   EXPECT_LT(lips_off(result), lips_off(trusted) - 1);
   EXPECT_THAT(result.dropped_landmarks, Contains("lip_lower"));
   EXPECT_GT(correlation(result, "mouth").correlation_at_feature, 0.75);
-  EXPECT_TRUE(wrap_doubts(shape_, result).empty());
+  EXPECT_TRUE(doubtful_part_warnings(shape_, result).empty());
 }
 
 TEST_F(CheckedWrap, PickedLandmarksStayAndTheWrongMouthIsNamed) {
@@ -88,7 +88,7 @@ TEST_F(CheckedWrap, PickedLandmarksStayAndTheWrongMouthIsNamed) {
   EXPECT_GT(lips_off(result), 5);
   EXPECT_TRUE(result.dropped_landmarks.empty());
   EXPECT_TRUE(correlation(result, "mouth").is_doubtful());
-  EXPECT_THAT(wrap_doubts(shape_, result), Contains(HasSubstr("the mouth is doubtful")));
+  EXPECT_THAT(doubtful_part_warnings(shape_, result), Contains(HasSubstr("the mouth is doubtful")));
 }
 
 TEST_F(CheckedWrap, AMouthInItsPlaceIsNotDoubtfulBecauseItsShapeDiffers) {
@@ -100,7 +100,7 @@ TEST_F(CheckedWrap, AMouthInItsPlaceIsNotDoubtfulBecauseItsShapeDiffers) {
   const ReliefCorrelation mouth = correlation(result, "mouth");
   EXPECT_FALSE(mouth.is_high()) << "the test needs shapes that differ";
   EXPECT_GT(mouth.correlation_at_feature, mouth.best_correlation_nearby + 0.1);
-  EXPECT_TRUE(wrap_doubts(shape_, result).empty());
+  EXPECT_TRUE(doubtful_part_warnings(shape_, result).empty());
 }
 
 }  // namespace

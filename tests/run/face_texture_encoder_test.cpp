@@ -320,7 +320,8 @@ std::string normal_png(int side, double lean) {
   return encode_png(side, side, 3, pixels);
 }
 
-/// The four heads with maps of all kinds: normals in bytes, roughness in 16 bits, heights in floats.
+/// The four heads with maps of all kinds: normals in bytes, roughness in 16 bits, heights in
+/// floats.
 class OwnMaps : public FaceTextureEncoder {
  protected:
   OwnMaps() {

@@ -78,7 +78,7 @@ TEST_F(LevelsOfACrowd, HoldTheFacesOwnVerticesInEveryFormat) {
     EXPECT_EQ(ply.normals.size(), ply.points.size());
     const ObjFile obj = read_obj(mesh(stem + ".obj"));
     EXPECT_EQ(obj.topology.face_count(), static_cast<Index>(ply.faces.size()));
-    EXPECT_EQ(face_materials(obj.materials, obj.topology.face_count()).names.size(),
+    EXPECT_EQ(polygon_materials(obj.materials, obj.topology.face_count()).names.size(),
               whole.scene.at("materials").size());
     EXPECT_THAT(testing::read_text(mesh(stem + ".obj")), HasSubstr(concat("\no ", id, "_", level)));
     const ObjFile smiling = read_obj(mesh(stem + "+smile.obj"));

@@ -20,8 +20,8 @@
 
 namespace crowdface {
 
-/// The lids of one eye, measured without the program's own places: how far they are open below points of the upper
-/// lid's rim, and how deep their outer skin is in the eyeball.
+/// The lids of one eye, measured without the program's own places: how far they are open below
+/// points of the upper lid's rim, and how deep their outer skin is in the eyeball.
 class MeasuredLids {
  public:
   static constexpr std::size_t kPlanes = 64;
@@ -65,8 +65,9 @@ class MeasuredLids {
     }
   }
 
-  /// Straight down from points of the upper lid's rim to the lower lid; none where nothing is below. The points are
-  /// those of the skin that are lowest on the template in its shape, in planes that divide the opening evenly.
+  /// Straight down from points of the upper lid's rim to the lower lid; none where nothing is
+  /// below. The points are those of the skin that are lowest on the template in its shape, in
+  /// planes that divide the opening evenly.
   std::vector<std::optional<double>> gaps(const Positions& mesh) const {
     std::vector<std::optional<double>> gaps;
     for (const EdgePoint& point : points_) {
@@ -94,7 +95,8 @@ class MeasuredLids {
     }
   }
 
-  /// How deep the lids' outer skin, that which looks away from the eyeball at rest, is in the eyeball.
+  /// How deep the lids' outer skin, that which looks away from the eyeball at rest, is in the
+  /// eyeball.
   std::vector<double> depths(const BallRadii& ball, const Positions& mesh) const {
     std::vector<double> depths;
     for (const std::uint32_t v : outer_) {
@@ -128,7 +130,8 @@ class MeasuredLids {
     double height;
     EdgePoint point;
   };
-  /// Where sign times height is largest of the triangles' section with the plane `side = at`; −∞ if none meets it.
+  /// Where sign times height is largest of the triangles' section with the plane `side = at`; −∞ if
+  /// none meets it.
   Cut highest(const std::vector<Triangle>& triangles, const Positions& mesh, double at,
               double sign) const {
     Cut most{-std::numeric_limits<double>::infinity(), {}};

@@ -99,7 +99,8 @@ class RigOfACrowd : public ::testing::Test {
   SmallCrowdFolder folder_;
 };
 
-// A rig whose matrices are zero, or make the mesh tiny and far away, was found out by the faces made with it.
+// A rig whose matrices are zero, or make the mesh tiny and far away, was found out by the faces
+// made with it.
 TEST_F(RigOfACrowd, ThatDoesNotStandWhereHeadsDoIsRefused) {
   const std::string bytes = testing::read_text(rig());
   const auto scene = testing::read_glb(rig()).scene;

@@ -39,8 +39,8 @@ class TwoCharts {
   }
 
   using Paint = std::function<Eigen::Array3f(double x, double y, int column, int row)>;
-  /// A head whose colours, or other numbers, are a function of the place on the sheet, in [0, 1]², and of the
-  /// texel.
+  /// A head whose colours, or other numbers, are a function of the place on the sheet, in [0, 1]²,
+  /// and of the texel.
   void add_head(const Paint& paint, const MapCoding& coding = {}) {
     const ImageRows rows{size_, size_, [&](int row, std::span<Eigen::Array3f> texels) {
                            for (int column = 0; column < size_; ++column) {

@@ -37,9 +37,9 @@ class AttachmentCarrier {
 
  private:
   std::unique_ptr<const SkinGaps> gaps_;
-  /// null for a rigid attachment
+  /// only for a bending attachment; otherwise null
   std::unique_ptr<const SmoothBend> bend_;
-  /// null for a bending attachment
+  /// only for a rigid attachment; otherwise null
   std::unique_ptr<const RigidPlacement> rigid_placement_;
 };
 

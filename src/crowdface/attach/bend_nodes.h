@@ -26,8 +26,10 @@ struct BendNodes {
     std::uint32_t node;  ///< index of the node
     float weight;        ///< not normalised: the weights of a point do not sum to one
   };
-  std::vector<FittedSkin::Patch> patches;   ///< the patch of each node
-  CompressedRows<NodeWeight> node_weights;  ///< for each point of the attachment: weights of nodes
+  /// one per node: the patch of skin that the node follows
+  std::vector<FittedSkin::Patch> patches;
+  /// for each point of the attachment: the nodes that influence the point
+  CompressedRows<NodeWeight> node_weights;
 
   std::size_t memory_bytes() const {
     std::size_t bytes = node_weights.items.size() * sizeof(NodeWeight);

@@ -39,15 +39,17 @@ class FittedSkin {
   FittedSkin& operator=(const FittedSkin&) = delete;
 
   const Positions& mesh_positions() const { return positions_; }
+  /// The skin's vertices, as ascending vertex indices of the mesh.
   std::span<const std::uint32_t> vertices() const { return skin_vertices_; }
   const PointGrid& grid() const { return levels_.front().grid; }
+  /// The area of skin around each vertex of the mesh; 0 outside the skin.
   const std::vector<double>& areas() const { return areas_; }
   double units_per_mm() const { return units_per_mm_; }
   /// Mean spacing of the skin's vertices: the square root of the skin's area divided by the number
   /// of vertices.
   double vertex_spacing() const { return levels_.front().spacing; }
 
-  /// Skin vertices around a point, with weights.
+  /// Skin vertices around a point, as vertex indices of the mesh, with weights.
   struct Patch {
     std::vector<std::uint32_t> vertices;
     std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance
@@ -76,11 +78,12 @@ class FittedSkin {
   struct Level {
     double spacing;
     std::vector<std::uint32_t> vertices;
-    std::vector<double> areas;  ///< #V: area of skin that the vertex represents in this level
+    /// one per mesh vertex: area of skin that the vertex represents in this level
+    std::vector<double> areas;
     PointGrid grid;
   };
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
-  /// Adds a level that contains one skin vertex of each cubic cell; cell edges have the length
+  /// Adds a level that contains one skin vertex from each cell of a cubic grid with edge length
   /// `spacing`.
   void add_coarser_level(double spacing);
   /// Returns Patch::radius for the patch around a point.
@@ -92,12 +95,12 @@ class FittedSkin {
 
   const Topology& topology_;
   Positions positions_;
-  std::vector<std::uint32_t> skin_vertices_;
+  std::vector<std::uint32_t> skin_vertices_;  ///< vertex indices of the mesh, ascending
   double units_per_mm_;
   VertexFaces vertex_faces_;
   NormalFans fans_;
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
-  std::vector<double> areas_;
+  std::vector<double> areas_;  ///< see `areas`
   std::vector<Level> levels_;  ///< from fine to coarse; the spacing doubles from level to level
 };
 

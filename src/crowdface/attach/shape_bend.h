@@ -30,7 +30,7 @@ class ShapeBend {
   /// moved skin are omitted.
   ///
   /// \param face   #V by 3, at rest.
-  /// \param placed #P by 3, the attachment on that face at rest.
+  /// \param placed  #P by 3, the attachment on that face at rest.
   /// \param shape  Displacements of the face.
   Displacements shape_displacements(const Positions& face, const Positions& placed,
                                     const Displacements& shape) const;

@@ -34,8 +34,8 @@ class SkinGaps {
   std::vector<Violation> violations(const Positions& face, const Positions& normals,
                                     const Positions& points) const;
 
-  /// Corrects the distances of points from the skin. Points that were close to the fitted skin get
-  /// their original distance. Points that were outside the fitted skin get at least their minimum
+  /// Moves points of the attachment so that points close to the fitted skin get their original
+  /// distance from the skin again, and points outside the fitted skin keep at least their minimum
   /// distance (see `violations`). Neighbours of moved points move too.
   ///
   /// \param face     #V by 3.

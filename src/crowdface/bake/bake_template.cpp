@@ -21,7 +21,7 @@ namespace {
 /// Removes textures that the skin does not use. Adds an entry with an empty path to `files` for
 /// each material and tile of the skin that has no texture.
 /// \param is_skin  for each polygon, whether it belongs to the skin
-void choose_pictures(const FaceMaterials& materials, const std::vector<bool>& is_skin,
+void choose_pictures(const PolygonMaterials& materials, const std::vector<bool>& is_skin,
                      FoundTextureFiles& found) {
   HeadTextureFiles& placed = found.heads[0];
   if (placed.file_of_polygon.empty()) placed.file_of_polygon.assign(is_skin.size(), kNoIndex);
@@ -75,7 +75,7 @@ BakeTemplate::BakeTemplate(const ObjFile& file, const WrapTemplate& wrap_templat
                 "--texture: expected texture coordinates on the template's skin, "
                 "found none");
   }
-  const FaceMaterials materials = face_materials(file.materials, topology.face_count());
+  const PolygonMaterials materials = polygon_materials(file.materials, topology.face_count());
   FoundTextureFiles found =
       find_texture_files({topology, file.uvs, {{file.path.stem().string(), {}}}}, {&file, 1})
           .front();

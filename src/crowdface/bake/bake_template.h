@@ -32,7 +32,7 @@ class BakeTemplate {
   const std::map<std::string, std::size_t>& pictures_by_material() const {
     return pictures_by_material_;
   }
-  /// The texels of a picture that polygons cover.
+  /// For each texel of a picture: the triangle that covers the texel.
   const SurfaceTexels& texels(std::size_t picture) const { return texels_[picture]; }
   /// The template's own texture that corresponds to a picture; nullptr if there is none.
   const FilteredTexture* texture(std::size_t picture) const { return textures_[picture]; }
@@ -44,13 +44,13 @@ class BakeTemplate {
   /// For each vertex of the template: its row in the arrays of skin vertices, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
 
-  /// The picture into which a vertex is baked, and the vertex's position in this picture.
+  /// A picture that shows a vertex, and the vertex's texture coordinates in this picture.
   struct PictureVertex {
     std::uint32_t picture = kNoIndex;  ///< kNoIndex: the vertex is in no picture
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();
-    double uv_per_mm = 0;  ///< scale of the picture at the vertex
+    double uv_per_mm = 0;  ///< length in texture coordinates per millimetre of skin
   };
-  /// The picture and texture coordinate of each vertex of the skin.
+  /// One entry per vertex of the skin.
   const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:

@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// A texture that returns means over areas: colours as linear light, other maps as plain numbers.
-/// Texels that the surface does not cover count only where no covered texel is near, so that the
-/// background of a texture atlas does not bleed into the surface.
+/// Texels outside the surface contribute only if no covered texel is near, so that the background
+/// of a texture atlas does not bleed into the surface.
 class FilteredTexture {
  public:
   /// \param covered  for each texel, row by row: whether the surface covers the texel's centre.
@@ -48,8 +48,8 @@ class FilteredTexture {
   Eigen::Array3f nearest_texel(double x, double y) const;
 
   TextureMap map_;
-  std::vector<float>
-      decoded_values_;  ///< the number that each of the 65,536 stored values represents
+  /// the number that each of the 65,536 stored values represents
+  std::vector<float> decoded_values_;
   std::vector<bool> covered_;
   std::vector<Level> levels_;  ///< levels 1, 2, …; level 0 is the texture itself
 };

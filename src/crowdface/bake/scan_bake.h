@@ -8,12 +8,10 @@
 
 #include "crowdface/bake/bake_template.h"
 #include "crowdface/bake/scan_colours.h"
+#include "crowdface/texture/optical_density.h"
 #include "crowdface/wrap/scan_surface.h"
 
 namespace crowdface {
-
-/// Optical densities of points or vertices: one row each, one column each for red, green and blue.
-using OpticalDensities = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 struct BakeOptions {
   /// Whether to remove shading from the colours. Shading is the variation in brightness that a
@@ -25,7 +23,7 @@ struct BakeOptions {
 struct BakedPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> srgb;  ///< height by width by 3
-  /// height by width: 255 where no colour comes from the scan
+  /// height by width: 255 at texels whose colour does not come from the scan, else 0
   std::vector<std::uint8_t> mask_without_scan;
   double share_without_scan = 0;  ///< mean of `mask_without_scan` over the covered texels, 0 to 1
 };
@@ -52,7 +50,7 @@ class ScanBake {
   BakedPicture bake_picture(std::size_t picture) const;
 
  private:
-  /// The point at which the normal of a skin point hits the scan.
+  /// The point in which the line along a skin point's normal meets the scan.
   struct ScanPoint {
     ScanArea area;
     double confidence = 0;  ///< 0 to 1
@@ -64,6 +62,7 @@ class ScanBake {
   };
   /// Mean length in mm of the edges at a vertex of the skin.
   double mean_edge_length(Index vertex) const;
+  /// \param guess  a scan triangle that is probably near the result, or kNoIndex; for speed only.
   ScanPoint find_scan_point(const SkinPoint& skin_point, std::uint32_t guess) const;
   /// The mean optical density of each colour channel over an area of the scan; nothing if the area
   /// has no colour.
@@ -74,13 +73,13 @@ class ScanBake {
                                            const Eigen::Vector2d& to_right_texel,
                                            const Eigen::Vector2d& to_lower_texel) const;
   /// Measures the scan's optical density at each skin vertex.
-  /// \param optical_densities receives one row for each skin vertex.
+  /// \param optical_densities  receives one row for each skin vertex.
   /// \return  the confidence of each row, 0 to 1.
   std::vector<double> measure_scan_optical_densities(OpticalDensities& optical_densities) const;
   void compute_edge_weights(const std::vector<double>& confidence);
   void estimate_shading(const std::vector<double>& confidence, const OpticalDensities& densities);
   /// Computes tone_differences_ from the differences at the vertices.
-  /// \param differences #skin by 3: scan minus template.
+  /// \param differences  #skin by 3: scan minus template.
   void compute_tone_differences(const std::vector<double>& confidence,
                                 const OpticalDensities& differences);
 

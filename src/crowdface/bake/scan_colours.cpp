@@ -9,7 +9,7 @@
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/scratch_folder.h"
-#include "crowdface/heads/light_of_image.h"
+#include "crowdface/heads/image_values.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
@@ -121,7 +121,7 @@ ScanColours::ScanColours(FileMesh mesh, const fs::path& file) {
   colours_ = read_mesh_maps(found.heads[0], TextureKind::kColour, topology, mesh_.uvs);
   // Read colours of vertices and of materials.
   if (mesh.colours.rows() > 0) vertex_linear_colours_ = linear_light(byte_colours(mesh.colours));
-  FaceMaterials materials = face_materials(mesh.materials, topology.face_count());
+  PolygonMaterials materials = polygon_materials(mesh.materials, topology.face_count());
   const std::vector<SurfaceMaterial> looks =
       surface_materials_of(materials.names, find_material_files(file, mesh.material_libraries));
   for (std::size_t m = 0; m < materials.names.size(); ++m) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "crowdface/bake/filtered_texture.h"
-#include "crowdface/heads/attachment_textures.h"
+#include "crowdface/heads/head_texture_files.h"
 #include "crowdface/io/file_mesh.h"
 #include "crowdface/mesh/colour_rows.h"
 #include "crowdface/wrap/scan.h"
@@ -69,7 +69,8 @@ class ScanColours {
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file
   std::vector<TriangleCorners> triangle_corners_;  ///< one per triangle of the file
   MeshMaps colours_;
-  Positions vertex_linear_colours_;  ///< #V by 3: colours of vertices in linear light; or no rows
+  /// #V by 3: colours of vertices in linear light; or no rows
+  ColourValues vertex_linear_colours_;
   std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< one per material
   std::vector<std::uint32_t> material_of_polygon_;  ///< one per polygon; or empty
   std::vector<std::string> warnings_;

@@ -362,8 +362,8 @@ class CrowdBlender::PatchBlender {
   std::vector<float> scaled_coefficients_;  ///< coefficients times quantization steps
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
-  float* skeleton_sums_ =
-      nullptr;  ///< kMaxColumns by values_per_field(): sums at the skeleton vertices
+  /// kMaxColumns by values_per_field(): sums at the skeleton vertices
+  float* skeleton_sums_ = nullptr;
   /// #faces by 3 by kPatchVertices: sums at all vertices of the patch
   float* vertex_sums_ = nullptr;
   std::array<const float*, kMaxColumns> columns_{};

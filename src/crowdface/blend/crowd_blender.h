@@ -80,7 +80,7 @@ class CrowdBlender {
   const RegionWeights& regions_;
   /// #heads + 1: for each head, the index of its first field among the fields of all heads
   std::vector<std::size_t> field_offsets_;
-  /// the regions of all patches, one patch after the other
+  /// indices of each patch's regions (see regions_of_patch), one patch after the other
   std::vector<std::uint32_t> patch_regions_;
   /// #patches + 1: for each patch, the index of its first entry in patch_regions_.
   std::vector<std::size_t> region_offsets_;

@@ -41,8 +41,8 @@ HWY_INLINE hn::VFromD<Lanes> numbers_at(Lanes lanes, const float* values) {
   return hn::LoadU(lanes, values);
 }
 
-/// Computes, for kColumns columns, the elements of each product that fill kRegisters SIMD registers,
-/// beginning at element `begin`. All sums stay in registers.
+/// Computes, for kColumns columns, the elements of each product that fill kRegisters SIMD
+/// registers, beginning at element `begin`. All sums stay in registers.
 ///
 /// \param alpha  If null, the products are stored in `products`. Otherwise alpha·product is added
 ///               to `products`.

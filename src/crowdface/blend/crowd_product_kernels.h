@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// Largest number of columns in one matrix product. The sums for six columns, in two SIMD vectors
-/// each, just fit into the vector registers.
+/// Largest number of columns in one matrix product. The sums of six columns, two SIMD vectors for
+/// each column, just fit into the vector registers.
 inline constexpr std::size_t kMaxColumns = 6;
 
 /// Converts quantized numbers to floats: values[i] = numbers[i]·step.
@@ -23,8 +23,8 @@ struct MatrixRows {
   /// distance from the start of one row to the start of the next row, in elements
   std::size_t stride;
   std::size_t width;  ///< number of elements in a row; a multiple of kPatchPadding
-  std::span<const std::uint32_t>
-      used_rows;  ///< indices of the rows that are added up, in this order
+  /// indices of the rows that are added up, in this order
+  std::span<const std::uint32_t> used_rows;
 };
 
 /// Computes products[c][i] = Σ_r columns[c][r]·values[r·stride + i] by fused multiply-add. The sum

@@ -76,8 +76,8 @@ bool is_unmirrored(const Recipe& recipe);
 /// mirror_image_weight(double, bool).
 double mirror_image_weight(const Recipe& recipe);
 
-/// A smoothing level of one region, the heads that are smoothed to this level, and the weights of
-/// these heads; see weights_by_level.
+/// A smoothing level, and the weighted heads whose sum is smoothed to this level; see
+/// weights_by_level.
 struct LevelWeights {
   std::uint64_t level = 0;
   /// the weights s_h of the heads in the sum G_b (see weights_by_level), in the order of summation;

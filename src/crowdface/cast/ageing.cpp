@@ -69,7 +69,8 @@ class AgedHeads {
   const HeadProperties& all_;
 };
 
-/// Returns the weighted mean of the ages of the heads that lend the finest detail, over all regions.
+/// Returns the weighted mean of the ages of the heads that lend the finest detail, over all
+/// regions.
 ///
 /// \param weights_of  returns the weights of a band.
 template <class WeightsOf>
@@ -87,7 +88,7 @@ double mean_age_years(const FacePlan& face, const HeadProperties& heads,
 
 }  // namespace
 
-double fraction_of_age(const Age& age, const FacePlan& face, const HeadProperties& heads,
+double age_as_fraction(const Age& age, const FacePlan& face, const HeadProperties& heads,
                        const SamplingOptions& sampling) {
   if (age.unit == AgeUnit::kFraction) return age.value;
   require(!heads.ages_years.empty(), "an age of ", age.value, " years without ages of the heads");
@@ -135,7 +136,7 @@ void apply_age(FacePlan& face, double age, const HeadProperties& heads,
 
 void apply_age(FacePlan& face, const Age& age, const HeadProperties& heads,
                const SamplingOptions& sampling) {
-  apply_age(face, fraction_of_age(age, face, heads, sampling), heads, sampling);
+  apply_age(face, age_as_fraction(age, face, heads, sampling), heads, sampling);
   face.age_years.reset();
   if (age.unit == AgeUnit::kYears) face.age_years = rounded(age.value);
 }

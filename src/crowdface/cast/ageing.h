@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Properties of all heads; see CastingOptions. apply_age finds the nearest old or young head by the
-/// anchors (positions on the weight plane) and tags.
+/// Properties of all heads; see CastingOptions. apply_age finds the nearest old or young head by
+/// the anchors (positions on the weight plane) and tags.
 struct HeadProperties {
   const std::vector<PlanePoint>& anchors;  ///< the anchor of each head
   const HeadTags& tags;                    ///< the tags of each head, or empty
@@ -19,8 +19,8 @@ struct HeadProperties {
 /// Ages a face. In every region, moves the fraction |age| of each head's weight to the nearest head
 /// tagged old (age above 0) or young (age below 0). Heads with this tag keep their weight. The key
 /// `ageing` of a band is a factor on the fraction. The nearest head is chosen first by equal sex,
-/// then by the number of common tags, then by the distance between the anchors. So different people
-/// take the detail of different heads and remain different people. (The paper, too, transfers an
+/// then by the number of common tags, then by the distance between the anchors. So faces made from
+/// different heads also take their aged detail from different heads. (The paper, too, transfers an
 /// older person's detail to a younger person, Fig. 2.) Removes the positions of the bands, because
 /// the changed weights no longer correspond to a position.
 ///
@@ -29,13 +29,14 @@ struct HeadProperties {
 void apply_age(FacePlan& face, double age, const HeadProperties& heads,
                const SamplingOptions& sampling);
 
-/// Returns the age from −1 to 1 with which apply_age gives the face an age. An age in years is the
-/// weighted mean of the ages of the heads that lend the finest detail. If old or young heads cannot
-/// give the face this age, returns the value with which the face is nearest to this age.
+/// Converts an age, which may be in years, to the value from −1 to 1 that apply_age expects. A
+/// face's age in years is the weighted mean of the ages of the heads that lend the finest detail.
+/// If ageing cannot give the face the wanted number of years, returns the value with which the face
+/// comes nearest to it.
 ///
 /// \param face  a face whose age is 0.
 /// \throws BrokenPrecondition if the age is in years and the ages of the heads are unknown.
-double fraction_of_age(const Age& age, const FacePlan& face, const HeadProperties& heads,
+double age_as_fraction(const Age& age, const FacePlan& face, const HeadProperties& heads,
                        const SamplingOptions& sampling);
 
 /// Applies an age to a face whose age is 0. Sets FacePlan::age_years if the age is in years.

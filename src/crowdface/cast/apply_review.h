@@ -12,8 +12,8 @@ namespace crowdface {
 /// All other faces stay as they are.
 ///
 /// - A redrawn face keeps the changes of earlier reviews.
-/// - An earlier FaceChange may have redrawn a face (ChangedFace::is_other_person). If so, a
-///   rejection of this face with locked bands acts like another FaceChange with these locked bands.
+/// - If an earlier FaceChange has redrawn a face (ChangedFace::is_other_person), a rejection of
+///   this face that locks bands acts like one more FaceChange with these locked bands.
 ///
 /// \param review_index  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.

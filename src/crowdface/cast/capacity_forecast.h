@@ -16,7 +16,7 @@ namespace crowdface {
 /// growth of p.
 class CapacityForecast {
  public:
-  /// Counts the candidates for one placed face.
+  /// Records how many candidates were generated for one placed face.
   ///
   /// \param too_near_count    Number of candidates that were too near to a face of the crowd.
   /// \param far_enough_count  Number of candidates that were far enough; above zero.

@@ -19,8 +19,8 @@ Quartiles quartiles(std::vector<double> values);
 /// an evenly spaced subset of the faces.
 std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points);
 
-/// Returns the distances (mm) over one region only, between all pairs of an evenly spaced subset of
-/// at most 300 faces.
+/// Returns the distances (mm) between all pairs of at most 300 evenly spaced faces, measured over
+/// one region only.
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Point>& points);
 

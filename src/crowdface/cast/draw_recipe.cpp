@@ -209,8 +209,8 @@ RegionRecipe draw_region(const CastingOptions& casting, const FaceDistribution& 
   return recipe;
 }
 
-/// Returns the targets that suit an age in years: the targets whose age differs by at most 15 years,
-/// but at least the three targets nearest in age.
+/// Returns the targets that suit an age in years: the targets whose age differs by at most 15
+/// years, but at least the three targets nearest in age.
 std::vector<WeightedHead> targets_of_age(double years, std::vector<WeightedHead> targets,
                                          const std::vector<double>& ages_years) {
   constexpr double kMaxDifferenceYears = 15;

@@ -83,11 +83,11 @@ std::optional<RejectionReason> FaceJudge::check_skin(const Recipe& whole) const 
   // check the unmirrored face, because a face and its mirror image have the same defects
   Recipe recipe = whole;
   recipe.mirrored = false;
-  const Positions samples = sample_face(space_.sampled_heads(), recipe);
+  const Positions samples = sample_face(space_.heads_at_samples(), recipe);
   std::optional<ProxySkin::ReferenceSkin> mixture;
   if (!recipe.mixture.empty() || recipe.asymmetry != 1) {
     mixture.emplace(
-        proxy_skin_->make_reference_skin(sample_target(space_.sampled_heads(), recipe)));
+        proxy_skin_->make_reference_skin(sample_target(space_.heads_at_samples(), recipe)));
   }
   const ProxySkin::ReferenceSkin& reference =
       mixture ? *mixture : proxy_skin_->reference_skin_of_head(recipe.target);

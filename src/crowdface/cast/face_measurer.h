@@ -25,7 +25,7 @@ class FaceMeasurer {
   /// Must be callable from any thread.
   using ExactLandmarks = std::function<Positions(const Recipe&)>;
 
-  /// \param heads               the heads, sampled at the vertices of the landmarks
+  /// \param heads  the heads' data at the vertices on which the landmarks depend
   /// \param landmarks           one entry per landmark, in the order of trait_landmarks()
   /// \param head_distributions  distributions of the heads' measurements
   FaceMeasurer(HeadsAtSamples heads, std::vector<Landmark> landmarks,

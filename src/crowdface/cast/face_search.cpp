@@ -38,8 +38,8 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
   return true;
 }
 
-/// Returns whether a round needs another candidate. Candidates that are too near to the crowd count,
-/// so that a nearly full crowd does not need many more candidates. A face with limits on
+/// Returns whether a round needs another candidate. Candidates that are too near to the crowd
+/// count, so that a nearly full crowd does not need many more candidates. A face with limits on
 /// measurements may need many more attempts than other faces. So after the usual number of
 /// attempts, one acceptable candidate is enough.
 ///
@@ -52,8 +52,8 @@ bool FaceSearch::needs_candidates(std::size_t unchecked_count, std::size_t too_n
   return count == 0 || next_attempt_ < initial_attempts_end_;
 }
 
-/// If the config limits measurements, measures a candidate and checks the limits. Each candidate that
-/// violates these limits raises the allowed number of attempts by one, up to a multiple of the
+/// If the config limits measurements, measures a candidate and checks the limits. Each candidate
+/// that violates these limits raises the allowed number of attempts by one, up to a multiple of the
 /// usual number.
 bool FaceSearch::meets_limits(Candidate& candidate) {
   const TraitRules* rules = judge_.trait_rules();

@@ -61,8 +61,8 @@ class FaceSearch {
     Positions landmarks = {};
     /// distance to the nearest sampled face of the crowd, or an upper bound of this distance
     double distance_to_crowd_mm = HUGE_VAL;
-    bool is_distance_exact =
-        true;  ///< whether `distance_to_crowd_mm` is the exact distance, not an upper bound
+    /// whether `distance_to_crowd_mm` is the exact distance, not an upper bound
+    bool is_distance_exact = true;
     bool is_skin_judged = false;  ///< whether `check_skin` was called
     std::optional<RejectionReason> violated_constraint = std::nullopt;
   };

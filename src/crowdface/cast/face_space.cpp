@@ -115,7 +115,7 @@ SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const auto level_count = static_cast<Index>(heads_.levels.size());
   FloatRows levels(level_count, heads * 3 * size);
   parallel_for_each(heads, [&](Index h) {
-    const Trajectory& trajectory = sampled_heads_containing(h).trajectories[unmirrored_index(h)];
+    const Trajectory& trajectory = heads_at_samples_containing(h).trajectories[unmirrored_index(h)];
     for (Index l = 0; l < level_count; ++l) {
       for (Index i = 0; i < size; ++i) {
         for (Index c = 0; c < 3; ++c) {
@@ -158,7 +158,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
     write_centred_values([&](Index i) { return heads_.mean(sample_at(i), c); },
                          functions.row(3 * FunctionOrder::kMean + c).data());
     for (Index h = 0; h < order.heads; ++h) {
-      const Positions& head = sampled_heads_containing(h).heads[unmirrored_index(h)];
+      const Positions& head = heads_at_samples_containing(h).heads[unmirrored_index(h)];
       write_centred_values(
           [&](Index i) { return head(sample_at(i), c) - heads_.mean(sample_at(i), c); },
           functions.row(3 * order.of_head(h) + c).data());
@@ -166,7 +166,7 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
   }
   parallel_for_each(regions * order.heads, [&](Index kh) {
     const Index k = kh / order.heads, h = kh % order.heads;
-    const Columns& alpha = sampled_heads_containing(h).region_weights;
+    const Columns& alpha = heads_at_samples_containing(h).region_weights;
     for (Index r = 0; r < order.modes; ++r) {
       float* const first = functions.row(3 * order.of_field(kh, r)).data();
       for (Index c = 0; c < 3; ++c) {

@@ -63,7 +63,7 @@ class FaceSpace {
   Index head_count() const { return static_cast<Index>(heads_.heads.size()); }
   /// Returns the number of heads, including mirror images if there are any.
   Index head_point_count() const { return mirror_variant_count() * head_count(); }
-  const HeadsAtSamples& sampled_heads() const { return heads_; }
+  const HeadsAtSamples& heads_at_samples() const { return heads_; }
 
   /// Returns the root mean square distance between two faces in mm: the smaller of the distances
   /// with and without extrapolation.
@@ -99,9 +99,9 @@ class FaceSpace {
   /// Returns 2 if each head has a mirror image (the mirror images are the heads from number
   /// head_count() on), otherwise 1.
   Index mirror_variant_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
-  /// Returns the sampled heads that contain the head with this number: the unmirrored heads if the
-  /// number is below head_count(), otherwise their mirror images.
-  const HeadsAtSamples& sampled_heads_containing(Index head) const {
+  /// Returns the data that contain the head with this number: of the unmirrored heads if the number
+  /// is below head_count(), otherwise of their mirror images.
+  const HeadsAtSamples& heads_at_samples_containing(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
   }
   /// Returns the number of coordinate functions.

@@ -12,8 +12,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::uint32_t kMaxFounders = 12;  ///< number of founders to try before giving up
-/// number of pairs of new parents that are tried until a pair matches well; if none does, kMaxFounders
-/// further pairs are tried without this condition
+/// number of pairs of new parents that are tried until a pair matches well; if none does,
+/// kMaxFounders further pairs are tried without this condition
 constexpr std::uint32_t kMaxCouples = 200;
 /// largest number of candidates that are tried for each founder
 constexpr std::uint32_t kMaxAttemptsPerFounder = 64;

@@ -27,8 +27,8 @@ struct Parent {
 struct FamilyOptions {
   std::string name;
   int member_count = 0;
-  std::optional<std::size_t>
-      group;  ///< group whose parameters are used; empty: the crowd's parameters
+  /// group whose parameters are used; empty: the crowd's parameters
+  std::optional<std::size_t> group;
   /// the head that is the target of all members; empty: members inherit the target from the parents
   /// or the founder
   std::optional<Eigen::Index> target;

@@ -383,7 +383,7 @@ FacePlan FamilySampler::twins_prototype(const FamilyPlan& family_plan,
   MemberDraft model = member_draft(family_plan, 0, attempt);
   const Age age = std::exchange(model.age, Age{});
   FacePlan face = face_at_chosen_distance(family_plan, model);
-  face.age = fraction_of_age(age, face, properties_of_heads(casting_), sampling_of(face));
+  face.age = age_as_fraction(age, face, properties_of_heads(casting_), sampling_of(face));
   if (age.unit == AgeUnit::kYears) face.age_years = age.value;
   return face;
 }

@@ -43,10 +43,10 @@ class FamilySeparation {
   std::vector<Member> members_;
 };
 
-/// Random faces that belong to no family. Their distances from a face show how near an unrelated
-/// face can be by chance. The faces are drawn with the parameters of the crowd or of a group. They
-/// depend only on the seed and on these parameters, so that a family does not depend on the crowd's
-/// size. The set is empty if no family has parents.
+/// Random faces that belong to no family. The distances from a face to these random faces show how
+/// near an unrelated face can be by chance. The faces are drawn with the parameters of the crowd or
+/// of a group. They depend only on the seed and on these parameters, so that a family does not
+/// depend on the crowd's size. The set is empty if no family has parents.
 class UnrelatedFaces {
  public:
   UnrelatedFaces(const CastingOptions& casting, const FaceSpace& space);

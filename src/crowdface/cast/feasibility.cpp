@@ -91,7 +91,8 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   return remedy;
 }
 
-std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge) {
+std::optional<Shortfall> shortfall_if_spread_impossible(const CastingOptions& casting,
+                                                        const FaceJudge& judge) {
   // spread mode finds at most twice as many faces as first fit; a factor of 8 leaves a margin
   constexpr std::uint64_t kMaxSpreadToFirstFitRatio = 8;
   const bool is_large = casting.count > kMaxSpreadToFirstFitRatio * kMaxSlowTrialFaces;

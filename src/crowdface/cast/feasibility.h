@@ -5,7 +5,7 @@
 
 namespace crowdface {
 
-/// A smaller distance limit with which casting can complete a crowd that now has a shortfall.
+/// A smaller distance limit that lets casting complete a crowd.
 struct Remedy {
   /// the constraint that rejected most candidates
   RejectionReason binding_constraint = RejectionReason::kMinDistance;
@@ -36,6 +36,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
 /// the whole crowd would take hours.)
 ///
 /// \return  The shortfall of the 400 faces; nothing if the crowd may be possible.
-std::optional<Shortfall> impossible_spread(const CastingOptions& casting, const FaceJudge& judge);
+std::optional<Shortfall> shortfall_if_spread_impossible(const CastingOptions& casting,
+                                                        const FaceJudge& judge);
 
 }  // namespace crowdface

@@ -81,9 +81,9 @@ std::string HairChooser::key_in_hair_colours(const FacePlan& face) const {
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. The colours are distributed so that, among
-/// the faces with the same key in `entries_of_faces_`, each colour has the fraction that the config
-/// specifies. If a face looks grey, a later face also gets the face's colour.
+/// Returns the colour that `hair_colours` gives the face. The colours are distributed so that,
+/// among the faces with the same key in `entries_of_faces_`, each colour has the fraction that the
+/// config specifies. If a face looks grey, a later face also gets the face's colour.
 std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face, bool is_grey) {
   const std::string entry = key_in_hair_colours(face);
   const auto shares = options_.hair_colours.find(entry);
@@ -168,7 +168,7 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
 
 /// Returns the mean age, from 0 (young) to 1 (old), of the heads that a face is blended from. The
 /// ages of the heads are estimated from the heads' tags. Three quarters of the weight go to the
-/// target, the others to the heads that lend the finest detail.
+/// target, one quarter to the heads that lend the finest detail.
 double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
   const auto of_head = [&](Index head) {
     const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];

@@ -30,7 +30,7 @@ struct HairOptions {
 class HairChooser {
  public:
   /// \param crowd  all faces, in the order of the plan. The fractions of `hair_colours` refer only
-  ///               to faces that inherit no colour from a parent or the family.
+  ///               to faces that inherit no colour from a parent or from their family.
   HairChooser(HairOptions options, const std::vector<FacePlan>& crowd);
 
   /// Returns the hair colour of a face.
@@ -62,8 +62,9 @@ class HairChooser {
   /// this key: the index of the face's colour among the colours of the entry, or −1 if the face has
   /// none of these colours.
   std::map<std::string, std::vector<int>> colour_indices_;
-  /// By key in `hair_colours`: indices of colours that faces have but hide, because they look grey.
-  /// The next faces without a colour, and not grey, also get these colours.
+  /// By key in `hair_colours`: colours that were assigned to faces that look grey, as indices among
+  /// the colours of the entry. The next faces that have no assigned colour and do not look grey get
+  /// these colours too.
   std::map<std::string, std::deque<int>> hidden_colours_;
   /// by the face's id: index of the colour among the colours of the face's entry; or −1
   std::map<std::string, int> colour_of_faces_;

@@ -32,7 +32,7 @@ struct HeadsAtSamples {
   std::shared_ptr<const HeadsAtSamples> mirror_images;
 };
 
-/// Returns the data of the heads at the samples, without mirror images.
+/// Collects the data of the heads at the samples, without mirror images.
 HeadsAtSamples sample_heads(const HeadSet& head_set, const RegionWeights& regions,
                             const FaceSamples& samples, std::span<const Trajectory> trajectories,
                             std::uint64_t max_level, double mm_per_unit);
@@ -41,8 +41,8 @@ HeadsAtSamples sample_heads(const HeadSet& head_set, const RegionWeights& region
 /// not a vertex, the weights and trajectories there are interpolated.
 ///
 /// \param heads   The heads at the samples.
-/// \param trajectory_vertices  The vertices that the trajectories of `heads` contain: samples_and_mirror_corners
-///                of the samples.
+/// \param trajectory_vertices  The vertices that the trajectories of `heads` contain:
+///                samples_and_mirror_corners of the samples.
 std::shared_ptr<const HeadsAtSamples> sample_mirror_images(const HeadSet& head_set,
                                                            const RegionWeights& regions,
                                                            const MirrorMap& mirror,

@@ -19,8 +19,8 @@ struct Neighbour {
 struct Likeness {
   /// indices of all faces, in an order in which consecutive faces look alike
   std::vector<std::size_t> face_order;
-  std::vector<std::vector<Neighbour>>
-      neighbours;  ///< for each face: the nearest other faces, beginning with the nearest
+  /// for each face: the nearest other faces, beginning with the nearest
+  std::vector<std::vector<Neighbour>> neighbours;
 };
 
 /// Finds similar faces, and an order in which neighbours look alike. This order is a

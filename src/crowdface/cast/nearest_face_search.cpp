@@ -67,7 +67,7 @@ void PointTree::search(const std::vector<float>& query, Index begin, Index end,
   visit(query, wanted, [&](Index block) { points_.search(query, block, begin, end, best); });
 }
 
-void PointTrees::add(const Eigen::VectorXf& point) {
+void GrowingPointSet::add(const Eigen::VectorXf& point) {
   newest_points_.add(size_++, newest_points_.padded_query(point).data());
   if (newest_points_.size() < kMaxNewestPoints) return;
   // Merge the newest points with the last tree, then with the second last tree, and so on, as long
@@ -85,8 +85,9 @@ void PointTrees::add(const Eigen::VectorXf& point) {
   newest_points_.clear();
 }
 
-NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit_squared, Index begin,
-                                 Index end, double sufficient_squared_distance) const {
+NearestPoint GrowingPointSet::nearest(const Eigen::VectorXf& query, double limit_squared,
+                                      Index begin, Index end,
+                                      double sufficient_squared_distance) const {
   NearestPoint best{-1, limit_squared};
   const std::vector<float> padded = newest_points_.padded_query(query);
   for (const PointTree& tree : trees_) {
@@ -103,8 +104,8 @@ NearestPoint PointTrees::nearest(const Eigen::VectorXf& query, double limit_squa
 }
 
 void NearestFaceSearch::add(const FaceSpace::Point& point) {
-  trees_with_extrapolation_.add(point.coordinates_with_extrapolation);
-  trees_without_extrapolation_.add(point.coordinates_without_extrapolation);
+  points_with_extrapolation_.add(point.coordinates_with_extrapolation);
+  points_without_extrapolation_.add(point.coordinates_without_extrapolation);
   has_extrapolated_faces_ = has_extrapolated_faces_ || point.coordinates_with_extrapolation !=
                                                            point.coordinates_without_extrapolation;
 }
@@ -115,12 +116,12 @@ NearestFaceSearch::NearestFace NearestFaceSearch::nearest(const FaceSpace::Point
   if (end < 0) end = size();
   const double sufficient_squared_distance = sufficient_distance_mm * sufficient_distance_mm;
   NearestPoint hit =
-      trees_with_extrapolation_.nearest(point.coordinates_with_extrapolation, limit_mm * limit_mm,
-                                        begin, end, sufficient_squared_distance);
+      points_with_extrapolation_.nearest(point.coordinates_with_extrapolation, limit_mm * limit_mm,
+                                         begin, end, sufficient_squared_distance);
   const bool done = hit.point >= 0 && hit.squared_distance < sufficient_squared_distance;
   if (!done && (has_extrapolated_faces_ ||
                 point.coordinates_with_extrapolation != point.coordinates_without_extrapolation)) {
-    const NearestPoint other = trees_without_extrapolation_.nearest(
+    const NearestPoint other = points_without_extrapolation_.nearest(
         point.coordinates_without_extrapolation, hit.squared_distance, begin, end,
         sufficient_squared_distance);
     if (other.point >= 0) hit = other;

@@ -20,6 +20,8 @@ class PointTree {
   PointTree(Index dimensions, const std::vector<const PointBlocks*>& points);
 
   const PointBlocks& points() const { return points_; }
+  /// Replaces `best` by the nearest point whose number is in [begin, end), if this point is nearer
+  /// than `best`. Stops at the first point nearer than `sufficient_squared_distance`.
   void search(const std::vector<float>& query, Index begin, Index end,
               double sufficient_squared_distance, NearestPoint& best) const;
 
@@ -66,9 +68,10 @@ class PointTree {
 /// A growing set of points with nearest-point queries. Most points are in trees whose sizes double,
 /// so that each point moves to a larger tree a logarithmic number of times (Bentley & Saxe 1980).
 /// The newest points are in a list.
-class PointTrees {
+class GrowingPointSet {
  public:
-  explicit PointTrees(Index dimensions) : dimensions_(dimensions), newest_points_(dimensions) {}
+  explicit GrowingPointSet(Index dimensions)
+      : dimensions_(dimensions), newest_points_(dimensions) {}
 
   /// Adds a point. Points are numbered in the order in which they are added, from 0.
   void add(const Eigen::VectorXf& point);
@@ -94,10 +97,10 @@ class PointTrees {
 class NearestFaceSearch {
  public:
   explicit NearestFaceSearch(Index dimensions)
-      : trees_with_extrapolation_(dimensions), trees_without_extrapolation_(dimensions) {}
+      : points_with_extrapolation_(dimensions), points_without_extrapolation_(dimensions) {}
 
   void add(const FaceSpace::Point& point);
-  Index size() const { return trees_with_extrapolation_.size(); }
+  Index size() const { return points_with_extrapolation_.size(); }
 
   struct NearestFace {
     Index face = -1;  ///< number of the face; −1: no face is within the limit
@@ -114,7 +117,7 @@ class NearestFaceSearch {
 
  private:
   /// the points of the faces, with and without extrapolation; see FaceSpace::Point
-  PointTrees trees_with_extrapolation_, trees_without_extrapolation_;
+  GrowingPointSet points_with_extrapolation_, points_without_extrapolation_;
   /// whether at least one face has an extrapolation factor other than 1
   bool has_extrapolated_faces_ = false;
 };

@@ -44,10 +44,10 @@ struct LeadingCoordinatesBox {
   }
 };
 
-/// Points in blocks of sixteen. The caller of `add` gives each point a number. A block stores the
-/// first coordinates of all its points, then the second coordinates, and so on, so that a query
-/// compares sixteen points at a time. The leading coordinates, in which faces differ most, rule out
-/// nearly all blocks early.
+/// Points in blocks of sixteen, each point with a number that the caller of `add` chooses. A block
+/// stores the first coordinates of all its points, then the second coordinates, and so on, so that
+/// a query compares sixteen points at a time. The leading coordinates, in which faces differ most,
+/// rule out nearly all blocks early.
 class PointBlocks {
  public:
   using Index = Eigen::Index;
@@ -97,8 +97,8 @@ class PointBlocks {
     return chunks_[static_cast<std::size_t>(dimension / kCoordinatesPerChunk)];
   }
 
-  Index
-      dimensions_;  ///< number of stored coordinates of each point, a multiple of kCoordinatesPerChunk
+  /// number of stored coordinates of each point, a multiple of kCoordinatesPerChunk
+  Index dimensions_;
   std::vector<Index> point_numbers_;  ///< numbers of the points, in the order of `add`
   /// For each chunk of kCoordinatesPerChunk coordinates, the values sorted by block, then
   /// coordinate, then lane.

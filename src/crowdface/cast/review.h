@@ -65,8 +65,8 @@ struct Review {
   /// Faces with larger numbers are cast after the review, so that a larger crowd changes no
   /// reviewed face. Empty: the whole crowd was reviewed.
   std::optional<std::uint64_t> reviewed_face_count;
-  /// The reviewer saw the results of this number of reviews, from the start of the list; see
-  /// merged_reviews. Empty: the reviewer saw the results of all earlier reviews.
+  /// Number of reviews, from the start of the list, whose results the reviewer saw; see
+  /// merged_reviews. Empty: all earlier reviews.
   std::optional<std::uint64_t> review_count_seen_by_reviewer = {};
   /// Value of DiversityOptions::min_distance_mm for the faces that the review redraws or changes,
   /// so that these faces stay the same if the crowd's value changes later. Empty: the crowd's

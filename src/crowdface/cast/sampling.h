@@ -28,7 +28,7 @@ enum class AgeUnit {
   kYears,
 };
 
-/// An age; see fraction_of_age.
+/// An age; see age_as_fraction.
 struct Age {
   double value = 0;
   AgeUnit unit = AgeUnit::kFraction;
@@ -88,8 +88,8 @@ struct RegionSampling {
 struct BandSampling {
   struct Region {
     std::optional<PositionDistribution> position;
-    std::optional<SmoothnessDistribution>
-        smoothness;  ///< level at which the band begins; may be empty for the first band only
+    /// level at which the band begins; may be empty for the first band only
+    std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
   std::string name;

@@ -10,12 +10,12 @@
 namespace crowdface {
 
 /// Returns the index of the share that each face is assigned to, or −1 for no share. Of the first n
-/// faces, share q gets at least ⌊q·n⌋. If several shares are due at the same face, some or all of
-/// these shares get an earlier face. The first n entries do not depend on `count`.
+/// faces, share q gets at least ⌊q·n⌋. If the deadlines of several shares fall on the same face,
+/// some or all of these shares get an earlier face. The first n entries do not depend on `count`.
 ///
-/// Faces are assigned as late as possible, by earliest deadline first (Liu & Layland 1973): the
-/// m-th face of share q is due at face ⌈m/q⌉. A face is assigned to a share only if some share
-/// would otherwise miss its deadline.
+/// Faces are assigned as late as possible, in the order of their deadlines (earliest deadline
+/// first, Liu & Layland 1973): share q must have its m-th face by face ⌈m/q⌉. A face is assigned to
+/// a share only if some share would otherwise miss its deadline.
 ///
 /// \param shares  fractions of the faces; they sum to at most 1.
 std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_t count);

@@ -24,8 +24,8 @@ struct SpanBasis {
 SpanBasis span_basis(FloatRows rows, double tolerance, Eigen::Index max_directions);
 
 /// Rotates the directions of a basis to the principal directions of its rows: the eigenvectors of
-/// coordinatesᵀ·coordinates, the largest eigenvalue first. Leaves out the last directions as long as
-/// this moves no row by more than `tolerance`.
+/// coordinatesᵀ·coordinates, the largest eigenvalue first. Leaves out the last directions as long
+/// as this moves no row by more than `tolerance`.
 SpanBasis principal_basis(const SpanBasis& basis, double tolerance);
 
 }  // namespace crowdface

@@ -62,8 +62,8 @@ class FarthestPoints {
   std::vector<bool> removed_;
 };
 
-/// Casts the sampled faces 1 … count in spread mode: generates a pool of candidates, and picks the
-/// faces by FarthestPoints.
+/// Casts all sampled faces in spread mode: generates a pool of candidates, and picks the faces by
+/// FarthestPoints.
 void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
                  const std::vector<FaceDistribution>& distributions,
                  const FamilySeparation& family_separation, CrowdSoFar& crowd,

@@ -185,7 +185,8 @@ std::vector<std::string> words_of_items(const Attachments& attachments) {
   return words;
 }
 
-/// Scales the quotas of one kind, which may add up to slightly more than 1 because they are rounded.
+/// Scales the quotas of one kind, which may add up to slightly more than 1 because they are
+/// rounded.
 void scale_quotas(const std::string& kind, const std::vector<const YamlEntry*>& entries,
                   Attachments& attachments, ConfigDraft& draft) {
   std::vector<double> shares;

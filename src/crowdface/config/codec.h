@@ -14,7 +14,7 @@
 
 namespace crowdface {
 
-/// What a codec needs to know when it writes a value as YAML.
+/// The context in which a codec writes a value as YAML.
 struct WriteContext {
   /// Which keys to write: all keys, the keys that face_settings_yaml writes, or the keys that
   /// plan_settings_yaml writes.

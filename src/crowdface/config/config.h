@@ -56,7 +56,7 @@ enum class TextureBlend {
 };
 /// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };
-/// Whether rendered images show textures.
+/// Whether contact sheets and other rendered images show textures.
 enum class SheetTexture {
   kAuto,  ///< images show textures if at least one head has textures
   kYes,   ///< images show textures; it is an error if no head has textures
@@ -193,8 +193,8 @@ struct Config {
     /// file that lists the vertices of the neck ring on the body; empty: the neck ring is an open
     /// border of the body's mesh
     std::filesystem::path body_rim;
-    /// A face is bent to fit the neck ring. The bend fades out over this distance from the ring,
-    /// measured along the skin.
+    /// Distance from the neck ring, along the skin, over which the bend that fits a face to the
+    /// ring fades out.
     double falloff_mm = 60;
     /// the body's colour texture, which is tinted for each face; empty: none
     std::filesystem::path body_texture;

@@ -61,13 +61,14 @@ std::vector<Eigen::Index> heads_with_tags(const std::vector<std::string>& tags,
 }
 
 std::string known_tags(const Config::Faces& faces) {
-  constexpr std::size_t kMost = 30;
+  constexpr std::size_t kMaxShownTags = 30;
   std::set<std::string> tags;
   for (const auto& of_head : faces.tags) tags.insert(of_head.begin(), of_head.end());
   if (tags.empty()) return "; no head has any tag, see faces.tags";
   std::vector<std::string> shown(tags.begin(), tags.end());
-  if (shown.size() > kMost) shown.resize(kMost);
-  return concat("; the heads have the tags ", join(shown), tags.size() > kMost ? ", …" : "");
+  if (shown.size() > kMaxShownTags) shown.resize(kMaxShownTags);
+  return concat("; the heads have the tags ", join(shown),
+                tags.size() > kMaxShownTags ? ", …" : "");
 }
 
 std::vector<std::string> remove_age_tags(std::vector<std::string> tags) {

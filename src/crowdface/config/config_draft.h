@@ -24,9 +24,9 @@ struct ConfigDraft {
   std::optional<double> former_min_distance_mm;       ///< see ConfigOverrides
   std::filesystem::path ignored_reviews_folder;       ///< see ConfigOverrides
   std::vector<std::string> warnings;                  ///< see ConfigReading
-  /// Whether the heads, tags, regions and smoothing are valid. A complaint sets the flag of its
-  /// section to false. Values that refer to this section are then not checked, so that one mistake
-  /// gives only one message.
+  /// Whether the sections for heads, tags, regions and smoothing are valid. A complaint about a
+  /// section sets its flag to false. Values in other sections that refer to it are then not
+  /// checked, so that one mistake gives only one message.
   bool are_heads_known = false;
   bool are_tags_known = true;
   bool are_regions_known = true;

@@ -53,8 +53,8 @@ struct ConfigReading {
 
 /// Reads a config file, and checks everything that can be checked without opening a mesh or an
 /// image. If there are problems, the valid parts of the config can still be used. docs/config.md
-/// describes all keys. Adds every problem, in the order of the file: with exit code
-/// 64 for mistakes in the config, and with 66 for missing files and folders.
+/// describes all keys. Adds every problem to `problems`, in the order of the file; the exit code is
+/// 64 for mistakes in the config and 66 for missing files and folders.
 ConfigReading read_partial_config(const std::filesystem::path& file,
                                   const ConfigOverrides& overrides, Problems& problems);
 

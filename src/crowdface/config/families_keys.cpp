@@ -76,9 +76,9 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   return Parent{std::nullopt, *name};
 }
 
-/// Returns the parent that the config leaves out: a random head, because heads are not in the crowd.
-/// The head has the parent's sex if any head is tagged with this sex. The head depends only on the
-/// other parent, so two families with the same single parent have the same second parent.
+/// Returns the parent that the config leaves out: a random head, because heads are not in the
+/// crowd. The head has the parent's sex if any head is tagged with this sex. The head depends only
+/// on the other parent, so two families with the same single parent have the same second parent.
 std::optional<Parent> absent_parent(std::string_view role, const Parent& other,
                                     const ConfigDraft& draft) {
   const Config::Faces& faces = draft.config.faces;

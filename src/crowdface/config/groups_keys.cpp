@@ -173,9 +173,9 @@ void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   }
 }
 
-/// Divides the remaining share equally among the groups that have neither a share nor a count.
-/// If rounding makes the shares sum to slightly more than 1, scales them so that they sum to 1. Adds
-/// a complaint if the shares sum to more, or if the counts sum to more than crowd.count.
+/// Divides the remaining share equally among the groups that have neither a share nor a count. If
+/// rounding makes the shares sum to slightly more than 1, scales them so that they sum to 1. Adds a
+/// complaint if the shares sum to more, or if the counts sum to more than crowd.count.
 void divide_remaining_share(const YamlNode& node, ConfigDraft& draft) {
   auto& groups = draft.config.groups;
   std::uint64_t counted = 0;

@@ -5,8 +5,8 @@
 
 namespace crowdface {
 
-/// Reads a mapping from heads to their tags. Adds a complaint about tags that already mean
-/// something else in a config.
+/// Reads a mapping from heads to their tags. Adds a complaint about each tag that is also a head's
+/// name, `all` or `target`.
 void read_head_tags(const YamlNode& node, Config::Faces& faces, ConfigDraft& draft);
 
 /// Reads a mapping from heads to their ages in years.

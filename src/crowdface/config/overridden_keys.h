@@ -10,8 +10,8 @@
 namespace crowdface {
 
 /// Finds keys of `sampling`, `groups`, `families`, `recipes` and `attachments` that another key
-/// overrides. Returns one line of text for each such key, with both keys and the number of faces
-/// concerned.
+/// overrides. Returns one line of text for each such key, which names both keys and the number of
+/// affected faces.
 ///
 /// \param root    the config file, with all command-line overrides and edits.
 /// \param config  the complete config that was read from `root`.

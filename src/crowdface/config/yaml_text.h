@@ -26,7 +26,7 @@ class YamlText {
     YamlPlace place;
     std::string message;
   };
-  /// Returns the first problem of these kinds: the file is too long, is not UTF-8, contains a
+  /// Returns the first of these problems: the file is too long, is not UTF-8, contains a
   /// control character, has a tab in the indentation of a line, or has a no-break space or another
   /// special blank where YAML needs a space.
   std::optional<Problem> find_problem() const;
@@ -44,8 +44,8 @@ class YamlText {
   std::string_view text_;
   std::shared_ptr<const std::string> source_;
   std::vector<std::size_t> line_starts_;
-  std::vector<std::size_t>
-      continuation_byte_offsets_;  ///< offsets of UTF-8 continuation bytes, ascending
+  /// offsets of UTF-8 continuation bytes, ascending
+  std::vector<std::size_t> continuation_byte_offsets_;
 };
 
 }  // namespace crowdface

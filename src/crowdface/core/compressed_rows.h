@@ -9,8 +9,8 @@
 
 namespace crowdface {
 
-/// Groups of items, numbered from 0. All groups lie one after the other in one array (compressed
-/// rows).
+/// Groups of items, stored one group after the other in a single array (compressed rows). Groups
+/// are numbered from 0.
 template <class T>
 struct CompressedRows {
   std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1 indices into `items`

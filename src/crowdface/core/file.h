@@ -46,7 +46,7 @@ bool has_content(const std::filesystem::path& path, const FileDigest& content);
 /// handler applies to the whole process. A SIGBUS handler that is already installed stays in place.
 void watch_mapped_files();
 
-/// What happens when this program reads a mapped file that another program has truncated.
+/// What to do when this program reads a mapped file that another program has truncated.
 enum class OnTruncation {
   kEnd,  ///< the process ends with exit code 74 and a message that names the file
   kFill  ///< the missing pages read as zeros, and `was_truncated` returns true

@@ -111,7 +111,7 @@ std::string read_file(const fs::path& path) {
   return bytes;
 }
 
-void read_pieces(const fs::path& path, const TakePiece& take) {
+void read_pieces(const fs::path& path, const TextSink& take) {
   constexpr std::size_t kPiece = 1U << 20U;
   const OpenedFile file = open_for_reading(path);
   std::string piece(std::min(kPiece, file.size + 1), '\0');
@@ -121,7 +121,7 @@ void read_pieces(const fs::path& path, const TakePiece& take) {
 }
 
 FileDigest hash_file(const fs::path& path) {
-  return digest_of([&](const TakePiece& take) { read_pieces(path, take); });
+  return digest_of([&](const TextSink& take) { read_pieces(path, take); });
 }
 
 bool has_content(const fs::path& path, const FileDigest& content) {

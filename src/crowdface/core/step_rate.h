@@ -7,10 +7,10 @@
 
 namespace crowdface {
 
-/// Estimates how many steps a stage makes per second. Uses the second half of the time that has
-/// passed since the first step. The time before the first step does not count, because a stage may
-/// need a long preparation. The first half does not count because steps may become slower, as in a
-/// crowd that is nearly full.
+/// Estimates how many steps a stage makes per second, from the second half of the time since the
+/// first step. The time before the first step does not count, because a stage may need a long
+/// preparation. The first half does not count because steps may become slower, as in a crowd that
+/// is nearly full.
 class StepRate {
  public:
   /// \param simultaneous_steps  number of steps that may end at almost the same time, such as the

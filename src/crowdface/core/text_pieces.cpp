@@ -11,7 +11,7 @@
 namespace crowdface {
 
 TextPieces text_of_items(std::size_t count, std::function<std::string(std::size_t)> item) {
-  return [count, item = std::move(item)](const TakePiece& take) {
+  return [count, item = std::move(item)](const TextSink& take) {
     constexpr std::size_t kAtOnce = 1024, kBlock = 16;
     std::vector<std::string> texts;
     for (std::size_t first = 0; first < count; first += texts.size()) {

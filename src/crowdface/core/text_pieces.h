@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Functions that make, write and read texts in pieces, because the texts of a large crowd may not
-// fit in memory.
+// SPDX-License-Identifier: Apache-2.0 Makes, writes and reads texts in pieces, because the texts of
+// a large crowd may not fit in memory.
 #pragma once
 
 #include <cstddef>
@@ -13,10 +12,11 @@
 
 namespace crowdface {
 
-using TakePiece = std::function<void(std::string_view)>;
-/// A function that passes all pieces of a text to `take`, in order. Every call passes the same
-/// text. Objects that the function captures by reference must outlive it.
-using TextPieces = std::function<void(const TakePiece& take)>;
+/// Receives the next piece of a text.
+using TextSink = std::function<void(std::string_view)>;
+/// A text as a function that passes the text's pieces to `take`, in order. Every call passes the
+/// same text. Objects that the function captures by reference must outlive it.
+using TextPieces = std::function<void(const TextSink& take)>;
 
 /// Makes a text by concatenating `item(0)` … `item(count − 1)`. Several threads call `item`. The
 /// returned function throws Interrupted after a signal.
@@ -31,7 +31,7 @@ FileDigest digest_of(const TextPieces& text);
 FileDigest write_file(const std::filesystem::path& path, const TextPieces& text);
 
 /// Reads a file in pieces, from start to end. \throws MissingInput, IoError like read_file.
-void read_pieces(const std::filesystem::path& path, const TakePiece& take);
+void read_pieces(const std::filesystem::path& path, const TextSink& take);
 /// Calls `use` for each line, without its '\n'.
 /// \param use  `has_line_end` is false for a last line that lacks its '\n'.
 void read_lines(const std::filesystem::path& path,

@@ -172,7 +172,7 @@ FileDigest write_file(const fs::path& path, const TextPieces& text) {
   constexpr std::size_t kAtOnce = 1U << 20U;
   TemporaryFile file(path);
   std::string pending;
-  const FileDigest content = digest_of([&](const TakePiece& take) {
+  const FileDigest content = digest_of([&](const TextSink& take) {
     text([&](std::string_view piece) {
       take(piece);
       pending += piece;

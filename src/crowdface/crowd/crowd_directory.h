@@ -49,8 +49,8 @@ struct CrowdDirectory {
   std::filesystem::path log() const { return root / "crowdface.log"; }
   std::filesystem::path ledger() const { return root / "ledger.jsonl"; }
   std::filesystem::path lock() const { return root / ".crowdface.lock"; }
-  /// A file that identifies the job to which the plan belongs. A shard uses only a plan of its own
-  /// job; see read_planned_faces.
+  /// A file with a hash that identifies the job of the plan. A shard uses a plan only if the shard
+  /// belongs to the same job; see read_planned_faces.
   std::filesystem::path plan_marker() const { return root / "planned.json"; }
   /// File with the progress of a shard, for `crowdface status` and other observers.
   std::filesystem::path progress(const Shard& shard) const {
@@ -134,7 +134,7 @@ struct CrowdDirectory {
 std::vector<std::filesystem::path> folder_and_numbered_subfolders(
     const std::filesystem::path& folder);
 
-/// Prevents crowdface from writing a crowd's files outside the crowd's folder.
+/// Makes sure that crowdface does not write a crowd's files outside the crowd's folder.
 /// \throws CannotCreate if `folder`, a folder of the crowd, is a link that leads out of the crowd's
 ///         folder.
 void refuse_link_out_of_crowd(const CrowdDirectory& directory, const std::filesystem::path& folder);
@@ -176,6 +176,7 @@ std::vector<std::filesystem::path> files_made_together_with_sheets(const CrowdDi
 /// Checks that the folder is the folder of a crowd. \throws MissingInput if not.
 void require_crowd(const CrowdDirectory& directory);
 
+/// What to do if a folder holds another crowd: refuse the folder, or remove that crowd's files.
 enum class Replace { kRefuse, kForce };
 
 /// A crowd's config, for comparison with the config.yaml that is already in a folder.
@@ -185,7 +186,7 @@ struct CrowdConfig {
   /// Returns the keys in which another config.yaml differs from this config; no keys if the other
   /// config.yaml describes the same crowd.
   std::function<std::vector<std::string>(const std::string& other)> differences;
-  /// one per review: the content of the review file at the time when this run read the file
+  /// one per review: the content of the review file as this run read it
   std::vector<std::string> original_reviews = {};
   /// Whether to rename the existing folder of reviews to a name with the date.
   bool renames_review_folder = false;

@@ -18,7 +18,7 @@ struct ShardStatus {
   ShardState state = ShardState::kWaiting;
   std::uint64_t face_count = 0;
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
-  std::optional<double> faces_a_second;   ///< speed of the last run
+  std::optional<double> faces_a_second;   ///< faces per second in the last run
   std::optional<double> seconds_left;     ///< set while the shard is working and its speed is known
   /// set while the shard is working: seconds since its last write
   std::optional<double> seconds_since_write;
@@ -38,7 +38,7 @@ struct CrowdStatus {
   std::uint64_t face_count = 0;           ///< number of faces in the plan
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun
-  std::optional<double> faces_a_second;  ///< total speed of all working shards
+  std::optional<double> faces_a_second;  ///< faces per second, summed over all working shards
   std::optional<double> seconds_left;    ///< until the last working shard finishes
   std::vector<std::string> failures;     ///< last error of each failed task that is not a shard
 };

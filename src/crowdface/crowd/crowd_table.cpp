@@ -284,7 +284,7 @@ TextPieces table_text(const std::vector<FacePlan>& crowd, const PlanNames& names
   std::erase_if(columns, [&](const TableColumn& column) {
     return column.applies && std::ranges::none_of(crowd, column.applies);
   });
-  return [&crowd, columns = std::move(columns)](const TakePiece& take) {
+  return [&crowd, columns = std::move(columns)](const TextSink& take) {
     take(table_line(columns, [](const TableColumn& column) { return column.name; }));
     text_of_items(crowd.size(), [&](std::size_t i) {
       return table_line(columns, [&](const TableColumn& column) { return column.value(crowd[i]); });

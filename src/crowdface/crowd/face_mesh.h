@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Reads the vertex positions of a face from a mesh file. Uses the first mesh format of the crowd
-/// that crowdface can read.
+/// Reads the vertex positions of a face from its mesh file in the first of `formats` that crowdface
+/// can read.
 /// \throws MissingInput if there is no such format or the file does not exist; InvalidInput if the
 ///         file does not belong to this crowd.
 Positions read_face_positions(const CrowdDirectory& directory, const std::string& id,

@@ -277,7 +277,7 @@ FileDigest Ledger::write(const std::string& name, const TextPieces& text) {
 }
 
 FileDigest Ledger::write(const std::string& name, std::string_view bytes) {
-  return write(name, [&](const TakePiece& take) { take(bytes); });
+  return write(name, [&](const TextSink& take) { take(bytes); });
 }
 
 void Ledger::record_existing(const LedgerEntry::File& file) {
@@ -325,7 +325,7 @@ void Ledger::record_remade_files(const std::string& item,
   }
 }
 
-void Ledger::write_text(const TakePiece& take) const {
+void Ledger::write_text(const TextSink& take) const {
   Hasher before;
   FileCounts counts;
   std::vector<const LedgerEntry*> done;
@@ -363,7 +363,7 @@ void Ledger::remove_outdated_files() const {
 
 void Ledger::compact() {
   remove_outdated_files();
-  const TextPieces text = [&](const TakePiece& take) { write_text(take); };
+  const TextPieces text = [&](const TextSink& take) { write_text(take); };
   if (has_appended_ || !has_content(own_ledger_, digest_of(text))) write_file(own_ledger_, text);
   for (const fs::path& other : other_ledgers_) {
     std::error_code error;

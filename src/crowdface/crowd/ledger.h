@@ -19,8 +19,8 @@
 
 namespace crowdface {
 
-/// One finished item. All files of the item are written and synced to disk before the ledger gets
-/// the line of the item.
+/// One finished item, such as a face, and its files. All files are written and synced to disk
+/// before the ledger gets the item's line.
 struct LedgerEntry {
   struct File {
     std::string name;  ///< path relative to the crowd's folder, with '/' separators
@@ -47,8 +47,8 @@ std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 struct LedgerLines {
   std::vector<LedgerEntry> entries;
   std::size_t damaged_count = 0;  ///< number of invalid lines
-  /// Whether a finished run wrote the ledger and no line is missing. Then the hash and the file
-  /// counts in the last line match the other lines.
+  /// Whether a finished run wrote the ledger and no line is missing: the hash and the file counts
+  /// in the last line match the other lines.
   bool is_complete = false;
 };
 LedgerLines parse_ledger(std::string_view text);
@@ -71,8 +71,8 @@ void remove_recorded_file(const std::filesystem::path& root, const LedgerEntry::
 /// threads may find and record entries.
 class Ledger {
  public:
-  /// Reads all ledgers of the folder. Drops damaged lines with a warning; the items of these lines
-  /// count as unfinished.
+  /// Reads all ledgers of the folder. Drops damaged lines with a warning, so that their items count
+  /// as unfinished.
   /// \param own_ledger  the ledger to append to; created if it does not exist.
   /// \param others      ledgers of other runs, which are only read. If several ledgers list an
   ///                item, any of these lines may prove that the item is finished. No line takes
@@ -101,9 +101,9 @@ class Ledger {
   /// content.
   void record_existing(const LedgerEntry::File& file);
 
-  /// Updates the ledger after files were remade, possibly in another format than the config
-  /// demands. Each item with a changed file gets a key that no run looks for. Therefore the next
-  /// run makes this item again as the config demands. Items with unchanged files keep their lines.
+  /// Updates the ledger after files were remade, possibly with other settings than the config's.
+  /// Each item with a changed file gets a key that no run looks for, so that the next run makes
+  /// this item again with the config's settings. Items with unchanged files keep their lines.
   /// \param item, file_names  an item, and the names of all files that the item now has
   /// \param remade_folders    folders with remade files; the function also hashes the files of all
   ///                          other items in these folders
@@ -132,7 +132,7 @@ class Ledger {
   void remove_outdated_files() const;
   std::vector<LedgerEntry::File> hash_files(const std::vector<std::string>& names) const;
   void record_remade_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
-  void write_text(const TakePiece& take) const;
+  void write_text(const TextSink& take) const;
 
   std::filesystem::path root_, own_ledger_;
   std::vector<std::filesystem::path> other_ledgers_;

@@ -96,7 +96,7 @@ CrowdLikeness crowd_likeness(const std::vector<PlanePoint>& anchors,
 TextPieces likeness_text(const CrowdLikeness& likeness, const PlanNames& names,
                          const std::vector<std::string>& ids) {
   const auto start = [](std::size_t i) { return i > 0 ? ",\n  " : "\n  "; };
-  return [&, start](const TakePiece& take) {
+  return [&, start](const TextSink& take) {
     Json heads = {{"heads", Json::object()}};
     for (std::size_t h = 0; h < names.heads.size(); ++h) {
       heads["heads"][names.heads[h]] = {likeness.anchors[h].x(), likeness.anchors[h].y()};

@@ -11,10 +11,9 @@
 
 namespace crowdface {
 
-/// The similarities of faces and the positions of heads, which the sheets and the gallery show in
-/// addition to the plan and the meshes.
+/// The similarities of faces, and the heads' positions on the weight plane, for sheets and gallery.
 struct CrowdLikeness {
-  std::vector<PlanePoint> anchors;  ///< position of each head on the plane
+  std::vector<PlanePoint> anchors;  ///< one per head: its position on the weight plane
   Likeness likeness;
 };
 

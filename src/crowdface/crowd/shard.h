@@ -38,7 +38,7 @@ std::vector<std::filesystem::path> existing_shard_paths(const std::filesystem::p
 
 enum class ShardState {
   kWaiting,  ///< no run has begun
-  /// working, or killed without notice; only the time since the last write distinguishes the two
+  /// working, or killed without notice: only the time since the last write tells which
   kWorking,
   kDone,         ///< all faces of the shard are done
   kInterrupted,  ///< stopped by a signal; the next run continues the shard
@@ -46,7 +46,7 @@ enum class ShardState {
 };
 std::string_view name_of(ShardState state);
 
-/// What a shard reports about its latest run, both during this run and at the end of the run.
+/// What a shard reports about its latest run, during the run and at its end.
 struct ShardNotes {
   ShardState state = ShardState::kWorking;
   std::uint64_t face_count = 0;           ///< number of faces in the shard

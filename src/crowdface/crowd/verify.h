@@ -14,7 +14,8 @@ struct CrowdCheck {
   std::size_t file_count = 0;              ///< number of files in the ledger
   std::vector<std::string> missing_files;  ///< missing files, relative to the folder
   std::vector<std::string> altered_files;  ///< files with other content
-  /// ids of planned faces, and names of the plan file and the report file, that no ledger lists
+  /// items that no ledger lists: ids of planned faces, and the names of the plan file and the
+  /// report file
   std::vector<std::string> unfinished_items;
   std::vector<std::string> remarks;  ///< damaged or incomplete ledgers, and shards not gathered
 

@@ -53,15 +53,15 @@ void DroppedFiles::discard() {
 }
 
 void DroppedFiles::begin_upload(const std::map<std::string, std::uint64_t>& sizes) {
-  constexpr std::size_t kMostFiles = 256;
-  constexpr std::uint64_t kMostBytes = std::uint64_t{2} << 30U;
-  if (sizes.size() > kMostFiles) {
-    throw UsageError(concat("expected at most ", kMostFiles, " files at once"));
+  constexpr std::size_t kMaxFiles = 256;
+  constexpr std::uint64_t kMaxBytes = std::uint64_t{2} << 30U;
+  if (sizes.size() > kMaxFiles) {
+    throw UsageError(concat("expected at most ", kMaxFiles, " files at once"));
   }
   std::uint64_t all = 0;
   for (const auto& [name, bytes] : sizes) {
     require_safe_name(name);
-    if (bytes > kMostBytes - all) throw UsageError("expected at most 2 GiB at once");
+    if (bytes > kMaxBytes - all) throw UsageError("expected at most 2 GiB at once");
     all += bytes;
   }
   if (std::ranges::none_of(sizes, [](const auto& file) { return is_head_file(file.first); })) {

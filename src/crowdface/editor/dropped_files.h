@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Files that the user drops on the page. The files arrive in pieces and are collected in a hidden
-/// folder. Complete files move to a new folder `added/NAME` beside the config. No existing file
+/// Receives the files that the user drops on the page. The files arrive in pieces in a hidden
+/// folder; complete files move to a new folder `added/NAME` beside the config. No existing file
 /// changes. Thread-safe.
 class DroppedFiles {
  public:

@@ -16,8 +16,8 @@ struct EditOptions {
   CacheFolder cache;  ///< folder of prepared heads
   int port = 0;       ///< 0: any free port
   std::size_t preview_vertices = 50'000;
-  std::vector<std::string> generate_arguments =
-      {};  ///< additional arguments for `crowdface generate`
+  /// additional arguments for `crowdface generate`
+  std::vector<std::string> generate_arguments = {};
 };
 
 /// Runs the editor's server for a crowd until a signal stops the process.

@@ -68,7 +68,7 @@ HttpAnswer EditApi::answer(const HttpRequest& request) {
                                             {"PUT", "api/dropped/", &EditApi::receive_dropped_file},
                                             {"POST", "api/heads", &EditApi::add_heads},
                                             {"POST", "api/open", &EditApi::reload_job}};
-  return answer_or_refuse(request, [this](const HttpRequest& asked) {
+  return answer_or_error(request, [this](const HttpRequest& asked) {
     for (const Route& route : routes) {
       const bool is_prefix = route.path.ends_with('/');
       if (is_prefix ? !asked.path.starts_with(route.path) : asked.path != route.path) continue;

@@ -25,7 +25,7 @@
 
 namespace crowdface {
 
-/// Answers the requests of the editor's page (docs/editor.md).
+/// Answers the HTTP requests of the editor's page (docs/editor.md).
 class EditApi {
  public:
   /// \param session, folder, run  must outlive this object
@@ -82,7 +82,7 @@ class EditApi {
   /// The value of a section in the file of edits, as a text; null if the file has no such section.
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json measures_json(const FaceMeasures& measures) const;
-  /// Stores the number if it is the largest number that the page has sent.
+  /// Stores the number of a request, if it is the largest number that the page has sent.
   void note_request_number(const std::string& page, std::uint64_t request_number);
   /// Returns whether the page has sent a request with a larger number.
   bool is_outdated_request(const std::string& page, std::uint64_t request_number);
@@ -99,11 +99,12 @@ class EditApi {
   DroppedFiles dropped_;     ///< files that the user drags from the desktop and drops on the page
   RegionPainting painting_;  ///< guarded by `build_mutex_`
   std::mutex build_mutex_;   ///< only one face is built at a time, because a build uses all cores
-  /// Number of sampling attempts so far, so that each request samples different faces.
+  /// Number of sampling attempts so far; each request continues from this number, so that it
+  /// samples other faces.
   std::atomic<std::uint32_t> sampling_attempts_ = 0;
   std::mutex newest_requests_mutex_;
-  std::map<std::string, std::uint64_t>
-      newest_requests_;  ///< number of the newest request of each page
+  /// by id of the page: number of the page's newest request
+  std::map<std::string, std::uint64_t> newest_requests_;
 };
 
 }  // namespace crowdface

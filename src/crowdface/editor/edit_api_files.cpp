@@ -250,12 +250,12 @@ HttpAnswer EditApi::use_regions(const HttpRequest& request, const std::string& r
 }
 
 HttpAnswer EditApi::begin_drop(const HttpRequest& request, const std::string&) {
-  constexpr double kMostBytes = 1e15;
+  constexpr double kMaxBytes = 1e15;
   require_editable_config();
   const Json body = parse_json_body(request);
   std::map<std::string, std::uint64_t> sizes;
   for (const auto& [name, ignored] : body.items()) {
-    sizes[name] = static_cast<std::uint64_t>(number_in(body, name, 0, kMostBytes));
+    sizes[name] = static_cast<std::uint64_t>(number_in(body, name, 0, kMaxBytes));
   }
   dropped_.begin_upload(sizes);
   return json_answer(Json::object());

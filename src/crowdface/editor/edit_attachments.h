@@ -69,8 +69,8 @@ class EditAttachments {
   const Job& job_;
   const std::vector<FacePlan>* crowd_;
   std::mutex mutex_;
-  std::map<std::string, BindingFuture>
-      bindings_;  ///< for the name of each attachment requested so far: its binding
+  /// for the name of each attachment requested so far: its binding
+  std::map<std::string, BindingFuture> bindings_;
   AttachmentSurfaces surfaces_;
   ShownAttachments shown_;
 };

@@ -11,7 +11,7 @@
 #include "crowdface/editor/steer_trait.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/pictures/surfaces.h"
-#include "crowdface/pictures/vertex_finish.h"
+#include "crowdface/pictures/vertex_roughness.h"
 #include "crowdface/render/studio.h"
 #include "crowdface/render/visibility.h"
 #include "crowdface/traits/measurements.h"

@@ -55,8 +55,8 @@ struct FaceMeasures {
   std::vector<std::string> warnings;
 };
 
-/// A job that the user edits by hand: prepared heads, the existing crowd, and the data of heads and
-/// crowd that the page shows. Const member functions are thread-safe.
+/// A job that the user edits on the page: prepared heads, the existing crowd, and the data that the
+/// page shows. Const member functions are thread-safe.
 class EditSession {
  public:
   /// \param cache             the folder of prepared heads
@@ -72,7 +72,7 @@ class EditSession {
   /// The atlas with the heads' textures. The preview's texture coordinates refer to this atlas.
   const TextureAtlas& textures() const { return textures_; }
 
-  /// A description of the job as JSON. The page loads this description before all other data.
+  /// A description of the job as JSON, which the page loads before all other data.
   nlohmann::ordered_json description() const;
   /// Triangles, colours, masks and texture coordinates of the preview, as a BinaryAnswer.
   std::string mesh_answer() const;
@@ -86,9 +86,8 @@ class EditSession {
 
   /// The region masks for blending; zero at vertices of components that are not skin.
   const RegionWeights& masks() const { return builder_.regions(); }
-  /// Replaces the region masks for blending. Computing distances and warnings, and sampling faces,
-  /// still use the masks of the config. Call this only while no other thread builds faces or reads
-  /// masks.
+  /// Replaces the region masks for blending. Distances, warnings and sampled faces still use the
+  /// masks of the config. Call this only while no other thread builds faces or reads masks.
   void use_masks(const RegionWeights& masks);
 
   /// All vertex positions of a face, equal to the positions in a saved mesh. Fast if the face

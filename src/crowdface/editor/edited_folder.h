@@ -38,8 +38,8 @@ class EditedFolder {
 
   /// Returns the state text that a page saved last; empty if no page has saved a state.
   std::string saved_state() const;
-  /// Makes `page` the only browser page that may save the state. If two pages could save, each
-  /// page would overwrite the editing steps of the other page.
+  /// Makes `page` the only browser page that may save the state, so that two open pages do not
+  /// overwrite each other's editing steps.
   void set_only_saving_page(std::string page);
   /// Saves the state of a page.
   /// \param page  the page that sends the state, or empty if no page has called
@@ -61,8 +61,7 @@ class EditedFolder {
   void finish_interrupted_saves(const Job& job, const WriteMesh& write);
   /// Writes a mark (save_mark) or a change (save_change) of a face to review.yaml. Replaces the
   /// earlier mark or change of this face. An empty change removes the earlier change. If a run has
-  /// already applied the review in this file to the crowd, begins a new review, so that no mark
-  /// applies twice.
+  /// already applied this review to the crowd, begins a new review, so that no mark applies twice.
   /// \throws Error if review.yaml is invalid, or would be invalid afterwards.
   std::filesystem::path save_mark(const Config& config, const ReviewMark& mark);
   std::filesystem::path save_change(const Config& config, const FaceChange& change);

@@ -20,8 +20,9 @@ struct RunProgress {
 };
 RunProgress read_progress(std::string_view log);
 
-/// Runs `crowdface generate` as a separate process, so that a failure of the run does not stop the
-/// editor, and vice versa. After a stop, the next start continues the work. Thread-safe.
+/// Runs `crowdface generate` as a separate process, so that neither a failure of the run stops the
+/// editor nor a failure of the editor stops the run. After a stop, the next start continues the
+/// work. Thread-safe.
 class GenerateRun {
  public:
   enum class State { kIdle, kRunning, kDone, kFailed, kStopped };

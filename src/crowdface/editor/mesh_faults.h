@@ -28,7 +28,7 @@ class MeshFaults {
   std::vector<std::string> faults_of(const Recipe& recipe, const Positions& face) const;
 
  private:
-  /// The faults of a target head itself. Faces with this target head may have the same faults.
+  /// The faults that a target head itself has. Faces built on this head may have the same faults.
   struct TargetFaults {
     SkinCheck skin_check;
     double exposed_parts_mm2;  ///< area of the head's parts that protrudes through the skin

@@ -80,11 +80,11 @@ double range_of(const PerHead& gradient) {
 
 Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double wanted,
                    const std::function<double(const Recipe&)>& measure) {
-  constexpr int kMostSteps = 8, kHalvings = 60;
+  constexpr int kMaxSteps = 8, kHalvings = 60;
   constexpr double kEnough = 0.005, kHardly = 0.1, kLongest = 1e3;
   double value = measure(recipe);
   std::vector<bool> takes_part;
-  for (int step = 0; step < kMostSteps && std::abs(wanted - value) > kEnough; ++step) {
+  for (int step = 0; step < kMaxSteps && std::abs(wanted - value) > kEnough; ++step) {
     std::vector<PerHead> weights, gradients;
     double widest = 0;
     for (const SteeredBand& band : bands) {

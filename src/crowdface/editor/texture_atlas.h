@@ -21,8 +21,8 @@ class TextureAtlas {
   /// The heads' texture coordinates converted to atlas coordinates, #uvs by 2.
   TextureCoordinates coordinates() const;
   bool has_textures_of(Index head) const;
-  /// Converts atlas coordinates to coordinates in a cell. Only the fractional parts of the result
-  /// are meaningful.
+  /// Converts atlas coordinates to texture coordinates within a cell of the atlas: the fractional
+  /// parts of the result.
   Eigen::Vector2f cell_coordinates(const Eigen::Vector2f& uv) const {
     return {uv.x() * static_cast<float>(columns_), uv.y() * static_cast<float>(rows_)};
   }

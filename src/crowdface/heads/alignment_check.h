@@ -29,8 +29,8 @@ std::vector<HeadPose> head_poses(const HeadSet& heads, const Components& compone
 /// its coordinates are in another unit. Empty if `align_heads` accepts the head.
 std::string objection_to_pose(const HeadPose& pose, const std::string& head);
 
-/// Whether `rigid` alignment would help: all heads have the same size, but at least one head is
-/// rotated or shifted so far that `align_heads` would warn.
+/// Whether the config should use `align: rigid`: all heads have the same size, but at least one
+/// head is rotated or shifted so far that `align_heads` would warn.
 bool needs_rigid_alignment(const HeadSet& heads, const Components& components);
 
 /// Warns about heads that are rotated, shifted or scaled relative to the other heads. Blending

@@ -12,7 +12,7 @@
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/head_textures.h"
-#include "crowdface/heads/light_of_image.h"
+#include "crowdface/heads/image_values.h"
 #include "crowdface/heads/picture_layout.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/tile_files.h"
@@ -211,7 +211,7 @@ NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
 
 }  // namespace
 
-HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& materials,
+HeadTextures load_blended_textures(const HeadSet& heads, const PolygonMaterials& materials,
                                    FoundTextureFiles found, std::optional<std::uint64_t> size,
                                    const fs::path& scratch) {
   HeadTextures result;

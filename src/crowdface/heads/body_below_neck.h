@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// The ring of the heads at the neck: the ring that `neck.rim` names, or the lowest open rim.
+/// The ring at the heads' neck: the ring that `neck.rim` names, or the lowest open rim.
 /// \throws InvalidInput if there is none.
 Rim find_neck_rim(const Config& config, const Inputs& inputs);
 

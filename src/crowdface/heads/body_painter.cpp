@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "crowdface/core/error.h"
-#include "crowdface/heads/light_of_image.h"
+#include "crowdface/heads/image_values.h"
 #include "crowdface/io/image.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/texture/paint_picture.h"
@@ -77,8 +77,9 @@ TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
 }
 
 /// The low frequencies of a map's optical densities, at the vertices of a rim, #rim by 3.
-Positions coarse_at(const Rim& rim, const Topology& topology, const Positions& positions,
-                    const SurfaceTexels& texels, const std::shared_ptr<const TextureMap>& map) {
+OpticalDensities coarse_at(const Rim& rim, const Topology& topology, const Positions& positions,
+                           const SurfaceTexels& texels,
+                           const std::shared_ptr<const TextureMap>& map) {
   const ChebyshevFilter filter(
       SmoothingOperator(build_adjacency(topology), Boundary::kFree, OperatorKind::kLazy),
       positions);
@@ -93,7 +94,7 @@ BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
     : heads_on_body_(neck),
       topology_(neck.body->file.topology),
       uvs_(neck.body->file.uvs),
-      body_optical_densities_(Positions::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
+      body_optical_densities_(OpticalDensities::Zero(static_cast<Index>(neck.body_rim.size()), 3)),
       neck_bend_for_colours_(topology_, build_adjacency(topology_), neck.body->file.positions,
                              neck.body_rim, falloff_mm / neck.mm_per_unit) {
   if (texture.empty()) {
@@ -113,7 +114,7 @@ BodyPainter::BodyPainter(const HeadsOnBody& neck, double falloff_mm,
       coarse_at(neck.body_rim, topology_, neck.body->file.positions, *texels_, map_);
 }
 
-BlendedPicture BodyPainter::paint(const Positions& ring_densities) const {
+BlendedPicture BodyPainter::paint(const OpticalDensities& ring_densities) const {
   const Positions difference = ring_densities - body_optical_densities_;
   const Eigen::RowVector3d mean = difference.colwise().mean();
   Positions added = mean.replicate(topology_.vertex_count, 1);

@@ -6,14 +6,15 @@
 
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/texture/crowd_textures.h"
+#include "crowdface/texture/optical_density.h"
 #include "crowdface/texture/surface_texels.h"
 
 namespace crowdface {
 
 /// Paints a texture of the body for each face, so that body and face have the same colours at the
-/// ring of the neck. At each vertex of the ring, the body gets the face's optical densities. With
-/// growing distance from the ring, this change of the densities approaches its mean over the ring,
-/// and at the distance `falloff_mm` it equals this mean.
+/// ring of the neck. At each vertex of the ring, the body gets the face's optical densities. The
+/// change of density at the ring fades, over the distance `falloff_mm`, to the mean change over the
+/// ring, which the rest of the body gets.
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
@@ -28,7 +29,7 @@ class BodyPainter {
 
   /// Paints the body's texture for one face.
   /// \param ring_densities  optical densities of the face's skin at the ring, #rim by 3
-  BlendedPicture paint(const Positions& ring_densities) const;
+  BlendedPicture paint(const OpticalDensities& ring_densities) const;
 
  private:
   const HeadsOnBody& heads_on_body_;
@@ -36,7 +37,8 @@ class BodyPainter {
   TextureCoordinates uvs_;
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
   std::unique_ptr<const SurfaceTexels> texels_;
-  Positions body_optical_densities_;  ///< the body's colours at the ring of the neck, #rim by 3
+  /// the body's colours at the ring of the neck, #rim by 3
+  OpticalDensities body_optical_densities_;
   /// Spreads colour differences from the ring over the body, with the method that NeckBend uses for
   /// displacements. The differences fade with the distance from the ring.
   NeckBend neck_bend_for_colours_;

@@ -66,7 +66,7 @@ constexpr std::array<char, 4> number_type() {
 
 }  // namespace detail
 
-/// Describes an array of an entry and points to its numbers in memory.
+/// An array to write into an entry; points to the numbers in memory.
 struct EntryArray {
   std::string name;          ///< at most 23 bytes
   std::array<char, 4> type;  ///< see detail::number_type

@@ -13,8 +13,7 @@ namespace crowdface {
 /// ~/.cache/crowdface, else a folder for temporary files.
 std::filesystem::path cache_directory();
 
-/// A cache folder, and whether a file that was read before may be accepted without hashing it
-/// again.
+/// A cache folder, and whether unchanged files are accepted without being hashed again.
 struct CacheFolder {
   std::filesystem::path path;  ///< empty: no cache
   /// Whether a head file or cache entry is accepted without hashing if it was read completely

@@ -24,10 +24,10 @@ void replace_mesh(HeadFile& head, const HeadFile& mesh_source, const ColourRows&
 std::optional<std::vector<std::uint32_t>> match_vertices_by_corners(
     const Topology& expected, const Topology& found, const Positions& found_positions);
 
-/// Converts all heads to a common mesh if only the export made their meshes different. An export
-/// may change the order of vertices and polygons, triangulate polygons, split vertices at seams,
-/// and join vertices at the same position. The common mesh is the mesh of most heads; its vertices
-/// at seams are joined if any head joins them. Logs each change.
+/// Converts all heads to a common mesh if their meshes differ only in the way they were exported.
+/// An export may change the order of vertices and polygons, triangulate polygons, split vertices at
+/// seams, and join vertices at the same position. The common mesh is the mesh of most heads; its
+/// vertices at seams are joined if any head joins them. Logs each change.
 void convert_to_common_mesh(std::vector<HeadFile>& heads);
 
 }  // namespace crowdface

@@ -71,7 +71,7 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   std::vector<PlacedAttachment> placed;
   if (face.attachments.empty() || skin_ == nullptr) return placed;
   const Positions normals = skin_->normals(positions);
-  for (const ColouredAttachment& coloured : inputs_.attachments.worn_by(face)) {
+  for (const ColouredAttachment& coloured : inputs_.attachments.attachments_of(face)) {
     const BoundMesh& bound =
         bound_meshes_[mesh_of_item_[inputs_.attachments.index(coloured.item->name)]];
     placed.push_back(

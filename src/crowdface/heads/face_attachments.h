@@ -60,13 +60,14 @@ class FaceAttachments {
     std::unique_ptr<const ShapeBend> bend;
   };
   /// Binds the meshes of the wanted attachments to the fitted head.
-  /// \param is_wanted  for each item, whether to bind the attachment
+  /// \param is_wanted  for each attachment of the inputs: whether to bind it
   void bind_meshes(const Config& config, const std::vector<bool>& is_wanted);
 
   const Inputs& inputs_;
   std::unique_ptr<const FittedSkin> skin_;  ///< null if there are no attachments
   std::vector<BoundMesh> bound_meshes_;
-  std::vector<std::size_t> mesh_of_item_;  ///< for each item, an index into `bound_meshes_`
+  /// for each attachment of the inputs: an index into `bound_meshes_`
+  std::vector<std::size_t> mesh_of_item_;
 };
 
 }  // namespace crowdface

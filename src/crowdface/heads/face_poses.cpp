@@ -9,7 +9,7 @@
 #include "crowdface/core/selection.h"
 #include "crowdface/mesh/mirror_map.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/neck/head_turns.h"
+#include "crowdface/neck/head_rotations.h"
 
 namespace crowdface {
 namespace {

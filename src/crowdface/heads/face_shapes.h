@@ -22,14 +22,14 @@ class FaceShapes {
   /// The shapes (expressions) of a face built from a recipe: one for each shape of the inputs, or
   /// none if the inputs have no shapes. If the heads have shapes of their own, each region blends
   /// the shapes of the recipe's source heads with the recipe's weights.
-  /// \param crossing  optional output: the crossing_counts of ShapeTransfer::transfer_to_face
+  /// \param crossing  optional output, see `crossing_counts` of ShapeTransfer::transfer_to_face
   std::vector<Displacements> shapes_of_face(const Recipe& recipe, const Positions& face,
                                             std::vector<Index>* crossing = nullptr) const;
   /// The shapes of an input head.
   std::vector<Displacements> shapes_of_head(Index head) const;
 
-  /// Returns the prerequisite of a corrective shape (see find_prerequisites); nothing if `shape` is
-  /// not corrective.
+  /// Returns the shape with which a corrective shape must be applied (see find_prerequisites);
+  /// nothing if `shape` is not corrective.
   std::optional<std::size_t> prerequisite_of(std::size_t shape) const;
   std::size_t memory_bytes() const;
 
@@ -39,7 +39,8 @@ class FaceShapes {
   std::vector<RegionShares> shares_of(const Recipe& recipe) const;
 
   const Inputs& inputs_;
-  /// the fraction of each blend shape that remains after one smoothing iteration
+  /// one per shape: the fraction of the shape's displacements that remains after one smoothing
+  /// iteration
   std::vector<double> shape_fractions_kept_per_smoothing_iteration_;
   std::unique_ptr<const ShapeTransfer> transfer_;  ///< null if there are no shapes
 };

@@ -11,10 +11,10 @@
 
 namespace crowdface {
 
-/// Finds the stored hash of a file that is about to be read, if the file has not changed since it
-/// was last read. Requires `CacheFolder::skips_hash_of_unchanged_files`. A file counts as unchanged
-/// if device, inode, size, mtime and ctime are the same. (No program can set the ctime.) Without
-/// stored hashes, the program would have to hash gigabytes before it could show anything.
+/// Looks up the hash of a file in the cache, so that a file that has not changed since it was last
+/// read need not be hashed again. Requires `CacheFolder::skips_hash_of_unchanged_files`. A file
+/// counts as unchanged if device, inode, size, mtime and ctime are the same. (No program can set
+/// the ctime.) Hashing gigabytes at every start would keep users of the editor waiting.
 class FileFingerprint {
  public:
   /// \param cache  the cache that stores the fingerprints of files that were read before

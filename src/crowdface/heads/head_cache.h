@@ -16,8 +16,8 @@
 
 namespace crowdface {
 
-/// The fitted smoothed versions (levels) of one head. The fields may lie in a memory-mapped cache
-/// file, so that they use no memory of the process.
+/// The smoothing levels of one head, approximated by fields. The fields may lie in a memory-mapped
+/// cache file, so that they use no memory of the process.
 struct StoredLevels {
   LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
@@ -39,7 +39,7 @@ struct PreparedHead {
 struct HeadCacheSizes {
   Index vertex_count = 0;
   Index sample_count = 0;  ///< number of sample points with a trajectory
-  /// levels (numbers of smoothing iterations) per trajectory
+  /// number of levels per trajectory
   Index levels_per_smoothing_trajectory = 0;
   /// number of levels at which the level functions are interpolated (LevelNodes); unused unless
   /// `levels` is kBasis

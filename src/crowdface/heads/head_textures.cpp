@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "crowdface/core/file.h"
-#include "crowdface/heads/light_of_image.h"
+#include "crowdface/heads/image_values.h"
 
 namespace crowdface {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "crowdface/config/config.h"
 #include "crowdface/core/hash.h"
-#include "crowdface/heads/attachment_textures.h"
+#include "crowdface/heads/head_texture_files.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/texture/crowd_textures.h"
 
@@ -35,8 +35,8 @@ struct HeadTextures {
   CrowdTextures blended;
   std::vector<PictureName> names;  ///< one per image of the layout
 
-  std::vector<TextureSet>
-      texture_sets;  ///< #heads, for renders; empty if surfaces have plain colours
+  /// #heads, for renders; empty if surfaces have plain colours
+  std::vector<TextureSet> texture_sets;
   /// hash of the files read, and of the texture that each polygon of each head uses
   Digest digest;
   std::vector<std::string> warnings;  ///< messages about missing files
@@ -108,7 +108,7 @@ HeadTextures load_render_textures(FoundTextureFiles found, int max_px);
 ///                 memory that is still free for images
 /// \throws InvalidInput if a file is damaged, or is not of the kind that its material says, such as
 ///     a grey image as a normal map.
-HeadTextures load_blended_textures(const HeadSet& heads, const FaceMaterials& materials,
+HeadTextures load_blended_textures(const HeadSet& heads, const PolygonMaterials& materials,
                                    FoundTextureFiles found, std::optional<std::uint64_t> size,
                                    const std::filesystem::path& scratch);
 

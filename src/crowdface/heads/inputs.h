@@ -68,13 +68,13 @@ struct AttachmentSet {
   const Attachment& at(const std::string& name) const { return items[index(name)]; }
   /// Index into `items` of the attachment with this name, which must exist.
   std::size_t index(const std::string& name) const;
-  /// The attachments that a face wears, in their colours.
-  std::vector<ColouredAttachment> worn_by(const FacePlan& face) const;
+  /// The attachments that a face wears, with their colours.
+  std::vector<ColouredAttachment> attachments_of(const FacePlan& face) const;
   /// The attachment with this name, in the colour that suits the hair colour. Has no colour if the
   /// attachment has no tint or `hair` is empty.
   ColouredAttachment coloured(const std::string& name, const std::optional<HairColour>& hair) const;
   /// All attachments in all colours that these faces wear, without duplicates, sorted by name.
-  std::vector<ColouredAttachment> worn_by(std::span<const FacePlan> faces) const;
+  std::vector<ColouredAttachment> attachments_of(std::span<const FacePlan> faces) const;
 };
 
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.
@@ -105,8 +105,8 @@ struct Inputs {
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
   /// colours.
   std::vector<ColourRows> vertex_colours;
-  Digest colours_digest;    ///< hash of `vertex_colours`, if there are any
-  FaceMaterials materials;  ///< material of each polygon of the first head
+  Digest colours_digest;       ///< hash of `vertex_colours`, if there are any
+  PolygonMaterials materials;  ///< material of each polygon of the first head
   Adjacency adjacency;
   Components components;
   PartList parts;  ///< empty for `parts: none`

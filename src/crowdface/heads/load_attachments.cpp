@@ -11,7 +11,7 @@
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/heads_on_body.h"
-#include "crowdface/heads/load_carried.h"
+#include "crowdface/heads/load_transferred.h"
 #include "crowdface/heads/read_heads.h"
 
 namespace crowdface {
@@ -96,16 +96,17 @@ ColouredAttachment AttachmentSet::coloured(const std::string& name,
   return {&item, hair_colour_for(*hair, item.tint)};
 }
 
-std::vector<ColouredAttachment> AttachmentSet::worn_by(const FacePlan& face) const {
+std::vector<ColouredAttachment> AttachmentSet::attachments_of(const FacePlan& face) const {
   std::vector<ColouredAttachment> worn;
   for (const std::string& name : face.attachments) worn.push_back(coloured(name, face.hair));
   return worn;
 }
 
-std::vector<ColouredAttachment> AttachmentSet::worn_by(std::span<const FacePlan> faces) const {
+std::vector<ColouredAttachment> AttachmentSet::attachments_of(
+    std::span<const FacePlan> faces) const {
   std::map<std::string, ColouredAttachment> known;
   for (const FacePlan& face : faces) {
-    for (const ColouredAttachment& coloured : worn_by(face))
+    for (const ColouredAttachment& coloured : attachments_of(face))
       known.emplace(coloured.name(), coloured);
   }
   std::vector<ColouredAttachment> all;

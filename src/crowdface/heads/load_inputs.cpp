@@ -17,7 +17,7 @@
 #include "crowdface/heads/find_levels.h"
 #include "crowdface/heads/head_checks.h"
 #include "crowdface/heads/head_mirror.h"
-#include "crowdface/heads/load_carried.h"
+#include "crowdface/heads/load_transferred.h"
 #include "crowdface/heads/mask_checks.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
@@ -258,7 +258,7 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   take_heads(config, std::move(heads), inputs);
   read_vertex_colours(inputs);
   inputs.materials =
-      face_materials(inputs.head_files[0].materials, inputs.head_set.topology.face_count());
+      polygon_materials(inputs.head_files[0].materials, inputs.head_set.topology.face_count());
   inputs.cache = cache;
   inputs.topology_digest = digest_of_topology(inputs.head_set.topology);
   find_neighbours(inputs);

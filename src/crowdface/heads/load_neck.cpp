@@ -15,12 +15,12 @@
 #include "crowdface/core/units.h"
 #include "crowdface/heads/body_below_neck.h"
 #include "crowdface/heads/heads_on_body.h"
-#include "crowdface/heads/load_carried.h"
+#include "crowdface/heads/load_transferred.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/edge_distances.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/neck/head_turns.h"
+#include "crowdface/neck/head_rotations.h"
 
 namespace crowdface {
 namespace {

@@ -10,7 +10,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/heads_on_body.h"
-#include "crowdface/heads/load_carried.h"
+#include "crowdface/heads/load_transferred.h"
 #include "crowdface/heads/read_heads.h"
 
 namespace crowdface {

@@ -11,7 +11,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/load_carried.h"
+#include "crowdface/heads/load_transferred.h"
 #include "crowdface/io/gltf_rig.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/component_shape.h"

@@ -11,7 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/common_mesh.h"
 #include "crowdface/heads/heads_on_body.h"
-#include "crowdface/heads/load_carried.h"
+#include "crowdface/heads/load_transferred.h"
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/heads/read_heads.h"
 #include "crowdface/mesh/all_columns.h"

@@ -48,7 +48,7 @@ std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, Text
 
 std::vector<PictureName> picture_names(const FoundTextureFiles& found,
                                        const std::vector<PictureSource>& pictures,
-                                       const FaceMaterials& materials) {
+                                       const PolygonMaterials& materials) {
   std::map<fs::path, std::string> parts;
   std::set<std::string> taken;
   for (const PictureSource& picture : pictures) {

@@ -3,14 +3,15 @@
 
 #include <vector>
 
-#include "crowdface/heads/attachment_textures.h"
+#include "crowdface/heads/head_texture_files.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/io/obj_file.h"
 #include "crowdface/texture/surface_texels.h"
 
 namespace crowdface {
 
-/// The first head and polygon that use an image of the layout.
+/// Where an image of the layout comes from: the first head that uses the image, and that head's
+/// first polygon with it.
 struct PictureSource {
   std::size_t head = 0;
   std::uint32_t file_index = 0;  ///< index of the image file in the head's `files`
@@ -26,6 +27,6 @@ std::vector<PictureSource> lay_out_pictures(const FoundTextureFiles& found, Text
 /// \param pictures  result of lay_out_pictures
 std::vector<PictureName> picture_names(const FoundTextureFiles& found,
                                        const std::vector<PictureSource>& pictures,
-                                       const FaceMaterials& materials);
+                                       const PolygonMaterials& materials);
 
 }  // namespace crowdface

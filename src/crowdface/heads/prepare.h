@@ -30,7 +30,7 @@ struct PreparedHeads {
   std::vector<StoredLevels> levels;      ///< #heads; with `levels: exact`, all are empty
   /// the nodes to which the rows of StoredLevels::function_coefficients belong, for all heads
   std::shared_ptr<const LevelNodes> nodes;
-  CachedPatches patches;                  ///< all heads' fields; empty with `levels: exact`
+  CachedPatches patches;  ///< fields of all heads, grouped by patches; empty with `levels: exact`
   std::optional<ChebyshevFilter> filter;  ///< only with `levels: exact`
   std::size_t cached_head_count = 0;      ///< number of heads found in the cache
 };

@@ -23,8 +23,8 @@
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
+#include "crowdface/io/outward_polygons.h"
 #include "crowdface/io/read_mesh.h"
-#include "crowdface/io/right_side_out.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/winding.h"
 

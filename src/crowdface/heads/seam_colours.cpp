@@ -116,7 +116,7 @@ bool SeamColours::has_colours() const {
                              [](const Positions& rows) { return rows.rows() > 0; });
 }
 
-Positions SeamColours::blend(const std::vector<double>& weights, Index rows) const {
+OpticalDensities SeamColours::blend(const std::vector<double>& weights, Index rows) const {
   double sum = 0;
   for (std::size_t h = 0; h < head_optical_densities_.size(); ++h) {
     if (head_optical_densities_[h].rows() > 0) sum += weights[h];
@@ -132,7 +132,7 @@ Positions SeamColours::blend(const std::vector<double>& weights, Index rows) con
   return blended / total;
 }
 
-Positions SeamColours::optical_densities_at_ring(const std::vector<double>& weights) const {
+OpticalDensities SeamColours::optical_densities_at_ring(const std::vector<double>& weights) const {
   return blend(weights, ring_size_);
 }
 

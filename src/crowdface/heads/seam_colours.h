@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "crowdface/heads/inputs.h"
+#include "crowdface/texture/optical_density.h"
 #include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
@@ -22,22 +23,22 @@ class SeamColours {
   /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
   /// \param weights  one per head; heads without colours are left out. If all weights are zero, all
   ///                 heads get equal weights
-  Positions optical_densities_at_ring(const std::vector<double>& weights) const;
+  OpticalDensities optical_densities_at_ring(const std::vector<double>& weights) const;
   /// Mean colour of the band, linear light.
   Eigen::Array3d mean_colour(const std::vector<double>& weights) const;
 
  private:
-  /// The weighted mean of the heads' optical densities at the first `rows` of the `vertices_`.
-  Positions blend(const std::vector<double>& weights, Index rows) const;
+  /// The weighted mean of the heads' optical densities at the first `rows` entries of `vertices_`.
+  OpticalDensities blend(const std::vector<double>& weights, Index rows) const;
 
-  /// the vertices of the band: first those of the neck ring, then all others
+  /// the vertices of the band: first the vertices of the neck ring, then all others
   std::vector<std::uint32_t> vertices_;
   Index ring_size_ = 0;  ///< number of vertices in the ring
   /// area around each of the `vertices_`, as a fraction of the band's area
   std::vector<double> areas_;
   /// for each head, the optical densities of its colours at the `vertices_`, #vertices_ by 3; no
   /// rows if unknown
-  std::vector<Positions> head_optical_densities_;
+  std::vector<OpticalDensities> head_optical_densities_;
 };
 
 }  // namespace crowdface

@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Data computed from all heads together. The computation takes about a second per million vertices,
-// so the data is looked up in the cache first. Nothing is cached for small heads.
+// SPDX-License-Identifier: Apache-2.0 Computes data from all heads together. Because this takes
+// about a second per million vertices, the results for large heads are cached.
 #pragma once
 
 #include "crowdface/cast/sample_cells.h"

@@ -13,9 +13,9 @@
 
 namespace crowdface {
 
-/// The complete content of a file to be written, as a list of byte ranges. Data that is the same in
-/// all files (texture coordinates, polygons) is referenced in place. The object allocates memory
-/// only for the other data.
+/// The complete content of a file to be written, as a list of byte ranges. Data that many files
+/// share (texture coordinates, polygons) is referenced in place; memory is allocated only for the
+/// data of this file.
 class EncodedFile {
  public:
   EncodedFile() = default;

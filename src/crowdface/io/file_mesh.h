@@ -11,6 +11,7 @@
 
 #include "crowdface/io/obj_scan.h"
 #include "crowdface/io/texture_kind.h"
+#include "crowdface/mesh/colour_rows.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
@@ -25,12 +26,13 @@ struct MeshTexture {
 /// A mesh as read from a file of any format. Vertices and polygons have the order of the file;
 /// positions have the unit and axes of the file.
 struct FileMesh : Mesh {
-  Positions colours;                     ///< #V by 3, sRGB from 0 to 1; or no rows
+  ColourValues colours;                  ///< #V by 3, sRGB from 0 to 1; or no rows
   std::vector<MaterialRange> materials;  ///< ranges of polygons, ascending; may be empty
-  /// For each vertex, the index of its mesh among the meshes of the file. Only for formats that
-  /// split vertices at seams; empty for other formats.
+  /// For each vertex, the index of its mesh in the file. Empty for formats that do not split
+  /// vertices at seams.
   std::vector<std::uint32_t> mesh_of_vertex;
-  /// For each vertex, the id of the vertex before the split. Empty if the file has no ids.
+  /// For each vertex, the id of the unsplit vertex of which it is a copy. Empty if the file has no
+  /// ids.
   std::vector<std::uint32_t> vertex_ids;
   std::vector<MeshTexture> textures;  ///< textures of the materials
   /// Base colours of materials in linear light, for formats without material files.
@@ -48,7 +50,7 @@ struct FileMesh : Mesh {
 void set_vertex_data(FileMesh& mesh, const std::vector<double>& points,
                      const std::vector<double>& uvs, const std::vector<double>& colours);
 
-/// The text of a note that the blend shapes in a mesh file are ignored, because the program reads
+/// The text of a note that says that blend shapes inside a mesh file are ignored: the program reads
 /// each blend shape from a separate mesh file (docs/shapes.md).
 inline std::string shapes_note(std::size_t count, std::string_view kind) {
   return "its " + std::to_string(count) + ' ' + std::string(kind) +

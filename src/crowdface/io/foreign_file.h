@@ -12,12 +12,13 @@ namespace crowdface {
 /// \throws InvalidInput with the kind of file found and how to obtain the mesh.
 void refuse_non_mesh_file(std::string_view bytes, const std::filesystem::path& path);
 
-/// For a file that a browser, a server or Git stored instead of the wanted file, returns a text that
-/// says what the file is and how to obtain the wanted file. Returns an empty text for other files.
+/// For a file that a browser, a server or Git stored instead of the wanted file, returns a text
+/// that says what the file is and how to obtain the wanted file. Returns an empty text for other
+/// files.
 std::string_view describe_failed_download(std::string_view bytes);
 
-/// For a NumPy archive of several arrays (.npz), returns a text that says what the file is and how to
-/// save each array in a file of its own. Returns an empty text for other files.
+/// For a NumPy archive of several arrays (.npz), returns a text that says what the file is and how
+/// to save each array in a file of its own. Returns an empty text for other files.
 std::string describe_numpy_archive(std::string_view bytes, const std::filesystem::path& path);
 
 /// Returns advice for an error message: how to correct a mesh file that contains `word` where a

@@ -38,11 +38,10 @@ struct GlbOverlay {
   std::vector<std::array<std::uint16_t, 2>> uvs;
 };
 
-/// A morph target that every file has: its name, and (in ascending order) the vertices that it
-/// moves.
+/// A morph target (blend shape) that every file has.
 struct GlbMorphTarget {
   std::string name;
-  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> vertices;  ///< the vertices that the target moves, ascending
 };
 
 /// An image with different content in the file of each face.
@@ -51,7 +50,7 @@ struct GlbFaceImage {
   std::string suffix;  ///< end of the image's name, after the mesh's name, such as ".normal"
 };
 
-/// The content that the GLB files of all faces have in common. Also used for USD layers.
+/// The content that the GLB files (or USD layers) of all faces have in common.
 struct GlbOptions {
   /// Length unit of the positions; the file's root node scales the positions to metres.
   LengthUnit unit = LengthUnit::kMetre;
@@ -61,7 +60,7 @@ struct GlbOptions {
   std::vector<GlbMaterial> materials;
   bool has_colours = false;  ///< whether each file has its own vertex colours
   /// for each polygon, the index of its material in `materials`; empty if there are no materials
-  std::vector<std::uint32_t> face_materials;
+  std::vector<std::uint32_t> polygon_materials;
   std::vector<GlbMorphTarget> targets;
   /// Names of the points. Each point is an empty child node of the face's node. The positions of
   /// the points differ from face to face.

@@ -49,7 +49,7 @@ void add_targets(std::span<const Displacements> moves, std::span<const std::uint
 
 GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
                  const std::vector<GlbPartMaterial>& materials,
-                 const std::vector<std::uint32_t>& face_materials,
+                 const std::vector<std::uint32_t>& polygon_materials,
                  const std::vector<GlbImage>& images, const CompressedRows<Influence>& influences,
                  std::vector<std::string> targets, GivenNormals fixed)
     : name_(std::move(name)),
@@ -58,8 +58,9 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
       materials_(materials),
       targets_(std::move(targets)),
       given_normals_(std::move(fixed)) {
-  require(!materials.empty() && static_cast<Index>(face_materials.size()) == topology.face_count(),
-          "GlbPart: a material of each face");
+  require(
+      !materials.empty() && static_cast<Index>(polygon_materials.size()) == topology.face_count(),
+      "GlbPart: a material of each face");
   const SplitVertices split = split_vertices(topology);
   source_vertices_ = split.vertices;
   has_uvs_ = !split.uvs.empty() && uvs.rows() > 0;
@@ -70,7 +71,7 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   for (std::size_t m = 0; m < materials.size(); ++m) {
     std::size_t indices = 0;
     for (std::size_t t = 0; t < split.triangles.size(); ++t) {
-      if (face_materials[split.triangle_faces[t]] != m) continue;
+      if (polygon_materials[split.triangle_faces[t]] != m) continue;
       for (const std::uint32_t vertex : split.triangles[t]) append_number(shared_data_, vertex);
       indices += 3;
     }

@@ -44,21 +44,20 @@ struct GlbImage {
 };
 
 /// An additional mesh, such as hair, in the GLB files of faces, with its own topology, materials
-/// and images. The node of the additional mesh is a child of the face's node. Like a `GlbTemplate`,
-/// the object is prepared once; for each face it writes only the positions, the normals and the
-/// displacements of the morph targets.
+/// and images. Its node is a child of the face's node. Like a `GlbTemplate`, this object is built
+/// once; for each face, only positions, normals and displacements of the morph targets are written.
 class GlbPart {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
   /// \param materials  at least one.
-  /// \param face_materials  for each polygon, the index of its material in `materials`.
+  /// \param polygon_materials  for each polygon, the index of its material in `materials`.
   /// \param influences  for each vertex, the weights of the rig's joints; empty if the mesh is not
   ///                    skinned.
   /// \param targets  names of the morph targets.
   /// \param fixed  vertices whose normals are given and not computed from the mesh.
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
           const std::vector<GlbPartMaterial>& materials,
-          const std::vector<std::uint32_t>& face_materials, const std::vector<GlbImage>& images,
+          const std::vector<std::uint32_t>& polygon_materials, const std::vector<GlbImage>& images,
           const CompressedRows<Influence>& influences = {}, std::vector<std::string> targets = {},
           GivenNormals fixed = {});
 

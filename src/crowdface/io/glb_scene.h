@@ -86,10 +86,12 @@ class GlbBuffer {
 /// \param uvs  v upwards as in OBJ.
 std::string encoded_texture_coordinates(const SplitVertices& split, const TextureCoordinates& uvs);
 
-/// The split vertices that one glTF morph target moves, and the displacement of each.
+/// The split vertices that one glTF morph target moves, and their rows in the target's
+/// displacements.
 struct GlbMorphRows {
-  std::vector<std::uint32_t> rows;      ///< indices into the morph target's displacements
-  std::vector<std::uint32_t> vertices;  ///< the split vertex of each row, ascending
+  /// one per moved split vertex: its row in the morph target's displacements
+  std::vector<std::uint32_t> rows;
+  std::vector<std::uint32_t> vertices;  ///< the moved split vertices, ascending
   /// whether the morph target moves every vertex of the mesh
   bool moves_all_vertices = false;
 };

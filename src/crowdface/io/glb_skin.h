@@ -20,7 +20,7 @@ struct Influence {
   float weight;         ///< the weights of a vertex add up to one
 };
 
-/// A joint of the rig that all files share. Only the joint's position differs from face to face.
+/// A joint of the rig. All files share the joint; only its position differs from face to face.
 struct GlbJoint {
   std::string name;
   std::uint32_t parent;      ///< index of the parent joint; kNoIndex: no parent

@@ -36,7 +36,7 @@ std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions&
   std::vector<Triangles> groups(std::max<std::size_t>(1, options.materials.size()));
   for (std::size_t t = 0; t < split.triangles.size(); ++t) {
     const std::size_t material =
-        options.face_materials.empty() ? 0 : options.face_materials[split.triangle_faces[t]];
+        options.polygon_materials.empty() ? 0 : options.polygon_materials[split.triangle_faces[t]];
     groups.at(material).push_back(split.triangles[t]);
   }
   return groups;

@@ -79,7 +79,9 @@ class GltfFile {
   std::string_view binary_;  ///< the binary chunk of a GLB file; empty for JSON text
   /// contents of the buffers that have a URI and of the compressed buffer views, by index
   std::map<std::size_t, std::string> decoded_buffers_, decoded_views_;
-  std::size_t remaining_numbers_ = 0;  ///< how many more numbers may be read from this file
+  /// how many more numbers may be read from this file, so that a small hostile file cannot exhaust
+  /// memory
+  std::size_t remaining_numbers_ = 0;
 };
 
 /// A matrix from 16 numbers in column-major order.

@@ -62,7 +62,7 @@ struct ImageLimits {
   std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
   /// Whether to accept JPEG; true for colour textures, false for masks.
   bool allows_jpeg = false;
-  /// Whether crowdface wrote the file. If so, `input_limits()` does not apply.
+  /// Whether crowdface itself wrote the file, so that `input_limits()` does not apply.
   bool is_crowdface_file = false;
 };
 

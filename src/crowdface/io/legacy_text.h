@@ -13,7 +13,8 @@ namespace crowdface {
 std::vector<std::string> legacy_decodings(std::string_view bytes);
 
 /// Converts the content of a text file to UTF-8 without a byte-order mark, and turns single CR line
-/// ends into LF. Reads UTF-16 only after a byte-order mark. Returns an empty text for invalid UTF-16.
+/// ends into LF. Reads UTF-16 only after a byte-order mark. Returns an empty text for invalid
+/// UTF-16.
 std::string plain_text(std::string_view bytes);
 
 /// Like plain_text, but also converts text that is not UTF-8: from GBK (GB 18030) or Shift-JIS if

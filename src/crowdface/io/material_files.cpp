@@ -181,8 +181,8 @@ class Collector {
     return is_new;
   }
 
-  /// Finds the file for a path that has backslashes, differs in case, or comes from another machine.
-  /// Tries the path with forward slashes, then the path's file name in the mesh's folder.
+  /// Finds the file for a path that has backslashes, differs in case, or comes from another
+  /// machine. Tries the path with forward slashes, then the path's file name in the mesh's folder.
   std::optional<fs::path> library_beside(std::string_view text) {
     for (const std::string& name : possible_names(text)) {
       const fs::path path = with_forward_slashes(name);

@@ -37,7 +37,7 @@ class MergedMaterials {
     std::string text;       ///< the whole line
     std::string keyword;    ///< the first word; empty: no statement
     std::string arguments;  ///< the line after the first word
-    std::string material;   ///< name of the material that the line describes
+    std::string material;   ///< name of the material to which the line belongs
   };
   std::vector<Line> lines_;
 };

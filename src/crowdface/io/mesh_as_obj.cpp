@@ -9,8 +9,8 @@
 #include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
 #include "crowdface/io/obj_writer.h"
+#include "crowdface/io/outward_polygons.h"
 #include "crowdface/io/read_mesh.h"
-#include "crowdface/io/right_side_out.h"
 
 namespace crowdface {
 

@@ -45,9 +45,10 @@ struct MeshFormatTraits {
   std::string_view name;        ///< name in the config: "points"
   std::string_view extension;   ///< ".npy"
   std::string_view report_key;  ///< key of the face's file in report.json
-  bool has_polygons;            ///< whether the file stores polygons; levels of detail need them
-  bool has_material_file;       ///< whether the file refers to an MTL file
-  FileNormals normals;          ///< for which meshes the encoder must be given normals
+  /// whether the file stores polygons, without which there are no levels of detail
+  bool has_polygons;
+  bool has_material_file;  ///< whether the file refers to an MTL file
+  FileNormals normals;     ///< for which meshes the encoder must be given normals
   DataStorage shapes, attachments, textures;  ///< where the format stores these data
   /// Function that reads the positions from the file of one face. Null if the format does not keep
   /// the vertex order.

@@ -48,11 +48,11 @@ bool add_polypaint(std::string_view line, std::vector<std::uint8_t>& colours) {
 
 }  // namespace
 
-ColourRows byte_colours(const Positions& fractions) {
+ColourRows byte_colours(const ColourValues& fractions) {
   return (kMaxColourByte * fractions.array()).round().matrix().cast<std::uint8_t>();
 }
 
-Positions colour_fractions(const ColourRows& colours) {
+ColourValues colour_fractions(const ColourRows& colours) {
   return colours.cast<double>() / kMaxColourByte;
 }
 

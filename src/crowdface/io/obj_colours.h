@@ -13,9 +13,9 @@
 namespace crowdface {
 
 /// Converts sRGB colours from fractions (0 to 1) to bytes.
-ColourRows byte_colours(const Positions& fractions);
+ColourRows byte_colours(const ColourValues& fractions);
 /// Converts sRGB colours from bytes to fractions (0 to 1).
-Positions colour_fractions(const ColourRows& colours);
+ColourValues colour_fractions(const ColourRows& colours);
 
 /// If no colour value of a mesh exceeds this number, the values are fractions, and values above 1
 /// are clamped to 1; otherwise they are bytes from 0 to 255.

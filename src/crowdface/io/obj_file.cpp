@@ -168,8 +168,8 @@ ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile fil
   return result;
 }
 
-FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index face_count) {
-  FaceMaterials result;
+PolygonMaterials polygon_materials(const std::vector<MaterialRange>& ranges, Index face_count) {
+  PolygonMaterials result;
   std::map<std::string_view, std::uint32_t> rows;
   const auto use = [&](std::string_view name, Index begin, Index end) {
     if (begin == end) return;

@@ -55,7 +55,7 @@ ObjFile read_obj_of_known_mesh(const std::filesystem::path& path, MappedFile fil
                                const ObjSummary& summary);
 
 /// The materials of a mesh, and the material of each polygon ("face").
-struct FaceMaterials {
+struct PolygonMaterials {
   /// unique names, in order of their first use by a polygon; the name "" stands for no material
   std::vector<std::string> names;
   std::vector<std::uint32_t> material_of_polygon;  ///< for each polygon, an index into `names`
@@ -63,6 +63,6 @@ struct FaceMaterials {
 
 /// Returns the material of each polygon.
 /// \param ranges  the ranges of polygons with equal material, as an OBJ file lists them.
-FaceMaterials face_materials(const std::vector<MaterialRange>& ranges, Index face_count);
+PolygonMaterials polygon_materials(const std::vector<MaterialRange>& ranges, Index face_count);
 
 }  // namespace crowdface

@@ -50,7 +50,8 @@ class ObjTemplate {
   std::size_t encoding_memory_bytes() const;
 
  private:
-  /// The range of the text that holds the numbers of one `v` or `vn` line.
+  /// The range of the text that holds the numbers of one `v` or `vn` line. `row` counts the `v`
+  /// lines or the `vn` lines from 0.
   struct NumberRange {
     std::uint64_t begin = 0;
     std::uint32_t length = 0;
@@ -89,7 +90,7 @@ class ObjTemplate {
   std::vector<Block> blocks_;
   /// The normals whose values are given: index of the `vn` line among the `vn` lines, and value.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> given_normals_;
-  /// For each `vn` line, the polygons that use the line; nothing if no polygon uses normals.
+  /// For each `vn` line, the polygons whose corners use it; nothing if no polygon uses normals.
   std::optional<NormalFans> fans_;
   std::size_t buffer_size_ = 0;  ///< upper bound of the output's length
 };

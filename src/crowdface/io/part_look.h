@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// The tint and the texture that an additional mesh has in the file of one face.
+/// What an additional mesh, such as hair, looks like on one face: its tint and its texture.
 struct PartLook {
   /// Factors by which the materials' colours are multiplied, linear RGB.
   std::array<float, 3> tint = {1, 1, 1};

@@ -8,8 +8,8 @@ namespace crowdface {
 /// libraries have the same place relative to the program in the build folder and after
 /// installation.
 /// \param library  "libcrowdface_images.so"; loaded at the first call, and never unloaded.
-/// \param dependents_phrase  what needs the libraries, such as "images need (OpenImageIO)". The
-///     phrase completes the error message "the libraries that … cannot be started".
+/// \param dependents_phrase  completes the error message "the libraries that … cannot be started",
+///     for example with "images need (OpenImageIO)".
 /// \param failure_phrase  beginning of all other error messages, such as "images cannot be read".
 /// \throws IoError if the library is missing from its installed place, cannot be loaded, or lacks
 ///     the function.

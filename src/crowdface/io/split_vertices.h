@@ -17,12 +17,13 @@ namespace crowdface {
 struct SplitVertices {
   /// The original vertex of each split vertex. For i < #V, vertices[i] is i.
   std::vector<std::uint32_t> vertices;
-  /// for each split vertex, its row in the texture coordinates, or kNoIndex; empty if the mesh has
-  /// no texture coordinates
+  /// for each split vertex: a row of the texture coordinates, or kNoIndex; empty if the mesh has no
+  /// texture coordinates
   std::vector<std::uint32_t> uvs;
-  /// Triangles of all polygons in order; each polygon is a fan around its first corner.
+  /// Triangles of all polygons in order, as indices of split vertices. Each polygon becomes a fan
+  /// around its first corner.
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<std::uint32_t> triangle_faces;  ///< index of the polygon that contains each triangle
+  std::vector<std::uint32_t> triangle_faces;  ///< for each triangle: the polygon that it is part of
 };
 
 /// Splits the vertices of a topology and triangulates its polygons.

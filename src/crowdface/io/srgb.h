@@ -23,9 +23,9 @@ inline double linear_of_srgb(double value) {
 
 /// Converts vertex colours from sRGB bytes to linear light (#V by 3, 0 to 1), as GLB and USD store
 /// vertex colours.
-inline Positions linear_light(const ColourRows& colours) {
+inline ColourValues linear_light(const ColourRows& colours) {
   constexpr double kMaxByte = 255;
-  Positions linear(colours.rows(), 3);
+  ColourValues linear(colours.rows(), 3);
   for (Index i = 0; i < colours.size(); ++i) {
     linear.data()[i] = linear_of_srgb(colours.data()[i] / kMaxByte);
   }

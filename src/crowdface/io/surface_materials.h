@@ -25,8 +25,8 @@ struct SurfaceMaterial {
 /// \param files  result of `find_material_files`.
 std::vector<SurfaceMaterial> read_surface_materials(const MaterialFiles& files);
 
-/// Returns one material for each name: the first material with this name in the files, or a default
-/// material if the files define no material with this name.
+/// Returns the first material in the files with each of these names, or a default material if there
+/// is none.
 std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
                                                   const MaterialFiles& files);
 

@@ -7,8 +7,8 @@
 
 namespace crowdface {
 
-/// Numbers of UDIM texture tiles. The tiles are unit squares in rows of ten. kFirstTile is the
-/// number of the tile at the origin; kLastTile is the largest four-digit number.
+/// Numbers of UDIM tiles: unit squares of texture space, in rows of ten. kFirstTile is the tile at
+/// the origin; kLastTile is the largest four-digit number.
 inline constexpr int kFirstTile = 1001, kLastTile = 9999;
 
 /// The number of a tile: kFirstTile + column + 10 · row.

@@ -50,8 +50,9 @@ UsdaMesh::UsdaMesh(const Topology& topology, const TextureCoordinates& uvs, cons
              subdivision_ == Subdivision::kNone ? "none" : "catmullClark", "\"\n");
   std::vector<std::vector<std::uint32_t>> of_material(options.materials.size());
   for (Index f = 0; f < topology.face_count() && !of_material.empty(); ++f) {
-    const std::size_t material =
-        options.face_materials.empty() ? 0 : options.face_materials[static_cast<std::size_t>(f)];
+    const std::size_t material = options.polygon_materials.empty()
+                                     ? 0
+                                     : options.polygon_materials[static_cast<std::size_t>(f)];
     of_material[material].push_back(static_cast<std::uint32_t>(f));
   }
   UsdaNames names, beside;  // `beside` holds subsets and shapes, which are siblings

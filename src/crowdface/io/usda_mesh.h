@@ -32,7 +32,7 @@ class UsdaMesh {
     std::vector<std::string> materials = {};  ///< names of the materials; may be empty
     /// for each polygon, the index of its material in `materials`; empty: all polygons use the
     /// first material
-    std::vector<std::uint32_t> face_materials = {};
+    std::vector<std::uint32_t> polygon_materials = {};
     /// Blend shapes, each with the vertices that it moves. If the vertices of a blend shape differ
     /// from face to face, its list here is empty.
     std::vector<GlbMorphTarget> targets = {};
@@ -81,7 +81,7 @@ class UsdaMesh {
   std::string shared_text_;
   /// prim names of the materials; empty for a material that no polygon uses
   std::vector<std::string> materials_;
-  std::vector<std::string> subsets_;  ///< for each material, the text that lists its polygons
+  std::vector<std::string> subsets_;  ///< one per material: the text that lists its polygons
   std::vector<std::string> shapes_;   ///< prim names of the blend shapes
   std::vector<std::string> quoted_shape_names_;
   /// for each blend shape, the text of its vertex list; "" if the list differs from face to face

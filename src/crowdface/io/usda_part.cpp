@@ -10,9 +10,9 @@ namespace crowdface {
 namespace {
 
 UsdaMesh::Options mesh_options_of(const std::vector<UsdaPart::Material>& materials,
-                                  std::vector<std::uint32_t> face_materials,
+                                  std::vector<std::uint32_t> polygon_materials,
                                   const std::vector<std::string>& targets) {
-  UsdaMesh::Options options{.face_materials = std::move(face_materials)};
+  UsdaMesh::Options options{.polygon_materials = std::move(polygon_materials)};
   for (const UsdaPart::Material& material : materials) options.materials.push_back(material.name);
   for (const std::string& target : targets) options.targets.push_back({target, {}});
   return options;
@@ -22,12 +22,12 @@ UsdaMesh::Options mesh_options_of(const std::vector<UsdaPart::Material>& materia
 
 UsdaPart::UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
                    const std::vector<Material>& materials,
-                   std::vector<std::uint32_t> face_materials,
+                   std::vector<std::uint32_t> polygon_materials,
                    const std::vector<std::string>& targets, GivenNormals fixed)
     : name_(std::move(name)),
       topology_(topology),
       fans_(topology_),
-      mesh_(topology_, uvs, mesh_options_of(materials, std::move(face_materials), targets)),
+      mesh_(topology_, uvs, mesh_options_of(materials, std::move(polygon_materials), targets)),
       given_normals_(std::move(fixed)) {
   for (const Material& material : materials) surfaces_.push_back(material.surface);
 }

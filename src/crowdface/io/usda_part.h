@@ -31,11 +31,11 @@ class UsdaPart {
   /// \param name  prim name, unique among parts.
   /// \param uvs  #T by 2; may be empty.
   /// \param materials  at least one.
-  /// \param face_materials  for each polygon, the index of its material in `materials`.
+  /// \param polygon_materials  for each polygon, the index of its material in `materials`.
   /// \param targets  names of the blend shapes of the face's mesh.
   /// \param fixed  vertices with given normals.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
-           const std::vector<Material>& materials, std::vector<std::uint32_t> face_materials,
+           const std::vector<Material>& materials, std::vector<std::uint32_t> polygon_materials,
            const std::vector<std::string>& targets, GivenNormals fixed = {});
 
   /// Adds the Mesh prim of the part below the root prim. The file references memory of this object.

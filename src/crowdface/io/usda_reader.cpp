@@ -64,9 +64,9 @@ bool varies(const PrimProperty& primvar, std::size_t width) {
           primvar.interpolation == "varying");
 }
 
-/// Ranks a primvar by how likely it holds texture coordinates; lower is likelier. Rank 0 is the name
-/// that USD recommends, rank 1 are the usual names of other programs. Used only for meshes whose
-/// materials name no primvar.
+/// Ranks a primvar by how likely it holds texture coordinates; lower is likelier. Rank 0 is the
+/// name that USD recommends, rank 1 are the usual names of other programs. Used only for meshes
+/// whose materials name no primvar.
 int rank_of_uvs(std::string_view type, std::string_view primvar) {
   const std::string name = lower_case(primvar.substr(primvar.find(':') + 1));
   if (name == "st") return 0;
@@ -416,8 +416,8 @@ class UsdaReader {
     return path.empty() || found == material.shaders.end() ? nullptr : &*found;
   }
 
-  /// The value of a shader's input. If the input is connected to an input of the material, the value
-  /// of that input.
+  /// The value of a shader's input. If the input is connected to an input of the material, the
+  /// value of that input.
   static std::string_view input_text(const Prim& material, const Prim& shader,
                                      std::string_view input) {
     const std::string_view own = text_of(shader, input);

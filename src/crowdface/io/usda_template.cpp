@@ -45,7 +45,8 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
   std::vector<std::uint32_t> vertices = {kNoIndex};  // vertex of each coordinate
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto at = static_cast<std::size_t>(f);
-    const std::size_t material = options.face_materials.empty() ? 0 : options.face_materials[at];
+    const std::size_t material =
+        options.polygon_materials.empty() ? 0 : options.polygon_materials[at];
     if (!options.materials[material].uses_overlay) continue;
     for (const std::uint32_t v : topology.face(f)) {
       if (places[v] != 0) continue;
@@ -86,7 +87,7 @@ UsdaMesh mesh_of(const Topology& topology, const TextureCoordinates& uvs, const 
                  Subdivision subdivision) {
   if (topology.face_count() == 0) throw InvalidInput("USD: expected a mesh with faces");
   UsdaMesh::Options mesh_options{.subdivision = subdivision,
-                                 .face_materials = options.face_materials,
+                                 .polygon_materials = options.polygon_materials,
                                  .targets = options.targets};
   for (const GlbMaterial& material : options.materials) {
     mesh_options.materials.push_back(material.name);

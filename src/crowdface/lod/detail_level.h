@@ -11,13 +11,14 @@
 namespace crowdface {
 
 /// A level of detail: a mesh with fewer triangles, whose vertices are a subset of the whole mesh's
-/// vertices. All faces of a crowd have the same topology at one level. So a face or a shape at this
-/// level consists of some rows of the whole face or shape.
+/// vertices. At each level, all faces of a crowd have the same topology, so a face or a shape at
+/// this level is a selection of rows of the whole face or shape.
 struct DetailLevel {
   double share = 1;  ///< requested number of triangles, as a fraction of the whole mesh's triangles
   /// indices of the level's vertices in the whole mesh, ascending
   std::vector<std::uint32_t> vertices;
-  Topology topology;  ///< triangles, whose indices are rows of `vertices` and of `uvs`
+  /// triangles; vertex v of the level is vertex `vertices[v]` of the whole mesh
+  Topology topology;
   /// a subset of the rows of the whole mesh's texture coordinates; may be empty
   TextureCoordinates uvs;
   /// for each triangle, a polygon of the whole mesh that has the same material

@@ -26,7 +26,7 @@ Adjacency build_adjacency(const Topology& topology);
 /// Components are numbered in the order of their first vertices. An isolated vertex is its own
 /// component.
 struct Components {
-  std::vector<std::uint32_t> component_of_vertex;  ///< the component of each vertex
+  std::vector<std::uint32_t> component_of_vertex;  ///< one per vertex: index of its component
   std::vector<std::uint32_t> sizes;                ///< number of vertices in each component
   Index count() const { return static_cast<Index>(sizes.size()); }
   /// Number of the component with the most vertices. On a head, this component is the skin.

@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// Displacements of some vertices of a mesh; all other vertices stay in place.
 struct Displacements {
-  std::vector<std::uint32_t> vertices;  ///< the displaced vertices, ascending
+  std::vector<std::uint32_t> vertices;  ///< indices of the displaced vertices, ascending
   /// #vertices by 3: displacement of each vertex in `vertices`
   Positions moves;
 

@@ -25,8 +25,8 @@ class EdgeDistances {
   void search(std::span<const std::uint32_t> sources,
               double limit = std::numeric_limits<double>::infinity());
 
-  /// Finds only the distances from one source to the goals. Skips each vertex through which no path
-  /// of length `limit` or less can lead to a goal. Stops when all goals are reached.
+  /// Finds the distances from one source to the goals only, as far as they are at most `limit`.
+  /// Skips vertices from which no goal can be reached within this limit.
   void search_for(std::uint32_t source, std::span<const std::uint32_t> goals, double limit);
 
   /// Distance from the nearest source to a vertex; infinite if the search did not reach the vertex.
@@ -58,8 +58,8 @@ class EdgeDistances {
   std::vector<double> distances_;
   /// for each vertex, the nearest source found so far, as an index into the list of sources
   std::vector<std::uint32_t> sources_;
-  std::vector<std::uint32_t> reached_;  ///< the settled vertices, nearest first
-  std::vector<std::uint32_t> touched_;  ///< the vertices whose distance is finite
+  std::vector<std::uint32_t> reached_;  ///< indices of the settled vertices, nearest first
+  std::vector<std::uint32_t> touched_;  ///< indices of the vertices whose distance is finite
   std::vector<bool> settled_;           ///< #V
   std::vector<QueueEntry> queue_;       ///< a heap; the nearest vertex comes first
 };

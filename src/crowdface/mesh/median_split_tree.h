@@ -8,11 +8,10 @@
 
 namespace crowdface {
 
-/// The tree of a bounding volume hierarchy, without the boxes. Each inner node splits its points at
-/// the median of the axis along which the points extend farthest. The code that uses the tree
-/// stores the boxes of the nodes. Casting plans and mesh operations use this tree instead of
-/// Embree, because the last bits of Embree's results depend on the processor. Rendering uses
-/// Embree.
+/// The tree of a bounding volume hierarchy, without bounding boxes. Each inner node splits its
+/// points at the median of the axis along which the points extend farthest. The users of the tree
+/// store the boxes of the nodes. Casting plans and mesh operations use this tree instead of Embree,
+/// because the last bits of Embree's results depend on the processor. Rendering uses Embree.
 struct MedianSplitTree {
   struct Node {
     std::uint32_t begin, end;  ///< range in `order`; begin is a multiple of the leaf size
@@ -25,8 +24,9 @@ struct MedianSplitTree {
   using Points =
       Eigen::Ref<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-  std::vector<std::uint32_t> order;  ///< rows of the points; the rows of a node are contiguous
-  std::vector<Node> nodes;           ///< parents before their children; empty if there are no rows
+  /// row indices of the points, ordered so that the rows of each node are contiguous
+  std::vector<std::uint32_t> order;
+  std::vector<Node> nodes;  ///< parents before their children; empty if there are no rows
 
   MedianSplitTree() = default;
   /// \param rows       rows of `points` that the tree holds.

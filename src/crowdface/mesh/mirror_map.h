@@ -24,7 +24,8 @@ struct MirrorPlane {
 /// linear map of positions for all heads.
 struct MirrorMap {
   MirrorPlane plane;
-  std::vector<Triangle> corners;  ///< the triangle that holds the mirror point of each vertex
+  /// one per vertex: the vertex indices of the triangle that contains its mirror point
+  std::vector<Triangle> corners;
   /// for each vertex, the barycentric coordinates of its mirror point in the triangle; {1, 0, 0} if
   /// the mirror point is a vertex
   std::vector<std::array<double, 3>> barycentric;

@@ -9,8 +9,9 @@
 namespace crowdface {
 
 /// For each normal (of a vertex, or of a `vn` line of an OBJ file), the list of the polygons whose
-/// normals are summed. The lists are computed once for all meshes of a topology. With these lists,
-/// threads can compute normals independently, and each sum always has the same order.
+/// normals are summed to compute it. The lists are computed once for all meshes of a topology. With
+/// these lists, threads compute normals independently, and each sum has the same order in every
+/// run.
 class NormalFans {
  public:
   /// Makes the lists for one normal per vertex.

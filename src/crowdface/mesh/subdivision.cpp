@@ -10,8 +10,8 @@ namespace {
 
 /// The edges of all polygons. Each edge occurs once; edges are sorted by their end vertices.
 struct Edges {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>>
-      ends;  ///< #E: ends of each edge, first < second
+  /// #E: ends of each edge, first < second
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> ends;
   /// For each corner, the edge to the next corner of its polygon.
   std::vector<std::uint32_t> corner_edges;
   std::vector<std::uint32_t> faces;  ///< #E: number of polygons at each edge

@@ -23,14 +23,14 @@ using FloatPositions = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// Texture coordinates, #T by 2.
 using TextureCoordinates = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 
-/// Stands for a missing index, such as the texture coordinate of a corner that has none.
+/// Stands for a missing index, for example of a corner without a texture coordinate.
 inline constexpr std::uint32_t kNoIndex = 0xffffffffU;
 
 /// The polygons of a mesh: triangles, quads and larger polygons, stored as corners and offsets.
 /// Polygon f owns the corners [face_offsets[f], face_offsets[f + 1]).
 struct Topology {
   Index vertex_count = 0;
-  std::vector<std::uint32_t> corner_vertices;  ///< #C, each < vertex_count
+  std::vector<std::uint32_t> corner_vertices;  ///< #C: the vertex of each corner
   /// #C: row of each corner's texture coordinate, or kNoIndex; empty if the mesh has no texture
   /// coordinates
   std::vector<std::uint32_t> corner_uvs;

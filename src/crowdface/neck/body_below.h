@@ -7,9 +7,8 @@
 
 namespace crowdface {
 
-/// Finds the polygons of a body below a closed loop of edges: the polygons that are connected with
-/// the lower side of the loop, and the polygons of separate parts whose middle is lower than the
-/// middle of the loop.
+/// Finds the polygons of a body below a closed loop of edges: those connected with the lower side
+/// of the loop, and those of separate parts whose middle is below the middle of the loop.
 /// \param up  unit vector
 /// \return  for each polygon, whether it is below the loop; all true if the loop is an open rim.
 /// \throws InvalidInput if the loop does not separate the polygons along the loop.

@@ -23,7 +23,7 @@ class NeckBend {
   ~NeckBend();
   NeckBend(NeckBend&&) noexcept;
 
-  /// The vertices above the rim that a displacement of the rim moves, ascending.
+  /// Indices of the vertices above the rim that move with the rim, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
   /// Returns the displacements of `vertices()`. \param rim_moves #rim by 3: displacements of the
   /// rim

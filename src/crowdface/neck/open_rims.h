@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// A closed loop of edges: the vertices in the order of the loop, each once.
+/// A closed loop of edges, as vertex indices in the order of the loop, each once.
 using Rim = std::vector<std::uint32_t>;
 
 /// The open rims of a mesh: closed loops of edges that belong to exactly one polygon. The rims are

@@ -94,8 +94,8 @@ HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request) {
   return std::move(*file);
 }
 
-HttpAnswer answer_or_refuse(const HttpRequest& request,
-                            const std::function<HttpAnswer(const HttpRequest&)>& answer) {
+HttpAnswer answer_or_error(const HttpRequest& request,
+                           const std::function<HttpAnswer(const HttpRequest&)>& answer) {
   try {
     return answer(request);
   } catch (const RecoverableError& error) {

@@ -55,7 +55,7 @@ HttpAnswer page_answer(const PageFiles& files, const HttpRequest& request);
 /// Returns `answer(request)`, and turns exceptions into error answers. For a RecoverableError, the
 /// answer contains the message of the exception. Any other exception is logged, and the answer only
 /// refers to the log.
-HttpAnswer answer_or_refuse(const HttpRequest& request,
-                            const std::function<HttpAnswer(const HttpRequest&)>& answer);
+HttpAnswer answer_or_error(const HttpRequest& request,
+                           const std::function<HttpAnswer(const HttpRequest&)>& answer);
 
 }  // namespace crowdface

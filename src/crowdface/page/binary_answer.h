@@ -18,15 +18,17 @@ namespace crowdface {
 /// bytes. All numbers are little-endian.
 class BinaryAnswer {
  public:
-  /// The JSON object of the answer. The function bytes() adds the key `arrays` to the JSON text.
+  /// The JSON object of the answer, without the key `arrays`, which bytes() adds.
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
 
+  /// Appends an array. \param name  of the array in the JSON key `arrays`.
   template <class T>
   void add(std::string_view name, std::span<const T> values) {
     static_assert(std::endian::native == std::endian::little);
     add(name, element_type_name<T>(), values.size(),
         {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   }
+  /// Returns the whole answer.
   std::string bytes() const;
 
  private:

@@ -128,8 +128,8 @@ struct LocalServer::State {
   std::list<Connection> connections;
   std::mutex mutex;
   std::condition_variable changed;
-  std::deque<std::pair<Connection*, HttpRequest>>
-      queued_requests;    ///< requests to answer; guarded by `mutex`
+  /// requests to answer; guarded by `mutex`
+  std::deque<std::pair<Connection*, HttpRequest>> queued_requests;
   bool stopping = false;  ///< guarded by `mutex`
 
   std::optional<HttpAnswer> refusal(const HttpHead& head) const;

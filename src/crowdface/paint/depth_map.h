@@ -27,8 +27,7 @@ class DepthMap {
   /// Bounds of the samples: coordinates along axes.side() and along axes.up.
   const Eigen::AlignedBox2d& box() const { return box_; }
 
-  /// Compares the depths of the surface with the depths of the mean face, after placing the mean
-  /// face on the surface.
+  /// Places the mean face on the surface and compares their depths.
   /// \param lateral_position, height  where to place the point between the eyes of the mean face
   /// \param scale, stretch  size of the mean face, see ReliefMatch
   ReliefFit fit(double lateral_position, double height, double scale, double stretch = 1) const;
@@ -42,8 +41,7 @@ class DepthMap {
     Index containing_cell = -1;  ///< the cell that contains the coordinate; −1: none
     /// largest index of a cell whose centre is below the coordinate; −1: none
     Index previous_cell = -1;
-    /// interpolation weight of the next cell; the cell `previous_cell` has the remaining
-    /// weight
+    /// interpolation weight of the cell after `previous_cell`, which has the remaining weight
     double next_cell_weight = 0;
   };
   /// \param offset  distance of the coordinate from the start of the axis

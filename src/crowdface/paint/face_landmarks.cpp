@@ -11,7 +11,7 @@
 
 #include "crowdface/core/text.h"
 #include "crowdface/mesh/triangles.h"
-#include "crowdface/paint/bands.h"
+#include "crowdface/paint/mask_bands.h"
 #include "crowdface/render/ray_scene.h"
 
 namespace crowdface {

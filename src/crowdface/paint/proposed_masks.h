@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crowdface/paint/bands.h"
+#include "crowdface/paint/mask_bands.h"
 #include "crowdface/region/mask_painting.h"
 
 namespace crowdface {

@@ -34,8 +34,8 @@ class SurfaceDistance {
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }
-  /// Returns the neighbours of a vertex and of its twins (see next_twins_); the list may contain
-  /// duplicates.
+  /// Returns the vertices adjacent to a vertex or to its twins (see next_twins_); the list may
+  /// contain duplicates.
   std::vector<std::uint32_t> adjacent_vertices(std::uint32_t vertex) const;
 
  private:

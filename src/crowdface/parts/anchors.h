@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// Attaches the vertices of bound parts to the skin. Each bound vertex is anchored to a point on
 /// the nearest triangle of the skin. The vertex keeps its offset from this point in a coordinate
-/// frame that rotates with the skin around the triangle. Two axes of the frame are orthonormalised
-/// weighted sums of the surrounding vertices, with fixed weights.
+/// frame that rotates with the skin around the triangle. Two axes of the frame are weighted sums of
+/// the surrounding vertices' positions with fixed weights, made orthonormal.
 class Anchors {
  public:
   Anchors() = default;
@@ -50,11 +50,11 @@ class Anchors {
   bool is_unmoved(std::size_t triangle_index, const Positions& before,
                   const Positions& after) const;
 
-  std::vector<std::uint32_t> bound_vertices_;    ///< ascending
+  std::vector<std::uint32_t> bound_vertices_;    ///< vertex indices, ascending
   std::vector<std::uint32_t> triangle_indices_;  ///< per bound vertex: index into `skin_triangles_`
   /// per bound vertex: barycentric coordinates of its anchor
   std::vector<std::array<double, 3>> barycentric_;
-  std::vector<Triangle> skin_triangles_;  ///< triangles of the skin
+  std::vector<Triangle> skin_triangles_;  ///< triangles of the skin, as vertex indices
   CompressedRows<RingVertex> rings_;      ///< the skin around each of `skin_triangles_`
 };
 

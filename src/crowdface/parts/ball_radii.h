@@ -50,8 +50,8 @@ class BallRadii {
   /// `side_`: the head's side axis. `centre_`: the centre of the eyeball.
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
   double radius_ = 0, max_radius_ = 0;
-  std::vector<float>
-      radii_;  ///< kNodesPerSide by kNodesPerSide; x, along the side axis, varies fastest
+  /// kNodesPerSide by kNodesPerSide; x, along the side axis, varies fastest
+  std::vector<float> radii_;
 };
 
 }  // namespace crowdface

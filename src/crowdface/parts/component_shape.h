@@ -25,10 +25,11 @@ struct ComponentShape {
   /// closed surface, ½ for a hemisphere, 1 for a disc, more for a strip; independent of the number
   /// of vertices.
   double isoperimetric_ratio = 0;
-  /// 90th percentile of the vertices' distances from the skin, at most kFarFromSkin.
+  /// 90th percentile of the vertices' distances from the skin, clamped to kFarFromSkin times the
+  /// skin's extent.
   double skin_distance = 0;
-  /// The least-squares sphere through the vertices. `roughness` is the root mean square distance of
-  /// the vertices and polygon centres from this sphere.
+  /// `centre` and `radius`: the least-squares sphere through the vertices. `roughness`: root mean
+  /// square distance of the vertices and polygon centres from this sphere.
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;
   double roughness = 0;

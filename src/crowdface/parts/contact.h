@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// Keeps a rigid part, such as the teeth, out of the skin in front of it, such as lips and cheeks.
-/// Stores pairs that consist of a vertex of the part and a triangle of the skin.
+/// Keeps a rigid part, such as the teeth, behind the skin in front of it, such as lips and cheeks.
+/// Stores pairs, each of a vertex of the part and a triangle of the skin.
 class PartContact {
  public:
   PartContact() = default;
@@ -29,7 +29,7 @@ class PartContact {
               const PointGrid& grid, std::span<const std::uint32_t> skin,
               std::span<const std::uint32_t> part, double reach, const std::vector<Head>& heads);
 
-  /// Where a vertex of the part lies relative to the skin of a head.
+  /// The height of a vertex of the part above the skin of a head.
   struct Height {
     double height = 0;        ///< signed distance from the skin; negative: inside
     Eigen::Vector3d outward;  ///< outward unit normal of the skin
@@ -64,9 +64,8 @@ class PartContact {
     Triangle corners;      ///< triangle of the skin
     /// point of the triangle that is nearest to the vertex on the head where the pair was found
     std::array<double, 3> barycentric;
-    /// Skin vertices, as vertex indices of the mesh, from which the search for the nearest point of
-    /// the skin walks over the mesh. Near both lips, some lie on the upper and some on the lower
-    /// lip.
+    /// Vertices of the skin from which the search for the skin point nearest to `vertex` starts.
+    /// Near both lips, some start vertices lie on the upper lip and others on the lower lip.
     SearchStarts search_starts;
     double min_height;  ///< smallest height of the vertex above the skin in all heads
   };

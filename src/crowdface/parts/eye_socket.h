@@ -12,12 +12,12 @@
 
 namespace crowdface {
 
-/// The skin close to the front of an eyeball: the lids and their lining. The rim is the subset that
-/// contains, in each of several directions around the eye's axis, the vertex nearest to the axis.
+/// The skin close to the front of an eyeball: the lids and their lining. In each of several
+/// directions around the eye's axis, the vertex nearest to the axis belongs to the rim.
 struct Lids {
-  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh, ascending
   std::vector<std::uint32_t> rim;       ///< indices into `vertices`, ascending
-  std::vector<bool> is_upper;           ///< whether each rim vertex belongs to the upper lid
+  std::vector<bool> is_upper;  ///< for each entry of `rim`: whether it belongs to the upper lid
 };
 
 /// Finds the lids of an eyeball.

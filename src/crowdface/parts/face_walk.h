@@ -29,9 +29,9 @@ class MirroredWalk {
   /// \param vertex_faces  Must outlive this object.
   MirroredWalk(const Topology& topology, const VertexFaces& vertex_faces);
 
-  /// Walks from polygon to polygon on both sides simultaneously, with opposite winding on the
-  /// second side. The walk succeeds if corresponding polygons have equally many corners and if no
-  /// vertex gets two different partners.
+  /// Walks from polygon to polygon on both sides simultaneously; on the second side, corners are
+  /// visited in the opposite order. The walk succeeds if corresponding polygons have equally many
+  /// corners and if no vertex gets two different partners.
   ///
   /// \param edge     An edge of a polygon on the first side.
   /// \param other    The mirror image of `edge` on the second side: from the partner of edge.to to

@@ -22,7 +22,7 @@ struct FacingPair {
 /// on the same side of the gap.
 using FacingGroup = std::vector<FacingPair>;
 
-/// Finds where skin nearly touches skin. The two vertices of a pair are nearer to each other than
+/// Finds where skin nearly touches skin. The distance between the two vertices of a pair is below
 /// about a hundredth of the skin's extent, and their normals are opposite. The gap between the two
 /// vertices is outside the head. Along the surface, the two vertices are at least three times as
 /// far apart as in space. A closed mouth gives one group; nostrils and open eyes give no group.

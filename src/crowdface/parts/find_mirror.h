@@ -9,7 +9,7 @@ namespace crowdface {
 /// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  /// number of vertices in pairs: each vertex of a pair is the partner of the other
+  /// number of vertices in pairs, in which each vertex is the partner of the other
   Index paired_vertex_count = 0;
   /// number of vertices whose partner is a point inside a polygon or on an edge, not a vertex.
   /// Vertices that belong to neither this count nor paired_vertex_count have no partner.

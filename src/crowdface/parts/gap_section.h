@@ -15,7 +15,8 @@
 
 namespace crowdface {
 
-/// A point on an edge of a mesh, at the same fraction of the edge in every head.
+/// A point on the edge between the vertices `a` and `b`, at the same fraction of the edge in every
+/// head.
 struct EdgePoint {
   std::uint32_t a, b;
   double fraction;  ///< position on the edge: 0 at vertex a, 1 at vertex b
@@ -110,7 +111,8 @@ class Clearance {
   double gap(const Positions& positions) const;
 
  private:
-  /// A segment between two neighbouring points, or a single point without neighbours.
+  /// A segment between two neighbouring profile points, as indices into `points_`; both indices are
+  /// equal for a point without neighbours.
   using Segment = std::array<std::uint32_t, 2>;
 
   /// Returns the coordinate of each profile point (see `points_`) along a direction.
@@ -118,7 +120,7 @@ class Clearance {
                                   const Positions& positions) const;
 
   std::vector<EdgePoint> points_;    ///< points of the low profile, then of the high profile
-  std::vector<Segment> low_, high_;  ///< segments of the two profiles, as indices into `points_`
+  std::vector<Segment> low_, high_;  ///< segments of the two profiles
   Eigen::Vector3d up_, inward_;
 };
 

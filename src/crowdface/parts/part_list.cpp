@@ -31,8 +31,8 @@ constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
 /// box, in radii. The diagonal is 3.5 radii for a ball and 3 radii for half a ball. Both are at
 /// least one radius thick. A row of teeth also fits a sphere, but is only half as thick.
 constexpr double kMinBallDiagonal = 2.6, kMinBallThickness = 0.8;
-// largest root mean square distance of an eyeball's ball_vertices from the fitted sphere, in radii; not
-// zero, because the cornea bulges out of the sphere
+// largest root mean square distance of an eyeball's ball_vertices from the fitted sphere, in radii;
+// not zero, because the cornea bulges out of the sphere
 constexpr double kMaxRoughness = 0.1;
 static_assert(kBoundDistance < kFarFromSkin);
 

@@ -59,8 +59,8 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
                     const Components& components, const Positions& positions,
                     const PartOverrides& overrides = {}, const HeadAxes& axes = {});
 
-/// Returns the components after all skin components are joined into the first skin component. The
-/// sizes of the other skin components become 0.
+/// Returns a copy of `components` in which all vertices of skin belong to the first skin component.
+/// The other skin components become empty.
 Components join_skin(const Components& components, const PartList& parts);
 
 /// Returns the vertices that belong to a polygon but to no part, ascending.

@@ -17,8 +17,8 @@ class PointGrid {
   /// \param vertices  rows of `positions`, at least one; the positions must outlive the grid.
   PointGrid(const Positions& positions, std::span<const std::uint32_t> vertices);
 
-  /// A fast, conservative test. If a vertex lies within `reach` of the point, returns true. If no
-  /// vertex does, may return false or true.
+  /// A fast, conservative test: returns true if a vertex lies within `reach` of the point, and
+  /// sometimes even if none does.
   bool may_have_vertex_within(const Eigen::Vector3d& point, double reach) const;
 
   struct NearestVertex {

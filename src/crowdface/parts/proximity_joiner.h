@@ -13,9 +13,9 @@
 
 namespace crowdface {
 
-/// A bounding volume hierarchy of the points of components, for joining components with nearby
-/// points. A query skips each box whose points all belong to the group of the query, so that the
-/// time grows little faster than the number of points, even if many points coincide.
+/// Joins components of a mesh that have points near each other, with a bounding volume hierarchy of
+/// the points. A query skips each box whose points all belong to the group of the query, so that
+/// the time grows little faster than the number of points, even if many points coincide.
 class ProximityJoiner {
  public:
   /// The points, the components and the groups must outlive this object. Other code may also join

@@ -33,8 +33,8 @@ class QuadraticProgram {
   /// Adds the constraints lower ≤ x_i ≤ upper for an unknown.
   void add_bounds(std::size_t unknown, double lower, double upper);
   /// Makes an unknown x_i a slack variable, with the bound x_i ≥ 0 and the cost penalty·x_i +
-  /// x_i²/2. A constraint in which x_i occurs may be violated by up to the coefficient of x_i times
-  /// the value of x_i.
+  /// x_i²/2. A constraint a·x ≥ lower that contains x_i may then be violated by the other unknowns,
+  /// by up to x_i times its coefficient in a.
   void add_slack(std::size_t unknown, double penalty);
 
   /// Returns the solution, by the dual active-set method (Goldfarb & Idnani 1983). Every unknown

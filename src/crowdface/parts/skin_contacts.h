@@ -32,8 +32,8 @@ class SkinContacts {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
 
-  /// Compares the gap at each section with the widest gap of any head at the same section. Returns
-  /// the largest excess; 0 if no gap is wider than in the heads.
+  /// Returns by how much the gap at a section exceeds the widest gap of any head at this section:
+  /// the maximum over all sections, or 0.
   double max_gap_excess(const Positions& positions) const;
 
   /// Returns the vertices that fit_gaps may move.

@@ -12,7 +12,7 @@ namespace crowdface {
 /// The skin around a rigid part or a named point. The part or point follows the motion of this
 /// skin.
 struct Socket {
-  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<std::uint32_t> vertices;  ///< vertex indices of the skin, ascending
   /// for each vertex: its area times a weight that decreases with the distance from the part or
   /// point
   std::vector<double> weights;

@@ -22,7 +22,7 @@ struct LandmarkFile {
   std::map<std::string, Place> template_places, scan_places;  ///< keyed by landmark name
 };
 
-/// The mesh whose landmarks a file contains if the file has no keys `template` and `scan`.
+/// The mesh to which the landmarks of a file without the keys `template` and `scan` belong.
 enum class LandmarkMesh { kTemplate, kScan };
 
 /// Reads a landmark file. The file is YAML with the optional keys `template: {chin: 966}` and

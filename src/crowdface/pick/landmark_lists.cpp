@@ -156,7 +156,8 @@ bool is_missing_value(std::string_view field) {
   return std::ranges::find(kWords, word) != kWords.end();
 }
 
-/// Splits a line into fields. Removes quotes around fields, and empty fields at the end of the line.
+/// Splits a line into fields. Removes quotes around fields, and empty fields at the end of the
+/// line.
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
   for (std::string_view field : split(line, separator)) {

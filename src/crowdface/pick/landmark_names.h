@@ -12,8 +12,8 @@ namespace crowdface {
 struct LandmarkDefinition {
   std::string_view name;
   std::string_view location;  ///< where the landmark lies; a text for the user
-  /// Whether find_landmarks searches for the landmark on scans. Only edges or grooves of the skin
-  /// mark a landmark precisely enough; a widest or highest point does not.
+  /// Whether find_landmarks searches for the landmark on scans. Only landmarks on edges or grooves
+  /// of the skin can be found precisely; the widest or highest point of a form cannot.
   bool is_found_on_scans = false;
 };
 

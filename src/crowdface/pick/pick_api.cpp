@@ -164,7 +164,7 @@ PickApi::PickApi(PickableScans& scans, std::optional<std::filesystem::path> page
     : scans_(scans), page_(std::move(pages), "pick"), max_triangles_(max_triangles) {}
 
 HttpAnswer PickApi::answer(const HttpRequest& request) {
-  return answer_or_refuse(request, [this](const HttpRequest& asked) {
+  return answer_or_error(request, [this](const HttpRequest& asked) {
     const auto is = [&](const char* method, const char* path) {
       return asked.method == method && asked.path == path;
     };

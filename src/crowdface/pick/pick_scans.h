@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// A reduced mesh, encoded for the page on first request.
+/// A reduced mesh for the page; encoded at the first request.
 struct ShownMesh {
   std::once_flag once;  ///< set by the first request, which computes `bytes`
   std::string bytes;    ///< result of PickableMesh::encode_reduced

@@ -58,7 +58,7 @@ class PickSession {
                                               const Eigen::Vector3d& direction) const;
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,
                                           const Eigen::Vector3d& direction) const;
-  /// See suggest_places.
+  /// Suggests positions for landmarks that are not picked yet, see suggest_places.
   SuggestedPlaces suggest(const std::vector<PickedLandmark>& landmarks) const;
 
   /// Writes the landmark file. \throws UsageError if another program has changed the file since it

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "crowdface/core/error.h"
-#include "crowdface/paint/bands.h"
 #include "crowdface/paint/face_marks.h"
+#include "crowdface/paint/mask_bands.h"
 
 namespace crowdface {
 

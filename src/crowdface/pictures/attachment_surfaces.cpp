@@ -9,7 +9,7 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
-#include "crowdface/heads/light_of_image.h"
+#include "crowdface/heads/image_values.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/surface_materials.h"
 
@@ -56,8 +56,8 @@ void weight_by_opacity(const Image& image, const ImageRows& light, int max_px,
 
 const AttachmentSurface& AttachmentSurfaces::at(const Attachment& item) const {
   return surfaces_.get(&item, [&] {
-    const FaceMaterials named =
-        face_materials(item.file.materials, item.file.topology.face_count());
+    const PolygonMaterials named =
+        polygon_materials(item.file.materials, item.file.topology.face_count());
     std::vector<AttachmentMaterial> materials;
     for (const SurfaceMaterial& material : surface_materials_of(named.names, item.materials)) {
       materials.emplace_back();

@@ -65,7 +65,7 @@ class CrowdRenders {
   /// \param target        the head whose textures the face shows if `face_textures` is null.
   /// \param positions     in single precision, as in mesh files.
   /// \param moves         displacements of each shape, for the gallery.
-  /// \param face_textures the textures blended for this face, from face_texture_set, or null.
+  /// \param face_textures  the textures blended for this face, from face_texture_set, or null.
   /// \param placed        the attachments that the face wears.
   /// \param colours       vertex colours, shown if there are no textures; may have no rows.
   /// \param body          texture of the body, or null.
@@ -83,10 +83,10 @@ class CrowdRenders {
   /// Vertex colours of a head; nothing if the head has no vertex colours or if textures replace
   /// them.
   std::optional<VertexColours> colours_of(Index head, const TextureSet* texture_set) const;
-  /// Returns an empty texture set, to which the caller adds the face's own textures. Returns
-  /// nothing if faces have no own textures or if textures are not shown.
+  /// Returns an empty texture set, to which the caller adds the face's blended textures. Returns
+  /// nothing if textures are not blended or not shown.
   std::optional<FaceTextureSet> face_texture_set(Index target) const;
-  /// Blends the face's own textures and returns them as a texture set.
+  /// Blends the face's textures and returns them as a texture set.
   std::optional<FaceTextureSet> face_texture_set(const FaceTextures& textures,
                                                  const Recipe& recipe) const;
 

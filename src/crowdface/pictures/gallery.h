@@ -11,7 +11,7 @@
 #include "crowdface/pictures/attachment_surfaces.h"
 #include "crowdface/pictures/pictured_mesh.h"
 #include "crowdface/pictures/shown_attachments.h"
-#include "crowdface/pictures/vertex_finish.h"
+#include "crowdface/pictures/vertex_roughness.h"
 #include "crowdface/preview/packed_face.h"
 #include "crowdface/preview/preview_mesh.h"
 #include "crowdface/render/texture.h"
@@ -77,8 +77,7 @@ class GalleryMeshes {
   VertexColours colours_;
   /// visible fraction of the sky at the vertices of the reduced mesh, on the mean head
   std::vector<float> sky_visibility_;
-  /// for each vertex of the reduced mesh: the vertex's position in the face's textures; empty if
-  /// there are no textures
+  /// one per vertex of the reduced mesh; empty if there are no textures
   std::vector<TexturePoint> texture_points_;
   Eigen::Vector3d box_min_, box_max_;  ///< bounding box of all heads and the shoulders of the body
 

@@ -15,8 +15,8 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 constexpr Colour kDot = {255, 214, 64}, kRim = {20, 20, 22};
-constexpr double kTurnedAway =
-    0.08;  ///< smallest cosine between normal and camera direction at which dots are drawn
+/// smallest cosine between normal and camera direction at which dots are drawn
+constexpr double kTurnedAway = 0.08;
 
 struct Pixel {
   double x, y;

@@ -17,8 +17,9 @@ std::uint8_t srgb_byte(float light);
 /// tangent-space normal map with y upwards.
 std::array<std::uint8_t, 3> normal_texel(const LinearRgb& slopes);
 
-/// Images encoded as data URLs (data:image/…;base64,…), because a page opened from disk may not
-/// load textures from files. Larger images are reduced so that the longer side has `max_px` texels.
+/// The functions below encode images as data URLs (data:image/…;base64,…), because a page opened
+/// from disk may not load textures from files. They reduce larger images so that the longer side
+/// has `max_px` texels.
 
 /// The texture as JPEG in sRGB.
 std::string colour_picture(const Texture& texture, int max_px);

@@ -7,7 +7,7 @@
 #include "crowdface/heads/face_textures.h"
 #include "crowdface/heads/inputs.h"
 #include "crowdface/mesh/vector3.h"
-#include "crowdface/pictures/vertex_finish.h"
+#include "crowdface/pictures/vertex_roughness.h"
 #include "crowdface/render/surface_kind.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/render/vertex_colours.h"

@@ -79,7 +79,7 @@ void CrowdPictures::write_gallery(const std::vector<FacePlan>& crowd,
   make_directories(directory_.gallery_head("").parent_path());
   std::set<std::string> ids, placed;
   for (const FacePlan& face : crowd) ids.insert(face.id);
-  const std::vector<ColouredAttachment> worn = inputs_.attachments.worn_by(crowd);
+  const std::vector<ColouredAttachment> worn = inputs_.attachments.attachments_of(crowd);
   for (const ColouredAttachment& coloured : worn) placed.insert(coloured.name());
   for (const fs::path& folder : folder_and_numbered_subfolders(directory_.gallery_faces())) {
     remove_others(folder, ids);

@@ -24,8 +24,8 @@ std::string sheet_label(const std::vector<SheetLabel>& labels, const std::vector
                         const std::vector<std::vector<std::string>>& tags);
 
 /// The text under a child on its family's sheet: id, percentage of the face shape that comes from
-/// the mother, and the regions from each parent. If a region has wavelength bands from both
-/// parents, the text lists its bands separately.
+/// the mother, and the regions from each parent. If a region has bands of detail from both parents,
+/// the text lists these bands separately.
 std::string inheritance_label(const FacePlan& face, const PlanNames& names);
 
 }  // namespace crowdface

@@ -66,7 +66,7 @@ const ShownAttachments::MaterialMeshes& ShownAttachments::material_meshes(
     const Attachment& item) const {
   return meshes_.get(&item, [&] {
     const ObjFile& file = item.file;
-    const FaceMaterials named = face_materials(file.materials, file.topology.face_count());
+    const PolygonMaterials named = polygon_materials(file.materials, file.topology.face_count());
     auto material_meshes = std::make_unique<MaterialMeshes>();
     const std::size_t materials = std::max<std::size_t>(1, named.names.size());
     for (std::uint32_t m = 0; m < materials; ++m) {

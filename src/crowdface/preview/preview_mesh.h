@@ -43,7 +43,7 @@ PreviewMesh preview_mesh(const Topology& topology, const TextureCoordinates& uvs
 PreviewMesh preview_from_split_mesh(const SplitMesh& split, std::vector<Triangle> triangles,
                                     const TextureCoordinates& uvs);
 
-/// Maximum number of skin triangles in draft meshes (see draft_triangles).
+/// Maximum number of triangles of skin in draft meshes (see draft_triangles).
 inline constexpr std::size_t kMaxDraftTriangles = 8'000;
 
 /// Returns the triangles of a coarser mesh that uses some of the vertices of a preview mesh:

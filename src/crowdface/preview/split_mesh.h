@@ -16,13 +16,13 @@ namespace crowdface {
 /// borders.
 struct SplitMesh {
   struct Corner {
-    /// vertex: row index of the position; uv: row index of the texture coordinate, or kNoIndex;
-    /// material: index of the material.
+    /// `vertex`: row of the position. `uv`: row of the texture coordinate, or kNoIndex. `material`:
+    /// index of the material.
     std::uint32_t vertex, uv, material;
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Corner> corners;  ///< distinct corners, sorted by (vertex, uv, material)
-  /// for each corner, the first polygon with this corner (several polygons may share a corner)
+  /// for each corner, the first of the polygons that share it
   std::vector<std::uint32_t> face_of_corner;
   std::vector<Triangle> triangles;  ///< indices into `corners`
   /// for each material: the first polygon with this material

@@ -34,10 +34,10 @@ struct PaintedMasks {
 };
 
 /// Paints vertex weights into mask images with the mesh's texture coordinates, such that
-/// `region_weights` reads the same weights from the images. Paints each triangle with interpolated
-/// weights of its corners, extends the paint a few texels beyond the borders of the UV charts, and
-/// then adjusts texels until the sampled weights match the vertex weights as closely as the
-/// resolution allows.
+/// `region_weights` reads the same weights from the images. Paints each triangle with the
+/// interpolated weights of its corners, extends the paint a few texels beyond the borders of the UV
+/// charts, and then adjusts texels until weights sampled from the images match the vertex weights
+/// as closely as the resolution allows.
 /// \param alpha  #V by #R, not negative, rows summing to one.
 /// \param has_priority  one entry per vertex, or empty if all vertices have priority: whether the
 ///                      vertex has priority over other vertices; for example, skin has priority

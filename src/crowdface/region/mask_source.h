@@ -9,8 +9,9 @@
 
 namespace crowdface {
 
-/// The smallest accepted value of a mask. Negative values down to this limit count as 0: resizing an
-/// image can produce such values (down to −0.18 with a Lanczos filter), and so can rounding errors.
+/// The smallest accepted value of a mask. Negative values down to this limit count as 0: resizing
+/// an image can produce such values (down to −0.18 with a Lanczos filter), and so can rounding
+/// errors.
 inline constexpr double kMinMaskValue = -0.2;
 
 /// The source of a mask's pixels. It is one image or, if the path contains <UDIM>, a set of UDIM

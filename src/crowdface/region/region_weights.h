@@ -42,8 +42,8 @@ RegionWeights whole_head_weights(const Topology& topology);
 /// coordinate. If the coordinate lies on a tile border, the mean coordinate of the corner's polygon
 /// selects the tile. A single image covers u and v in [0, 1]; coordinates outside this range are
 /// clamped. A vertex with several distinct texture coordinates gets the mean of the samples at
-/// these coordinates. The weights of each vertex are scaled, so that their sum is one. Vertices whose
-/// weights are all zero, and vertices without polygons, belong to the last region.
+/// these coordinates. The weights of each vertex are scaled, so that their sum is one. Vertices
+/// whose weights are all zero, and vertices without polygons, belong to the last region.
 ///
 /// \param masks   may be empty if there is one region.
 /// \param is_needed  one entry per vertex, or empty for all vertices: whether the vertex needs

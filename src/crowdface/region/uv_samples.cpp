@@ -28,7 +28,8 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
   return count > 0 ? Eigen::RowVector2d(sum / count) : sum;
 }
 
-/// The UDIM number of the tile of a corner. \throws InvalidInput that names the mesh and the vertex.
+/// The UDIM number of the tile of a corner. \throws InvalidInput that names the mesh and the
+/// vertex.
 int tile_of(const Eigen::RowVector2d& uv, const Eigen::RowVector2d& mean, std::uint32_t vertex,
             const std::string& mesh_name) {
   try {

@@ -29,8 +29,8 @@ using UvSamples = CompressedRows<UvSample>;
 /// border of two tiles; the mean coordinate of the corner's polygon selects one of these tiles.
 double tile_index(double coordinate, double polygon_mean);
 
-/// How a mask covers the texture coordinates. kOne means a single image; the tile of every sample
-/// is kFirstTile. kUdim means UDIM tiles.
+/// How a mask covers the texture coordinates: by a single image (kOne; every sample has the tile
+/// kFirstTile), or by UDIM tiles (kUdim).
 enum class UvTiling { kOne, kUdim };
 
 /// Collects the texture coordinates of every vertex. The list of a vertex that no polygon uses is

@@ -55,7 +55,8 @@ class AttachmentSurface {
   std::vector<AttachmentMaterial> materials_;
   std::vector<Quad> quads_;
   std::vector<std::uint32_t> material_of_quad_;
-  std::vector<std::array<Eigen::Vector2f, 4>> uvs_;  ///< #quads
+  /// #quads: texture coordinates of the four corners
+  std::vector<std::array<Eigen::Vector2f, 4>> uvs_;
 };
 
 /// An attachment placed on a face.

@@ -13,7 +13,7 @@ namespace crowdface {
 struct SheetCell {
   /// Must have the same size in all cells of a sheet.
   Rgb8Image image;
-  /// Text under the image. The font size of each line is reduced until the line fits.
+  /// Text under the image. The font of a line that is too long is reduced until the line fits.
   std::string label;
 };
 

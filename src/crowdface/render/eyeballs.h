@@ -34,8 +34,7 @@ inline constexpr float kIrisSoftness = 0.025F;
 /// Position and size of an eyeball in one head.
 struct EyeballSphere {
   Eigen::Vector3f centre;
-  /// Half the extent of the eyeball's vertices perpendicular to the gaze, in the direction with the
-  /// larger extent.
+  /// half the extent of the eyeball's vertices perpendicular to the gaze, along the wider direction
   float radius = 0;
 };
 

@@ -26,8 +26,8 @@ inline constexpr std::size_t kMaxLanes = 16;
 /// A vertex projected to the image.
 struct alignas(16) ProjectedVertex {
   float x, y;  ///< in pixels; x is infinite for vertices behind the camera
-  /// 1/t for the vertex at parameter t of its camera ray, where t is 0 at the camera and 1 at the
-  /// plane z = 0.
+  /// 1/t, where t is the vertex's parameter on its camera ray: 0 at the camera, 1 at the plane z =
+  /// 0
   float inverse_depth;
 };
 
@@ -39,8 +39,8 @@ struct QuadOnPixels {
   std::uint8_t left, top, right, bottom;
 };
 
-/// For each square of an image, row by row, two lists: quads that may cover the centre of a pixel,
-/// and all other quads that overlap the square.
+/// For each square of an image, row by row, two lists: the quads that may cover the centre of a
+/// pixel, and all other quads that overlap the square.
 using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
 /// Adds each quad to the lists of all squares that the quad may touch, including the squares' rims.

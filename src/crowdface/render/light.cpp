@@ -59,8 +59,8 @@ class ByteTable {
  private:
   static constexpr float kWhite = 1.5F;  ///< this value and all larger values map to 255
   static constexpr std::size_t kSteps = 6144;
-  std::array<float, 257>
-      smallest_of_byte_{};  ///< for each byte: the smallest linear value that maps to it
+  /// for each byte: the smallest linear value that maps to it
+  std::array<float, 257> smallest_of_byte_{};
   std::array<std::uint8_t, kSteps> at_step_{};
 };
 

@@ -36,8 +36,8 @@ struct Ray {
   float min_distance = 0;
   float max_distance = 1e30F;
   /// Seed in 0 … 65535 for stochastic transparency: the seed decides whether the ray passes a
-  /// surface. A surface with opacity α lets the fraction 1−α of all seeds pass. The rays of a pixel
-  /// have evenly spread seeds.
+  /// surface. A surface with opacity α lets the rays of a fraction 1−α of all seeds pass. The seeds
+  /// of a pixel's rays are evenly spread.
   std::uint32_t opacity_seed = 0;
 };
 

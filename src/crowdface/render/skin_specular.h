@@ -9,8 +9,8 @@ namespace crowdface {
 /// texel, and returns the 70th percentile over all texels.
 float skin_lightness(const Texture& texture);
 
-/// Factor on the specular reflection of skin with colour `albedo`, at most 1. Texels much darker
-/// than the skin are painted hair, which has almost no highlight.
+/// Factor on the specular reflection of skin with colour `albedo`, at most 1. Small for texels much
+/// darker than the skin: these are painted hair, which has almost no highlight.
 /// \param skin_lightness  from skin_lightness(); 0 means unknown and gives a factor of 1.
 float skin_specular_factor(const LinearRgb& albedo, float skin_lightness);
 

@@ -9,8 +9,9 @@
 
 namespace crowdface {
 
-/// Surface points with the results of their shadow rays, as one field_values per field: position, normal,
-/// and for each light the number of rays that reached the light and the number of traced rays.
+/// Surface points with the results of their shadow rays: position, normal, and for each light the
+/// number of rays that reached the light and the number of traced rays. Each field is a separate
+/// array.
 struct PointVisibility {
   enum Field {
     kPoint,
@@ -60,11 +61,11 @@ class PixelVisibility {
 /// filter: averages the rays of the 3 by 3 pixels around the point, weighted by how well each
 /// pixel's normal and position match the point's surface. The result has the same bits with every
 /// instruction set.
-/// \param points     lists padded by kMaxLanes entries of any value
+/// \param points  arrays padded by kMaxLanes entries of any value
 /// \param pixel      index of the pixel that all points share; with `consecutive`, index of the
 ///                   first point's pixel
 /// \param consecutive  whether the points lie in consecutive pixels of a row
-/// \param pixel_side side of a pixel in the unit of the positions
+/// \param pixel_side  side of a pixel in the unit of the positions
 /// \param key, sky   results: visible fractions, with room for `count` + kMaxLanes numbers
 void filter_visibility(const PointVisibility& points, std::size_t count,
                        const PixelVisibility& pixels, std::size_t pixel, bool consecutive,

@@ -20,9 +20,8 @@ namespace crowdface {
 template <class FormatData>
 class AttachmentsInFormat {
  public:
-  /// \param make  function that returns the FormatData of an attachment. The function's second
-  ///              argument is the attachment's level of detail, or null if the attachment is not
-  ///              reduced.
+  /// \param make  make(attachment, level) returns the FormatData of an attachment; `level` is the
+  ///              attachment's level of detail, or null if the attachment is not reduced.
   template <class Make>
   AttachmentsInFormat(const AttachmentSet& set, const MeshLevel& level, const Make& make) {
     for (const Attachment* item : level.attachments_in_files(set)) {

@@ -68,7 +68,7 @@ CrowdDistances measure_crowd_distances(const FaceSpace& space,
     distances.face_to_head_median_ratio =
         distances.between_faces.median / distances.between_heads.median;
   }
-  const Index regions = space.sampled_heads().region_weights.cols();
+  const Index regions = space.heads_at_samples().region_weights.cols();
   for (Index k = 0; regions > 1 && k < regions; ++k) {
     distances.between_faces_by_region.push_back(
         quartiles(pair_distances(space, k, crowd_plan.points)));
@@ -195,8 +195,8 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs,
   FaceSpace space =
       cached_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
                         band_count(config.sampling));
-  ProxySkin skin(cell_triangles(inputs.head_set.topology, cells), space.sampled_heads().mean,
-                 space.sampled_heads().heads);
+  ProxySkin skin(cell_triangles(inputs.head_set.topology, cells), space.heads_at_samples().mean,
+                 space.heads_at_samples().heads);
   return {std::move(space), std::move(skin)};
 }
 
@@ -259,7 +259,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
   std::optional<TraitRules> rules;
   if (traits) judge.set_trait_rules(&rules.emplace(traits->measurer(), casting));
   CastingResult crowd;
-  crowd.shortfall = impossible_spread(casting, judge);
+  crowd.shortfall = shortfall_if_spread_impossible(casting, judge);
   if (!crowd.shortfall) {
     Progress progress("casting", casting.count, kFacesCastInParallel);
     ScarcityWarning warning(casting);
@@ -297,7 +297,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
   AttachmentOptions attachments = attachment_options(config);
   IrisCover iris_cover(config, inputs, builder);
   attachments.covers_eyes = [&](const std::string& item, const FacePlan& face) {
-    return iris_cover.covered_fraction(item, face) > IrisCover::kMost;
+    return iris_cover.covered_fraction(item, face) > IrisCover::kMaxCoveredFraction;
   };
   if (!config.attachments.items.empty()) {
     choose_attachments(attachments, crowd.group_indices, result.crowd, crowd.rejected,

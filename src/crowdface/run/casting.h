@@ -63,8 +63,8 @@ struct FamilyReport {
 /// position of a face's region on this plane determines the weights of the heads in the region.
 struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads: position of each head on the weight plane
-  std::vector<FacePlan> crowd;      ///< the faces, with their nearest neighbours
-  std::vector<int> group_of_face;   ///< for each sampled face: index of its group, or −1
+  std::vector<FacePlan> crowd;  ///< the faces, each with its nearest head and nearest earlier face
+  std::vector<int> group_of_face;  ///< one per sampled face: index of its group, or −1
   RejectionCounts rejections;
   CrowdDistances distances;
   std::vector<FamilyReport> families;
@@ -76,7 +76,7 @@ struct CrowdPlan {
   std::vector<FaceSpace::Point> points;
 };
 
-/// Converts the config to options for sampling the attachments of a crowd.
+/// Converts the config to options for choosing the attachments of a crowd.
 AttachmentOptions attachment_options(const Config& config);
 
 /// Chooses the recipes of all faces ("casts" the crowd).

@@ -155,7 +155,7 @@ std::vector<std::string> copy_materials(const Config& config, const Inputs& inpu
     copies.add(inputs.head_files[head], inputs.head_set.heads[head].name);
   }
   if (any_format(formats, refers_to_attachment_textures)) {
-    std::vector<ColouredAttachment> coloured_attachments = inputs.attachments.worn_by(crowd);
+    std::vector<ColouredAttachment> coloured_attachments = inputs.attachments.attachments_of(crowd);
     if (config.neck.write_body && config.neck.body_texture.empty()) {
       coloured_attachments.push_back({inputs.heads_on_body->body.get()});
     }

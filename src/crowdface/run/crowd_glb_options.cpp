@@ -111,14 +111,14 @@ void add_materials(const Inputs& inputs, const std::vector<GlbPicture>& held,
   };
   using Look = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t, SurfaceKind>;
   std::map<Look, std::uint32_t> known;
-  for (std::size_t f = 0; f < options.face_materials.size(); ++f) {
-    const std::uint32_t material = options.face_materials[f];
+  for (std::size_t f = 0; f < options.polygon_materials.size(); ++f) {
+    const std::uint32_t material = options.polygon_materials[f];
     const std::uint32_t picture = at(colours, f);
     const SurfaceKind kind = surfaces.kinds[f];
     const auto [row, is_new] =
         known.emplace(Look(material, picture, at(normals, f), at(roughness, f), kind),
                       static_cast<std::uint32_t>(known.size()));
-    options.face_materials[f] = row->second;
+    options.polygon_materials[f] = row->second;
     if (!is_new) continue;
     const auto paint =
         surfaces.polygon_colours.empty() ? std::nullopt : surfaces.polygon_colours[f];
@@ -145,7 +145,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   options.unit = config.faces.units;
   options.up = config.faces.up;
   options.front = config.faces.front;
-  options.face_materials = inputs.materials.material_of_polygon;
+  options.polygon_materials = inputs.materials.material_of_polygon;
   options.point_names = inputs.points.names;
   options.skin = inputs.rig.skin;
   for (const Shape& shape : inputs.shapes.shapes) {
@@ -170,7 +170,7 @@ GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::st
   GlbOptions options = glb_options(config, inputs, shared);
   if (level.is_whole_mesh()) return options;
   const DetailLevel& detail = *level.face_level;
-  options.face_materials = select_rows(options.face_materials, detail.source_faces);
+  options.polygon_materials = select_rows(options.polygon_materials, detail.source_faces);
   for (std::size_t t = 0; t < options.targets.size(); ++t) {
     options.targets[t].vertices = detail.restrict_rows(inputs.shapes.shapes[t].moves).vertices;
   }

@@ -66,7 +66,7 @@ Digest key_of_sheets(const Job& job, const CrowdDirectory& directory, const Crow
   // Hash the plan (with each face's notes) and the content of likeness.json. The reviews and the
   // distance mask need no hash of their own: they change the sheets only through these two files.
   try {
-    add_text([&](const TakePiece& take) { read_pieces(directory.plan(), take); }, hasher);
+    add_text([&](const TextSink& take) { read_pieces(directory.plan(), take); }, hasher);
   } catch (const MissingInput& error) {  // another program has removed the plan
     throw IoError(error.what());
   }

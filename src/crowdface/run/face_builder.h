@@ -62,8 +62,9 @@ class FaceBuilder {
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
-  /// A contact is a pair of skin surfaces that almost touch, such as the lips. Returns the largest
-  /// excess, over all contacts, of the face's gap over the widest gap of any head, in mm.
+  /// Returns by how many mm a gap of the face exceeds the widest gap of any head at the same
+  /// contact: the maximum over all contacts. A contact is a pair of skin surfaces that almost
+  /// touch, such as the lips.
   double gap_excess_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory in bytes for building the given number of faces at once, including the memory for the
@@ -74,7 +75,7 @@ class FaceBuilder {
   /// Applies the steps after blending: adjusts asymmetry, contacts, parts and pose, mirrors the
   /// face, and fits the ring of vertices at the neck.
   void finish(const Recipe& recipe, Positions& face) const;
-  /// The map that mirrors faces; computed in the first call. Thread-safe.
+  /// The map that mirrors faces; computed at the first call. Thread-safe.
   const MirrorMap& mirror() const;
   /// Returns, for each contact, the allowed range of the gap: the smallest range that contains the
   /// gap of the target head and, for each band, the weighted mean of the gaps of the source heads.

@@ -41,7 +41,7 @@ struct FinishedFace {
   std::vector<Index> skin_intersections;
   std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
-  /// The face's own textures, encoded as image files; empty if no output file uses them. With
+  /// The face's blended textures, encoded as image files; empty if no output file uses them. With
   /// `neck.body_texture`, the last texture belongs to the body.
   std::shared_ptr<FaceTextureEncoder::Encoded> textures =
       std::make_shared<FaceTextureEncoder::Encoded>();
@@ -81,7 +81,7 @@ class FaceEncoders {
 
   /// Whether any file contains blend shapes.
   bool holds_shapes() const;
-  /// Whether the faces' own textures are written, either inside mesh files or as separate files.
+  /// Whether blended textures are written, either inside mesh files or as separate files.
   bool holds_textures() const { return texture_encoder_ && !formats_.empty(); }
   const FaceTextureEncoder& textures() const { return *texture_encoder_; }
 
@@ -124,8 +124,8 @@ class FaceEncoders {
   std::map<MeshFormat, MeshEncoders> encoders_;
   /// one per level of detail; empty if attachments are not written to separate files
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
-  std::optional<FaceTextureEncoder>
-      texture_encoder_;  ///< empty if faces have no textures of their own
+  /// empty if faces have no blended textures
+  std::optional<FaceTextureEncoder> texture_encoder_;
   /// `points_`: empty if the inputs have no named points. `joints_`: empty if no file has a rig.
   std::optional<PointCarrier> points_, joints_;
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals

@@ -25,8 +25,8 @@ struct FinishedFace;
 /// files.
 struct FaceFile {
   std::filesystem::path path;
-  /// Where report.json stores the file's hash: for example section "lods" and key "LOD1.obj", or no
-  /// section and key "mesh". If the key is empty, the report omits the hash.
+  /// Section and key under which report.json stores the file's hash, for example section "lods" and
+  /// key "LOD1.obj", or no section and key "mesh". Empty key: the report omits the hash.
   std::string report_section, report_key;
   /// Encodes the file. The result refers to the face and to the face's encoders.
   std::function<EncodedFile(const FinishedFace& face)> make;

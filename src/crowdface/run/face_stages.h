@@ -40,9 +40,10 @@ class FaceStages {
              const FaceAttachments& attachments, const FaceShapes& shapes,
              const std::vector<FacePlan>& crowd, std::uint64_t memory_bytes);
 
-  /// Makes faces. All threads cooperate to blend a group of faces; then each thread finishes and
-  /// encodes one face at a time. The next group starts when threads have claimed all faces of the
-  /// current group. A face is recorded in the ledger when all its files are written.
+  /// Makes faces. All threads cooperate to blend a group of faces; then each thread takes one face
+  /// after the other, finishes and encodes it. The next group starts as soon as threads have taken
+  /// all faces of the current group. A face is recorded in the ledger when all its files are
+  /// written.
   /// \param renders  null: nothing is rendered
   /// \param results  one per face, output
   /// \param busy     time of each stage, to which this function adds the time that threads spend in

@@ -81,9 +81,9 @@ std::uint64_t bytes_per_channel(const PictureName& picture, TextureFormat format
 /// Maps each material name of a head to the index of the material's image in a texture layout.
 std::map<std::string, std::size_t> pictures_of_materials(const Inputs& inputs,
                                                          const TextureLayout& layout, Index head) {
-  const FaceMaterials materials =
-      face_materials(inputs.head_files[static_cast<std::size_t>(head)].materials,
-                     inputs.head_set.topology.face_count());
+  const PolygonMaterials materials =
+      polygon_materials(inputs.head_files[static_cast<std::size_t>(head)].materials,
+                        inputs.head_set.topology.face_count());
   std::map<std::string, std::size_t> pictures;
   for (std::size_t f = 0; f < layout.picture_of_polygon.size(); ++f) {
     if (layout.picture_of_polygon[f] == kNoIndex) continue;

@@ -30,9 +30,9 @@ class FaceTraits {
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
-  /// Which mesh of a face is measured: the written mesh, which is moved onto the body and bent at the
-  /// neck (kBent), or the mesh before it is moved and bent (kAsBlended). Casting measures kAsBlended,
-  /// so that recipes do not depend on the body.
+  /// Which mesh of a face is measured: the written mesh, which is moved onto the body and bent at
+  /// the neck (kBent), or the mesh before it is moved and bent (kAsBlended). Casting measures
+  /// kAsBlended, so that recipes do not depend on the body.
   enum class NeckState { kBent, kAsBlended };
   /// Computes the positions that the landmarks have on the selected mesh of the face.
   Positions exact_landmarks(const Recipe& recipe, NeckState neck) const;

@@ -23,10 +23,10 @@ struct ReadyFile {
   FileDigest digest;  ///< size and hash of `bytes`
 };
 
-/// Writes faces on a separate thread, so that computing threads need not wait for the disk. Faces
-/// that are finished while one batch is written form the next batch. Each batch needs only one sync
-/// to disk and one write to the ledger. A file that already has the right content is not written
-/// again.
+/// Writes the files of faces on a separate thread, so that computing threads need not wait for the
+/// disk. Faces that arrive while one batch is written form the next batch. Each batch needs only
+/// one sync to disk and one write to the ledger. A file that already has the right content is not
+/// written again.
 class FaceWriter {
  public:
   /// \param ledger         must outlive this object.

@@ -28,7 +28,6 @@
 #include "crowdface/run/casting_report.h"
 #include "crowdface/run/copy_materials.h"
 #include "crowdface/run/crowd_sheets.h"
-#include "crowdface/run/crowd_stage.h"
 #include "crowdface/run/face_ledger.h"
 #include "crowdface/run/face_stages.h"
 #include "crowdface/run/lazy.h"
@@ -40,6 +39,7 @@
 #include "crowdface/run/report.h"
 #include "crowdface/run/resume.h"
 #include "crowdface/run/shard_progress.h"
+#include "crowdface/run/usd_stage.h"
 
 namespace crowdface {
 namespace {

@@ -125,7 +125,7 @@ struct GlbLook {
 /// \param own_texture  whether each face has one texture of its own, which all materials of the
 ///                     item use
 GlbLook look_of(const Attachment& item, bool own_texture) {
-  FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+  PolygonMaterials named = polygon_materials(item.file.materials, item.file.topology.face_count());
   GlbLook look;
   look.of_face = std::move(named.material_of_polygon);
   if (own_texture) {

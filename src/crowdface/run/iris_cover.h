@@ -22,16 +22,16 @@ namespace crowdface {
 /// eyeballs as separate parts. Not thread-safe.
 class IrisCover {
  public:
-  /// The largest covered fraction of an iris with which casting lets a face wear a haircut.
-  static constexpr double kMost = 0.1;
+  /// Casting lets no face wear a haircut that covers a larger fraction of an iris.
+  static constexpr double kMaxCoveredFraction = 0.1;
 
   /// \param builder  called once, when the first item has to be measured
   /// \param config, inputs  must outlive this object.
   IrisCover(const Config& config, const Inputs& inputs,
             std::function<const FaceBuilder&()> builder);
 
-  /// Returns the larger fraction of an iris that the item covers on the finished face: 0 … 1.
-  /// Partly transparent hair counts partly.
+  /// Returns the fraction, 0 … 1, of an iris that the item covers on the finished face; the larger
+  /// value of both eyes. Partly transparent hair counts in proportion to its opacity.
   double covered_fraction(const std::string& item, const FacePlan& face);
 
  private:

@@ -40,10 +40,11 @@ struct FaceMesh {
   /// positions of the named points (PointCarrier) on this face; no rows in a reduced mesh
   const Positions* points = &kNoPositions;
   const Positions* joints = &kNoPositions;  ///< positions of the rig's joints
-  /// content of each image file of the face's own textures; empty if there are no own textures
+  /// content of each image file of the face's blended textures; empty if there are none
   std::span<const std::string_view> images = {};
   std::span<const std::string> image_names = {};  ///< paths of the images, relative to the mesh
-  std::string material_file = {};  ///< the face's own material file; empty: the target head's file
+  /// name of the face's material file; empty: the target head's file
+  std::string material_file = {};
   /// for an attachment: name of its colour, from colour_label; empty: the attachment has no tint
   std::string colour_label = {};
 };

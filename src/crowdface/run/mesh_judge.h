@@ -28,7 +28,7 @@ ProtrudingPartsCheck protruding_parts_check(const Config& config, const Inputs& 
 bool casting_builds_candidate_meshes(const Config& config);
 
 /// Returns a function that builds the mesh of a candidate face and finds defects in this mesh.
-/// \param builder must outlive the result.
+/// \param builder  must outlive the result.
 MeshDefectFinder mesh_defect_finder(const Config& config, const Inputs& inputs,
                                     const FaceBuilder& builder);
 

@@ -23,7 +23,7 @@ std::vector<DetailLevel> levels_of(const Attachment& item, std::span<const Measu
   }
   return detail_levels(
       {topology, item.file.uvs, {{item.name, item.file.positions}}},
-      face_materials(item.file.materials, topology.face_count()).material_of_polygon, shares,
+      polygon_materials(item.file.materials, topology.face_count()).material_of_polygon, shares,
       borders);
 }
 

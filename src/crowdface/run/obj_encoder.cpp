@@ -22,7 +22,7 @@ namespace {
 /// material.
 std::vector<MaterialRange> material_ranges(const ObjFile& file, Index faces,
                                            const DetailLevel& level) {
-  const FaceMaterials materials = face_materials(file.materials, faces);
+  const PolygonMaterials materials = polygon_materials(file.materials, faces);
   std::vector<MaterialRange> ranges;
   for (std::size_t t = 0; t < level.source_faces.size(); ++t) {
     const std::string& name = materials.names[materials.material_of_polygon[level.source_faces[t]]];

@@ -16,8 +16,8 @@ void check_output(const Job& job, Replace replace);
 /// \throws UsageError, CannotCreate, IoError.
 void prepare_output_folder(const Job& job, Replace replace);
 
-/// Refuses to replace a crowd that was cast from heads or masks other than this job's heads and
-/// masks, because the run could not make the old crowd again.
+/// Refuses to replace a crowd that was cast from other heads or masks than this job's, because the
+/// run could not make the old crowd again.
 /// \throws UsageError if the folder holds a crowd with other heads or masks, and `replace` is not
 ///         kForce.
 /// \param settings  this job's settings_digest

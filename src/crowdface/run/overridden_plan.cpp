@@ -70,7 +70,7 @@ class OverriddenPlan {
   }
 
  private:
-  std::vector<const AttachmentEntry*> worn_by(const FacePlan& face) const {
+  std::vector<const AttachmentEntry*> attachments_of(const FacePlan& face) const {
     std::vector<const AttachmentEntry*> worn;
     for (const AttachmentEntry& item : config_.attachments.items) {
       if (contains(face.attachments, item.name)) worn.push_back(&item);
@@ -100,10 +100,10 @@ class OverriddenPlan {
         const std::string group = face.group.value_or("");
         ++sizes[group];
         if (may_wear_any(word, face)) groups_that_may.insert(group);
-        const bool wears =
-            std::ranges::any_of(worn_by(face), [&, &called = word](const AttachmentEntry* item) {
-              return matches_kind_name_or_colour(*item, called);
-            });
+        const bool wears = std::ranges::any_of(attachments_of(face),
+                                               [&, &called = word](const AttachmentEntry* item) {
+                                                 return matches_kind_name_or_colour(*item, called);
+                                               });
         reached += wears ? 1 : 0;
         served += wears || !face.notes.changes.empty() ? 1 : 0;
       }
@@ -168,7 +168,7 @@ class OverriddenPlan {
     const auto found = faces_.find(change.id);
     if (found == faces_.end()) return;
     const FacePlan& face = *found->second;
-    const auto worn = worn_by(face);
+    const auto worn = attachments_of(face);
     const auto head = static_cast<std::size_t>(typical_head(face.recipe, config_.faces.tags));
     for (const AttachmentEntry* item : worn) {
       if (!change.attachments || !contains(*change.attachments, item->name)) continue;

@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Returns warnings about config keys that a cast crowd does not follow because other keys take
-/// precedence: quotas of attachments, tags of attachments, groups, and `changes`. Each warning
-/// gives the number of faces to which it applies.
+/// Returns warnings about config keys that other keys override in a cast crowd: quotas of
+/// attachments, tags of attachments, groups, and `changes`. Each warning gives the number of
+/// affected faces.
 std::vector<std::string> overridden_plan_warnings(const Config& config,
                                                   const std::vector<FacePlan>& crowd);
 

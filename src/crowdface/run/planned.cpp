@@ -99,7 +99,7 @@ void write_plan(const Job& job, const CrowdDirectory& directory, const CrowdPlan
   if (!crowd_plan.rejected.empty()) {
     write_and_mark(directory.rejected(), plan_text(crowd_plan.rejected, job.names, job.settings));
   }
-  write_and_mark(directory.casting(), [&](const TakePiece& take) { take(casting.dump(2) + "\n"); });
+  write_and_mark(directory.casting(), [&](const TextSink& take) { take(casting.dump(2) + "\n"); });
   const nlohmann::ordered_json mark = {{"job", key_of(job, directory).hex()}, {"files", files}};
   write_file(directory.plan_marker(), mark.dump() + "\n");
 }

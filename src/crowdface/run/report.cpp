@@ -247,7 +247,7 @@ TextPieces report_text(const Job& job, const PreparedHeads& prepared, const Crow
   std::string head = summary(job, prepared, crowd_plan, casting, faces, sheets, warnings)
                          .dump(2, ' ', false, Json::error_handler_t::replace);
   head.resize(head.size() - std::string_view("\n}").size());
-  return [&, head = concat(head, kBeforeFaces)](const TakePiece& take) {
+  return [&, head = concat(head, kBeforeFaces)](const TextSink& take) {
     take(head);
     text_of_items(faces.size(), [&](std::size_t i) {
       const FacePlan& face = crowd_plan.crowd[i];

@@ -33,8 +33,8 @@ void require_all_faces(const CrowdDirectory& directory, const std::vector<FacePl
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
                         Ledger& ledger);
 
-/// The folder's ledgers that may record faces of this shard. Excludes the ledgers of other shards
-/// of the same split (the same number of shards), because those shards own different faces.
+/// The folder's ledgers that may record faces of this shard: all ledgers except those of the other
+/// shards if the crowd is split into the same number of shards.
 std::vector<std::filesystem::path> relevant_ledgers(const CrowdDirectory& directory,
                                                     const Shard& shard);
 

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0
-// Messages to the user about crowds that certainly or possibly cannot be cast.
+// SPDX-License-Identifier: Apache-2.0 Messages to the user about crowds that may be, or are,
+// impossible to cast.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class ScarcityWarning {
  public:
   /// \param casting  must outlive this object.
   explicit ScarcityWarning(const CastingOptions& casting) : casting_(casting) {}
-  /// \param rejected  numbers of candidates that were rejected before this face was accepted
+  /// \param rejected  the rejected candidates for this face
   void on_face_accepted(const RejectionCounts& rejected);
 
  private:

@@ -16,13 +16,13 @@ constexpr std::uint32_t kSampledForAdvice = 400;
 /// the smallest values.
 std::string farthest_heads(const Config& config, const std::vector<double>& of_heads,
                            const Measurement& measurement, bool upwards) {
-  constexpr std::size_t kMost = 3;
+  constexpr std::size_t kMaxShownHeads = 3;
   std::vector<std::size_t> order(of_heads.size());
   for (std::size_t h = 0; h < order.size(); ++h) order[h] = h;
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     return upwards ? of_heads[a] > of_heads[b] : of_heads[a] < of_heads[b];
   });
-  order.resize(std::min(order.size(), kMost));
+  order.resize(std::min(order.size(), kMaxShownHeads));
   std::vector<std::string> names;
   for (const std::size_t h : order) {
     names.push_back(

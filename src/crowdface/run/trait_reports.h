@@ -36,8 +36,7 @@ std::vector<TraitReport> report_traits(const CastingOptions& casting, const Face
 /// distribution.
 std::vector<std::string> population_warnings(const std::vector<TraitReport>& reports);
 
-/// A text table with, for each measurement, the range of the values of faces that are made from
-/// these heads.
+/// A text table with the range of each measurement, among the heads and among random faces.
 std::string format_trait_ranges(const Config& config, const Inputs& inputs,
                                 const PreparedHeads& prepared, const CastingOptions& casting);
 

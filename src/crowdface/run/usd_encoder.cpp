@@ -49,7 +49,7 @@ struct PrimLook {
 };
 
 PrimLook prim_look_of(const Attachment& item, std::string prim, const MeshSource& source) {
-  FaceMaterials named = face_materials(item.file.materials, item.file.topology.face_count());
+  PolygonMaterials named = polygon_materials(item.file.materials, item.file.topology.face_count());
   if (has_own_texture(source, item)) {
     PrimLook look{std::move(prim), {}, std::move(named.material_of_polygon)};
     for (const std::string& name : named.names) {

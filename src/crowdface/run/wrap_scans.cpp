@@ -41,7 +41,8 @@ struct Task {
   TextureFiles textures = {};  ///< empty without --texture
 };
 
-/// Whether a file beside a scan holds landmarks; warns if not. A text or JSON file may hold anything.
+/// Whether a file beside a scan holds landmarks; warns if not. A text or JSON file may hold
+/// anything.
 bool holds_landmarks(const fs::path& file) {
   try {
     read_landmarks(file);
@@ -289,7 +290,7 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
     write_file(task.picture, wrap_picture(shared.wrap_template, scan, result, shared.frame,
                                           task.scan.filename().string()));
   }
-  if (const auto doubts = wrap_doubts(shared.wrap_template, result);
+  if (const auto doubts = doubtful_part_warnings(shared.wrap_template, result);
       options.strict && !doubts.empty()) {
     write_file(task.report,
                format_wrap_report(facts, shared.wrap_template, result, shared.regions, warnings));

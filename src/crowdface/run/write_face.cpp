@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 /// Copies the material files that the face's attachments refer to.
 void write_attachment_materials(const Job& job, const FacePlan& face, const fs::path& folder) {
-  for (const ColouredAttachment& coloured : job.inputs.attachments.worn_by(face)) {
+  for (const ColouredAttachment& coloured : job.inputs.attachments.attachments_of(face)) {
     for (const AttachmentFile& file : files_of(coloured)) {
       const fs::path to =
           folder / attachment_folder(coloured.item->name, coloured.label()) / file.file.destination;

@@ -9,10 +9,10 @@
 
 namespace crowdface {
 
-/// Writes one face that is not in a crowd's folder: the mesh and, in the same folder, the face's
-/// own textures, materials and attachments.
-/// \param textures   blends the textures of this face; contains no images if faces have no textures
-///                   of their own
+/// Writes one face outside a crowd's folder: the mesh and, in the same folder, the face's textures,
+/// materials and attachments.
+/// \param textures  blends the textures of this face; contains no images if textures are not
+///                   blended
 /// \param positions  #V by 3
 /// \throws CannotCreate, IoError.
 void write_face(const Job& job, const FaceTextures& textures, const FacePlan& face,

@@ -54,8 +54,8 @@ class CrossingSearch {
                                        const std::function<bool(std::uint32_t)>& is_exempt) const;
 
  private:
-  /// Bit masks of the candidates in a pair of leaves, or in one leaf that is paired with itself.
-  /// Bit 8·i + j stands for triangle i of the first leaf and triangle j of the second leaf.
+  /// The candidate pairs between two leaves (or within one leaf, if both are equal), as bit masks:
+  /// bit 8·i + j stands for triangle i of the first leaf and triangle j of the second leaf.
   struct LeafPair {
     std::uint32_t first, second;       ///< indices of the two leaves
     std::uint64_t always_tested_mask;  ///< pairs of triangles that every search tests
@@ -67,9 +67,10 @@ class CrossingSearch {
   void measure_leaf(std::size_t leaf, Boxes& boxes) const;
 
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> vertices_;  ///< vertices of the triangles, ascending
-  TriangleTree tree_;                    ///< its vertex indices refer to `vertices_`
-  std::vector<LeafPair> leaf_pairs_;     ///< pairs of leaves with candidates, ascending
+  /// vertex indices of the mesh, ascending: the vertices of the triangles
+  std::vector<std::uint32_t> vertices_;
+  TriangleTree tree_;  ///< tree over `triangles_`; its vertex indices are rows of `vertices_`
+  std::vector<LeafPair> leaf_pairs_;  ///< pairs of leaves with candidates, ascending
 };
 
 }  // namespace crowdface

@@ -23,7 +23,7 @@ class FrameField {
   /// \param neutral  Template at rest, #V by 3; must outlive this object.
   /// \param skin     Vertices of the skin, ascending; at least three.
   /// \param extent   Diagonal of the skin's bounding box.
-  /// \param vertices  Vertices that need a map, ascending.
+  /// \param vertices  Indices of the vertices that need a map, ascending.
   FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
              std::span<const std::uint32_t> vertices);
 

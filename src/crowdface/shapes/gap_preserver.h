@@ -28,7 +28,7 @@ class GapPreserver {
   std::vector<std::uint32_t> movable_vertices() const { return contacts_.movable_vertices(); }
 
   /// Returns the width of each gap, in the unit of the positions; negative if the skin overlaps.
-  /// \param positions #V by 3.
+  /// \param positions  #V by 3.
   std::vector<double> measure_gaps(const Positions& positions) const {
     return contacts_.gaps(positions);
   }

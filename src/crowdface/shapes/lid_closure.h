@@ -18,12 +18,11 @@ namespace crowdface {
 struct TemplateEye {
   BallRadii ball;  ///< radius of the eyeball in each direction
   Lids lids;
-  std::vector<std::uint32_t> skin_vertices;  ///< vertices around the eye, ascending
+  std::vector<std::uint32_t> skin_vertices;  ///< indices of skin vertices around the eye, ascending
 };
 
-/// An eyeball of a face: the radius map of a head's eyeball, the motion that carries this eyeball
-/// from the head to the face, and the distances between the surrounding skin and the eyeball at
-/// rest.
+/// An eyeball of a face: the radii of a head's eyeball, the motion that carries this eyeball from
+/// the head to the face, and the distances of the surrounding skin from the eyeball at rest.
 struct FaceEye {
   const BallRadii* ball;
   RigidMotion motion;
@@ -58,10 +57,10 @@ class LidClosure {
   /// Returns whether the shape leaves this eye's lids unmoved.
   bool empty() const { return lid_vertices_.empty(); }
 
-  /// Two measures of the gap between the rims of both lids, at one section across the eye's
-  /// opening. Both are negative if the upper lid is below the lower lid.
+  /// Two measures of the gap between the lids, at one section across the eye's opening. Both are
+  /// negative if the upper lid is below the lower lid.
   struct Gap {
-    /// gap between the two rim points of the section, which lie above each other on the template
+    /// gap between the section's two rim points, which lie above each other on the template
     double section_gap;
     double vertical_gap;  ///< vertical distance from the point of the upper rim to the lower rim
   };
@@ -132,7 +131,8 @@ class LidClosure {
   };
   /// A point of a lid's rim, in the plane of EyeAxes.
   struct RimPoint {
-    double along_opening, height;
+    double along_opening;  ///< coordinate along EyeAxes::along
+    double height;         ///< coordinate along EyeAxes::up
   };
   struct LidVertex {
     std::uint32_t row, vertex;  ///< row in the shape's displacements, and the vertex of this row
@@ -164,10 +164,9 @@ class LidClosure {
   /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
                            const LidTargets& targets) const;
-  /// Moves each of the first `count` lid vertices along the eyeball's normal towards a wanted
-  /// distance from the eyeball. The wanted distance is the larger of two distances: the distance at
-  /// rest plus the target of the distance's change, and min_ball_distance. The movement is
-  /// multiplied by `eyeball_weight`.
+  /// Moves each of the first `count` lid vertices along the eyeball's normal, by `eyeball_weight`
+  /// times the way to a wanted distance from the eyeball. The wanted distance is the larger of two
+  /// distances: the distance at rest plus its target change, and min_ball_distance.
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
@@ -175,8 +174,8 @@ class LidClosure {
   /// upper lid's profile (`sign` = −1), after the displacements `moves`.
   static RimPoint rim_point(const std::vector<ProfilePoint>& points, double sign,
                             const EyeAxes& axes, const Positions& face, const Positions& moves);
-  /// Each section has two gaps, section_gap and vertical_gap. Returns, for each section, the larger
-  /// of the two differences between gap and target. A negative target of vertical_gap counts as 0.
+  /// Returns, for each section, the larger of two excesses over the target: of section_gap and of
+  /// vertical_gap. A negative target of vertical_gap counts as 0.
   static std::vector<double> gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
                                           double scale);
   std::vector<Gap> measure_gaps(const EyeAxes& axes, const Positions& face,

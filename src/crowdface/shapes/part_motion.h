@@ -15,22 +15,23 @@ namespace crowdface {
 /// A rigid part of the template: an eyeball, or the teeth of a jaw.
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<std::uint32_t> fitted_vertices;  ///< vertices to which motions are fitted
+  /// the subset of `vertices` to which motions are fitted
+  std::vector<std::uint32_t> fitted_vertices;
   /// all 1, one per fitted vertex; for fit_rigid_motion
   std::vector<double> equal_weights;
   /// centre of rotation: the centre of an eyeball, or the mean of the teeth
   Eigen::Vector3d centre;
 };
 
-/// The motion of a rigid part in a shape, independent of the mesh on which the motion was measured.
-/// find_part_motion removes this mesh's local rotation and stretch relative to the template;
-/// transfer_part_motion applies the rotation and stretch of another face.
+/// The motion of a rigid part in a shape, relative to the template: find_part_motion removes the
+/// local rotation and stretch of the mesh on which it measures the motion, and transfer_part_motion
+/// applies those of another face.
 struct PartMotion {
   /// unit quaternion (w, x, y, z) of the rotation about the centre
   std::array<double, 4> quaternion = {1, 0, 0, 0};
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< translation of the centre
-  /// for each vertex that the shape moves: its displacement minus its displacement by rotation and
-  /// translation
+  /// one per vertex that the shape moves: the part of its displacement that rotation and
+  /// translation do not explain
   std::vector<Eigen::Vector3d> residuals;
 };
 

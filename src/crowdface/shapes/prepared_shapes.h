@@ -72,7 +72,7 @@ struct PreparedShape {
   /// only for a corrective shape: index of its prerequisite, see find_prerequisites. Lips and
   /// intersections are repaired after both shapes have been added.
   std::optional<std::size_t> prerequisite;
-  /// for each row: index into PreparedShapes::moved_vertices
+  /// one per row of the shape's displacements: index into PreparedShapes::moved_vertices
   std::vector<std::uint32_t> vertex_indices;
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
@@ -83,8 +83,8 @@ struct PreparedShape {
   SkinOverParts skin_over_parts;
   SkinCrossings::SearchedSkin searched_skin;
   bool moves_contacts = false;  ///< whether the shape moves skin at a gap, see GapPreserver
-  /// #sets by #gaps: how much the shape widens each gap between lips, divided by the scale of the
-  /// mesh relative to the template; empty unless `moves_contacts`
+  /// #sets by #gaps: by how much the shape widens each gap, divided by the scale of the mesh
+  /// relative to the template; empty unless `moves_contacts`
   std::vector<std::vector<double>> gap_changes;
 };
 
@@ -100,12 +100,13 @@ struct PreparedShapes {
   const ShapeSet& shape_set;
   HeadAxes axes;
   VertexFaces vertex_faces;
-  std::vector<std::uint32_t> skin;  ///< vertices of the skin, ascending
+  std::vector<std::uint32_t> skin;  ///< vertex indices of the skin, ascending
   std::vector<RigidPart> rigid_parts;
   /// #rigid_parts by #regions: mean region weights of the skin near each part
   std::vector<std::vector<double>> rigid_part_weights;
   std::vector<PreparedEye> eyes;
-  std::vector<std::uint32_t> moved_vertices;  ///< vertices that at least one shape moves, ascending
+  /// indices of the vertices that at least one shape moves, ascending
+  std::vector<std::uint32_t> moved_vertices;
   /// #moved_vertices by #regions: region weights of the skin nearest to each vertex
   RegionWeights::Alpha vertex_region_weights;
   /// preserves gaps between skin surfaces that almost touch, such as the lips
@@ -113,7 +114,8 @@ struct PreparedShapes {
   RegionWeights::Alpha contact_region_weights;  ///< #gaps by #regions
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the bounding box of the template's skin
-  /// vertices of gums and teeth: of all parts except eyeballs, without the vertices near an eye
+  /// vertex indices of gums and teeth: of all parts except eyeballs, without the vertices near an
+  /// eye
   std::vector<std::uint32_t> inner_vertices;
   SkinCrossings crossings;
   /// Finds intersections on the face at rest, in the skin that at least one shape may bring into

@@ -19,7 +19,7 @@ struct Shape {
 
 /// One head's own version of an expression.
 struct OwnShape {
-  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<std::uint32_t> vertices;  ///< indices of the moved vertices, ascending
   FloatPositions moves;                 ///< #vertices by 3
 };
 

@@ -47,15 +47,15 @@ class ShapeTransfer {
   /// \param shares    For each shape: weights of the heads' own shapes. If empty, the template's
   ///                  shapes are used.
   /// \param crossing_counts  Optional output, one entry per shape: number of skin triangles that
-  ///                  intersect other skin in this face's shape, but neither in the template's
-  ///                  shape nor in the face at rest.
+  ///                  intersect other skin in this shape of the face, but neither in this shape of
+  ///                  the template nor on the face at rest.
   /// \return          For each shape: displacements of the same vertices as in the ShapeSet.
   std::vector<Displacements> transfer_to_face(Index target, const Positions& face,
                                               std::span<const RegionShares> shares = {},
                                               std::vector<Index>* crossing_counts = nullptr) const;
 
-  /// Returns the index of the shape with which this corrective shape is applied, see
-  /// find_prerequisites; nothing for other shapes.
+  /// Returns the index of the shape with which a corrective shape must be applied, see
+  /// find_prerequisites; nothing if `shape` is not corrective.
   std::optional<std::size_t> prerequisite_of(std::size_t shape) const;
 
   /// Returns the memory, in bytes, of the heads' normalised shapes and region weights.

@@ -42,7 +42,7 @@ class SkinCrossings {
     std::vector<DisplacementRow> skin_displacements;
     /// #skin_displacements by 3: positions of these vertices on the template with the shape applied
     Positions shaped_positions;
-    /// Whether the shape brings together skin that is far apart at rest. If so, intersecting skin
+    /// Whether the shape brings skin together that is far apart at rest. If so, intersecting skin
     /// gets the same front-to-back order as on the template.
     bool brings_distant_skin_together = false;
   };
@@ -60,8 +60,7 @@ class SkinCrossings {
   /// \param neutral  Template at rest, #V by 3.
   CrossingSearch merge_searches(const Positions& neutral,
                                 std::span<const CrossingSearch* const> searches) const;
-  /// Returns one value for each vertex: whether the vertex belongs to an intersecting triangle of a
-  /// face at rest.
+  /// Returns, for each vertex, whether it belongs to an intersecting triangle of a face at rest.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& search) const;
 
   struct Face {

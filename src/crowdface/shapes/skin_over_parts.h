@@ -43,8 +43,8 @@ class SkinOverParts {
                      Displacements& shape) const;
 
  private:
-  /// A vertex under the skin. `covering_triangle` is the skin in front of this vertex on the
-  /// template with the shape applied.
+  /// A vertex of gums or teeth under the skin. `covering_triangle` is the skin triangle in front of
+  /// the vertex on the template with the shape applied.
   struct CoveredVertex {
     std::uint32_t vertex;
     Triangle covering_triangle;

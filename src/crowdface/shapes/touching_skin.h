@@ -12,13 +12,13 @@ namespace crowdface {
 
 /// The triangles of a mesh whose corners are all skin.
 struct SkinTriangles {
-  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<std::uint32_t> vertices;  ///< vertex indices of the skin, ascending
   std::vector<Triangle> triangles;
   CompressedRows<std::uint32_t> vertex_triangles;  ///< triangles at each vertex
 };
 
-/// Returns one value for each vertex: whether a shape folds the skin there, or brings this skin so
-/// near to other skin that both may touch on some face.
+/// Returns, for each vertex, whether a shape folds the skin there, or brings it so near to other
+/// skin that both may touch on some face.
 ///
 /// \param neutral  Template at rest, #V by 3.
 /// \param shaped   Template in the shape, #V by 3.

@@ -25,12 +25,12 @@ struct HeadSmoothing {
 
 /// The fields of all heads at the vertices of one patch. A patch is a group of nearby vertices.
 struct FieldPatch {
-  std::span<const std::uint32_t> vertices;  ///< the vertices of the patch, as ascending vertex
-                                            ///< numbers of the mesh
-  /// For each head, how many of its leading fields the patch stores.
+  /// vertex indices of the mesh, ascending
+  std::span<const std::uint32_t> vertices;
+  /// for each head: number of its leading fields that the patch stores
   std::span<const std::uint32_t> field_counts;
-  std::size_t field_count = 0;  ///< number of stored fields of all heads together, the sum of
-                                ///< `field_counts`
+  /// number of stored fields of all heads: the sum of `field_counts`
+  std::size_t field_count = 0;
   /// number of vertices at which fields are stored (the skeleton, see FieldPatches)
   std::size_t stored_vertex_count = 0;
   const float* quantization_steps = nullptr;  ///< one per field: a power of two, or zero
@@ -44,7 +44,7 @@ struct FieldPatch {
 
   /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
   bool stores_all_vertices() const { return stored_vertex_count == vertices.size(); }
-  /// Count of 16-bit numbers stored for each field: 3 coordinates at each of the
+  /// Number of 16-bit values stored for each field: 3 coordinates at each of the
   /// `stored_vertex_count` vertices, rounded up to a multiple of kPatchPadding.
   std::size_t values_per_field() const { return values_per_field(stored_vertex_count); }
   static std::size_t values_per_field(std::size_t stored_vertex_count) {
@@ -59,11 +59,12 @@ inline std::size_t patch_count(std::size_t vertex_count) {
 
 /// The data of all patches, concatenated.
 struct PatchArrays {
-  std::span<const std::uint32_t> vertices;  ///< all vertices, each once, ordered by patch
+  /// all vertex indices of the mesh, each once, ordered by patch
+  std::span<const std::uint32_t> vertices;
   /// one per patch: see FieldPatch::stored_vertex_count
   std::span<const std::uint32_t> stored_vertex_counts;
-  std::span<const std::uint32_t>
-      field_counts;  ///< #patches by #heads: see FieldPatch::field_counts
+  /// #patches by #heads: see FieldPatch::field_counts
+  std::span<const std::uint32_t> field_counts;
   std::span<const float> quantization_steps, weights;
   std::span<const std::int16_t> quantized_values;
   std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
@@ -114,7 +115,7 @@ std::vector<std::uint32_t> vertex_order_for_patches(const Positions& positions,
 /// Compresses the fields of all heads patch by patch.
 /// \param heads      at least one head; all of the same mesh.
 /// \param levels     levels at which the error must not exceed `tolerance`.
-/// \param order      all vertices, ordered so that consecutive vertices are close to each other;
+/// \param order  all vertex indices, ordered so that consecutive vertices are close to each other;
 ///                   for example the result of vertex_order_for_patches.
 /// \param tolerance  largest allowed compression error of any vertex of any head at any of the
 ///                   levels, in the unit of the positions. Rounding to quantization steps adds to

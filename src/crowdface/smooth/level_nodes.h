@@ -46,8 +46,8 @@ class LevelNodes {
   /// as number q. Element q is the component of this node's displacement that is orthogonal to
   /// elements 0 … q − 1, normalized.
   std::vector<Spectrum> orthonormal_basis_;
-  std::vector<std::size_t> choice_order_;  ///< indices into levels_, in the order in which
-                                           ///< choose_nodes chose the nodes
+  /// indices into levels_, in the order in which choose_nodes chose the nodes
+  std::vector<std::size_t> choice_order_;
   /// Row p belongs to node choice_order_[p]: the displacement at this node is
   /// Σ_q triangular_factor_[p][q] orthonormal_basis_[q].
   std::vector<std::vector<double>> triangular_factor_;

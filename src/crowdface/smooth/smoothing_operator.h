@@ -34,7 +34,8 @@ class SmoothingOperator {
 
  private:
   OperatorKind kind_;
-  CompressedRows<std::uint32_t> neighbours_;  ///< of each vertex; none for fixed vertices
+  /// neighbours of each vertex, ascending; none for fixed vertices
+  CompressedRows<std::uint32_t> neighbours_;
 };
 
 }  // namespace crowdface

@@ -15,8 +15,8 @@ struct alignas(4 * sizeof(T)) Row {
   T value[4];
 };
 
-/// An array of rows with uninitialised memory. So the thread that computes the rows of a memory
-/// page is the first thread that accesses this page.
+/// An array of rows with uninitialised memory, so that each memory page is first written by the
+/// thread that computes its rows.
 template <class T>
 class RowArray {
  public:

@@ -33,8 +33,8 @@ struct Tile {
   /// The first run_count_up_to_ring[r] entries of `runs` cover the tile's own rows and the rings 1
   /// to r.
   std::vector<std::uint32_t> run_count_up_to_ring;
-  std::vector<std::uint32_t>
-      neighbours;  ///< neighbour lists (local rows), each in the operator's order
+  /// neighbour lists (local rows), each in the operator's order
+  std::vector<std::uint32_t> neighbours;
 
   std::uint32_t local_count() const { return row_count + static_cast<std::uint32_t>(halo.size()); }
 };

@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// Fills the uncovered texels of a texture image with one value per channel, and then copies
-/// covered texels into the gutter.
+/// Fills the uncovered texels of a texture image with `fill`, and then copies covered texels into
+/// the gutter.
 /// \param fill    one value per channel
 /// \param values  height by width by #channels.
 template <class Value>

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace crowdface {
 
 /// Optical density: −ln of the reflected light, quantized to 16 bits. Densities of pigments add up.
@@ -12,6 +14,8 @@ namespace crowdface {
 /// colour.
 using Density = std::uint16_t;
 inline constexpr float kMaxDensity = 65535;
+/// Optical densities as real numbers, #rows by 3: red, green and blue.
+using OpticalDensities = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
 /// The optical density −log(light) of a linear colour value.
 /// \param light  0 … 1; clamped to this range.

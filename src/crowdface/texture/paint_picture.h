@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// The input of paint_picture for one texture image of one face. Each vertex in the image has a
-/// base value per channel, and a factor by which the map of each head is multiplied. Base values
-/// and factors are interpolated linearly within triangles.
+/// The input of paint_picture for one texture image of one face: for each vertex in the image, a
+/// base value per channel, and for each head a factor on the head's map. Both are interpolated
+/// linearly within triangles.
 struct VertexFactorsOfImage {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads whose maps contribute to the image, ascending

@@ -26,7 +26,7 @@ void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* r
 
 /// One row of a head's texture map, and the factor by which each texel is multiplied.
 struct HeadTextureRow {
-  /// The head's factor at each texel.
+  /// one per texel
   const float* factors;
   std::array<const std::uint16_t*, 3> stored;  ///< stored values of each channel
 };

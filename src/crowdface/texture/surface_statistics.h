@@ -14,8 +14,8 @@ namespace crowdface {
 struct SurfaceStatistics {
   using Colours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-  std::vector<Colours>
-      coarse_values;  ///< for each head, #V by 3: values of the head's maps, smoothed over the mesh
+  /// for each head, #V by 3: values of the head's maps, smoothed over the mesh
+  std::vector<Colours> coarse_values;
   /// The covariance of the details of heads a and b around a vertex, summed over the channels: the
   /// mean product of both heads' differences between map and `coarse_values`.
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {

@@ -19,7 +19,8 @@ struct TextureLayout {
     bool operator==(const Picture&) const = default;
   };
   std::vector<Picture> pictures;
-  std::vector<std::uint32_t> picture_of_polygon;  ///< index of each polygon's picture, or kNoIndex
+  /// one per polygon: index into `pictures`, or kNoIndex
+  std::vector<std::uint32_t> picture_of_polygon;
   /// For each polygon: the lower corner (u, v) of the unit square of texture space that contains
   /// the polygon.
   std::vector<std::array<std::int32_t, 2>> tile_of_polygon;
@@ -44,8 +45,7 @@ class SurfaceTexels {
     std::uint16_t begin, end;
   };
   /// An uncovered texel near the surface (`target`), which gets the colour of a covered texel
-  /// (`source`). Because of such texels, texture filtering does not mix the background into the
-  /// surface.
+  /// (`source`). Such texels keep texture filtering from mixing the background into the surface.
   struct GutterTexel {
     std::uint32_t target, source;  ///< row · width + column of each texel
   };

@@ -16,7 +16,7 @@ namespace crowdface {
 
 struct TextureBlendOptions {
   StatisticsScale statistics_scale;  ///< how many smoothing iterations the statistics use
-  /// Weight of each vertex in means over the face; not all zero.
+  /// one per vertex: its weight in means over the face; not all zero
   std::vector<double> vertex_areas;
   /// For each vertex, whether it gets only the target's colours, as eyes and teeth do; may be
   /// empty.
@@ -43,7 +43,7 @@ struct TextureBlendOptions {
 /// are bit-identical on any number of threads.
 class TextureBlender {
  public:
-  /// A function that returns the result of its argument `make`, or the same result from a cache.
+  /// Returns the result of `make()`, computed now or read from a cache.
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param texels             the mesh rasterized into the layout of `textures`.
@@ -81,8 +81,8 @@ class TextureBlender {
   std::shared_ptr<const LayoutTexels> texels_;
   std::vector<MapCoding> codings_;  ///< for each picture: the coding of the blended picture
   SurfaceStatistics statistics_;
-  std::vector<double>
-      region_area_fractions_;  ///< #regions: fraction of the face that each region covers
+  /// #regions: fraction of the face that each region covers
+  std::vector<double> region_area_fractions_;
 };
 
 /// For each region, the fraction of the face's area that the region covers.

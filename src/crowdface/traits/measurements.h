@@ -39,9 +39,9 @@ struct Measurement {
   Kind kind;
   std::string_view definition;
   /// The landmarks for each side of the face, as indices into trait_landmarks(). If the measurement
-  /// needs two landmarks, the third entry repeats the second. Measurements that are
-  /// taken on the left and on the right have two entries, and their value is the mean of both.
-  /// Other measurements have one entry, ratios none.
+  /// needs two landmarks, the third index repeats the second. Measurements taken on the left and on
+  /// the right have two entries; their value is the mean of both. Other measurements have one
+  /// entry, ratios none.
   std::vector<std::array<std::size_t, 3>> landmark_indices_by_face_side = {};
   std::size_t dividend = 0, divisor = 0;  ///< only for ratios: indices into measurements()
 };

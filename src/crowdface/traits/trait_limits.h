@@ -73,8 +73,8 @@ class TraitDistributions {
  private:
   /// #measurements: for each measurement, the values of the heads, ascending
   std::vector<std::vector<double>> sorted_values_;
-  std::vector<TraitTarget>
-      target_distributions_;  ///< normal distributions that replace those of the heads
+  /// normal distributions that replace those of the heads
+  std::vector<TraitTarget> target_distributions_;
 };
 
 /// Returns a value with its unit, such as "38.2 mm", "104.1 degrees" or "0.672".

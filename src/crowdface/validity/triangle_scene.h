@@ -57,8 +57,8 @@ class TriangleScene {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
-  /// Returns pairs of nodes, each of which is one parallel task. For any two leaves that overlap,
-  /// one of the pairs consists of an ancestor of the first leaf and an ancestor of the second leaf.
+  /// Returns pairs of nodes, one for each parallel task. Together, the subtrees of the pairs
+  /// contain all pairs of leaves that overlap.
   std::vector<NodePair> initial_node_pairs() const;
   /// Calls use(one, other) for each pair of leaves below the nodes `from` whose boxes overlap.
   template <class Use>

@@ -7,9 +7,9 @@
 namespace crowdface {
 namespace {
 
-/// Marks the triangles at vertices with more than kMaxTrianglesAtVertex triangles. The boxes of all triangles
-/// at such a vertex overlap each other: with 60,000 triangles at one vertex, the tests of pairs
-/// took 90 seconds per face.
+/// Marks the triangles at vertices with more than kMaxTrianglesAtVertex triangles. The boxes of all
+/// triangles at such a vertex overlap each other: with 60,000 triangles at one vertex, the tests of
+/// pairs took 90 seconds per face.
 std::vector<bool> is_at_hub(const std::vector<Triangle>& triangles, Index vertex_count) {
   constexpr std::uint32_t kMaxTrianglesAtVertex = 1000;
   std::vector<std::uint32_t> around(static_cast<std::size_t>(vertex_count), 0);

@@ -21,9 +21,9 @@ double ray_margin(const Positions& positions);
 /// \param triangle    index of the triangle in the scene; a triangle never hides its own samples.
 /// \param directions  directions towards all viewers, of any non-zero length.
 /// \param viewers     indices into `directions` of the viewers that count.
-/// \param last_occluders  one entry per direction: the result of TriangleScene::find_any_hit for
-///                        the previous ray in this direction (at first kNoIndex), which is the
-///                        guess for the next ray.
+/// \param last_occluders  one entry per direction, at first kNoIndex; updated: the last result of
+///                        TriangleScene::find_any_hit in this direction, which is the guess for the
+///                        next ray.
 double visible_share(const TriangleScene& scene, const Corners& corners, std::uint32_t triangle,
                      double mm_per_unit, std::span<const Eigen::Vector3d> directions,
                      std::span<const std::size_t> viewers, std::span<std::uint32_t> last_occluders);

@@ -230,8 +230,8 @@ class Bending {
   std::vector<double> visibility_weights_;
   std::vector<std::uint32_t> scan_points_;
   // Results of the previous search for closest points; the next search uses them as guesses.
-  std::vector<std::uint32_t>
-      last_scan_triangles_;                 ///< for each skin vertex: a triangle of the scan
+  /// for each skin vertex: a triangle of the scan
+  std::vector<std::uint32_t> last_scan_triangles_;
   std::vector<SurfaceHit> last_skin_hits_;  ///< for each sampled scan point: a point of the skin
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;

@@ -12,13 +12,14 @@
 
 namespace crowdface {
 
-/// A growing patch: a triangle and the rings of vertices around the triangle.
+/// A triangle and a growing number of rings of vertices around it.
 class GrowingPatch {
  public:
   GrowingPatch(const SkinMesh& skin, const Triangle& triangle);
 
   /// Adds the next ring of vertices.
   void grow();
+  /// The patch's vertices, as vertex indices of the skin.
   std::span<const std::uint32_t> vertices() const { return vertices_; }
   /// Weight of vertex `i` of the patch: 1 at the triangle, falling to 0 beyond the last ring. With
   /// a larger steepness, the weight falls mainly near the border.
@@ -30,7 +31,7 @@ class GrowingPatch {
  private:
   const SkinMesh& skin_;
   std::vector<std::uint32_t> vertices_;
-  std::vector<int> rings_;  ///< ring number of each vertex in `vertices_`
+  std::vector<int> rings_;  ///< one per entry of `vertices_`: its ring number
   std::vector<bool> is_member_;
   int ring_count_ = 0;  ///< number of rings added so far
   double weight_steepness_ = 1;

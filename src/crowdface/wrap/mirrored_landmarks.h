@@ -15,9 +15,10 @@ namespace crowdface {
 void refuse_mirrored_landmarks(const Positions& positions,
                                const std::vector<WrapLandmark>& landmarks);
 
-/// Rejects landmarks of which two are swapped.
+/// Rejects landmarks if the positions of two of them are probably swapped.
 /// \throws InvalidInput if the landmarks fit several times better after the positions of one pair
-///     on the scan are exchanged; the message names the pair. Fewer than five landmarks are accepted.
+///     on the scan are exchanged; the message names the pair. Fewer than five landmarks are
+///     accepted.
 /// \param positions  as for refuse_mirrored_landmarks.
 void refuse_swapped_pair(const Positions& positions, const std::vector<WrapLandmark>& landmarks);
 

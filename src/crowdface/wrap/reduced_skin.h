@@ -8,7 +8,7 @@
 
 namespace crowdface {
 
-/// A simplified skin mesh that replaces a skin with many vertices during deformation.
+/// A skin mesh with fewer vertices, which replaces a skin with many vertices during deformation.
 struct ReducedSkin {
   SkinMesh mesh;  ///< the reduced mesh; its `vertices` are vertex indices in the original skin
   /// Position of a vertex of the original skin on the reduced skin: triangle and barycentric

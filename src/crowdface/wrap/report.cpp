@@ -147,7 +147,8 @@ double fraction_without_data(const WrapTemplate& wrap_template, const WrapResult
   return visible == 0 ? 0 : static_cast<double>(without) / static_cast<double>(visible);
 }
 
-std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const WrapResult& result) {
+std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_template,
+                                                const WrapResult& result) {
   std::vector<std::string> warnings;
   for (const FeatureCheck& feature : result.features) {
     if (!feature.correlation.is_doubtful()) continue;
@@ -193,7 +194,7 @@ std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const Wr
 
 std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const WrapResult& result,
                                        const SkinRegions& regions, std::size_t model_head_count) {
-  std::vector<std::string> warnings = wrap_doubts(wrap_template, result);
+  std::vector<std::string> warnings = doubtful_part_warnings(wrap_template, result);
   const std::vector<std::string> faults = scan_faults(wrap_template, result, regions);
   warnings.insert(warnings.end(), faults.begin(), faults.end());
   const double share = share_far(visible_distances(wrap_template, result));

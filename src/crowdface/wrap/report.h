@@ -30,13 +30,14 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const 
 
 /// The warnings about parts of the wrapped head that may be wrong: features, automatically found
 /// landmarks, and the position of the face.
-std::vector<std::string> wrap_doubts(const WrapTemplate& wrap_template, const WrapResult& result);
+std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_template,
+                                                const WrapResult& result);
 
 /// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
 void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result,
                      const SkinRegions& regions);
 
-/// Facts for the report that the result of a wrap does not contain.
+/// Facts for the report that WrapResult does not contain.
 struct WrapFacts {
   std::string template_file, scan_file, inputs_digest, mesh_digest;
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan

@@ -32,8 +32,7 @@ std::vector<bool> is_vertex_used(const Scan& scan);
 /// neck, about 0.5 for half a head, 0.8 for a face alone.
 double net_area_fraction(const Scan& scan);
 
-/// The vertices at which the surface ends, ascending: the vertices of all boundary loops that are
-/// at least `min_length` long.
+/// Returns the vertices, ascending, of all boundary loops that are at least `min_length` long.
 std::vector<std::uint32_t> long_boundaries(const std::vector<Triangle>& triangles,
                                            const Positions& positions, double min_length);
 

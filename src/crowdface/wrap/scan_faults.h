@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// A skin vertex counts as far from the scan if its distance from the scan is larger.
+/// A skin vertex farther from the scan than this distance counts as far.
 inline constexpr double kFarFromScanMm = 3;
 
 /// Regions of the skin for which a report lists distances to the scan separately.

@@ -13,8 +13,8 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/outward_polygons.h"
 #include "crowdface/io/read_mesh.h"
-#include "crowdface/io/right_side_out.h"
 #include "crowdface/mesh/vector3.h"
 
 namespace crowdface {

@@ -16,8 +16,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxProbes = 3000;  ///< vertices sampled in each step
-constexpr double kKeptFraction =
-    0.8;  ///< fraction of the correspondences that is used: the closest ones
+/// fraction of the correspondences that is used: the closest ones
+constexpr double kKeptFraction = 0.8;
 constexpr Index kPoseUnknowns = 7;
 /// Standard deviation of the pose's scale, relative to its first estimate, if a model is fitted.
 constexpr double kScaleDeviation = 0.02;

@@ -59,8 +59,9 @@ struct ShapeFitOptions {
   double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface
 };
 
-/// Finds the similarity and the model coefficients that best fit the skin to the scan: point to
-/// plane (Chen & Medioni 1992), with landmarks, ignoring the farthest fifth of the points.
+/// Finds the similarity and the model coefficients that best fit the skin to the scan, by
+/// point-to-plane distances (Chen & Medioni 1992) and landmarks. Ignores the farthest fifth of the
+/// points.
 /// \param model  model of the skin, in millimetres; without modes the function finds only the pose.
 /// \param start  initial values.
 ShapeFit fit_shape(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,

@@ -5,8 +5,8 @@
 
 namespace crowdface {
 
-/// Finds triangles of a wrapped skin that are rotated by more than a right angle relative to the
-/// template, or that have lost nearly all their area.
+/// Returns the indices of the triangles of a wrapped skin that are rotated by more than a right
+/// angle relative to the template, or that have lost nearly all their area.
 /// \param rest_positions  #skin by 3, of the template.
 /// \param positions  #skin by 3, wrapped.
 std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Positions& rest_positions,

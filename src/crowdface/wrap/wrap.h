@@ -46,7 +46,7 @@ struct WrapResult {
   /// median distance between the scan and the template after the pose fit (translation, rotation
   /// and scale), before the template is bent
   double pose_residual_mm = 0;
-  Eigen::VectorXd distance_mm;  ///< distance of each wrapped skin vertex from the scan
+  Eigen::VectorXd distance_mm;  ///< one per skin vertex: its distance from the scan after the wrap
   /// for each skin vertex: true if the scan has no data near the vertex, or if only the scan's
   /// boundary is near
   std::vector<bool> lacks_data;

@@ -10,9 +10,9 @@
 
 namespace crowdface {
 
-/// A position in the textures of the full mesh, such as the position of a reduced mesh's vertex.
+/// A position in the textures of the full mesh, for example of a vertex of the reduced mesh.
 struct TexturePoint {
-  Index face = -1;  ///< polygon of the full mesh; its texture is used; −1: no texture
+  Index face = -1;  ///< polygon of the full mesh that has the texture; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
 };
 

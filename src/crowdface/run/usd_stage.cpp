@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/run/crowd_stage.h"
+#include "crowdface/run/usd_stage.h"
 
 #include <algorithm>
 #include <cmath>

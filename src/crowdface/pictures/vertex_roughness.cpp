@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/pictures/vertex_finish.h"
+#include "crowdface/pictures/vertex_roughness.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/paint/bands.h"
+#include "crowdface/paint/mask_bands.h"
 
 #include <algorithm>
 #include <cmath>

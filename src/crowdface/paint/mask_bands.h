@@ -15,8 +15,8 @@
 
 namespace crowdface {
 
-/// Mask regions that are horizontal bands of a head, or its ears or neck, and that can be computed
-/// from the head's shape. Unrelated to the bands of detail.
+/// Regions of a mask that can be computed from a head's shape: horizontal bands of the face, ears,
+/// neck. Unrelated to the bands of detail.
 enum class MaskBand : std::uint8_t {
   kBrow,   ///< brows and above
   kNose,   ///< eyes and nose

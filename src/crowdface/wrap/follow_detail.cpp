@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/wrap/detail.h"
+#include "crowdface/wrap/follow_detail.h"
 
 #include <algorithm>
 #include <cmath>

@@ -29,8 +29,8 @@ struct HeadTextureFiles {
 /// All heads' textures of one kind, and warnings about missing files.
 struct FoundTextureFiles {
   TextureKind kind = TextureKind::kColour;
-  std::vector<HeadTextureFiles> heads;  ///< #heads
-  /// column and row of each polygon's UDIM tile
+  std::vector<HeadTextureFiles> heads;  ///< one per head
+  /// for each polygon: column and row of its UDIM tile
   std::vector<std::array<std::int32_t, 2>> tile_of_polygon;
   std::vector<std::string> warnings;  ///< without duplicates; each warning names its heads
 
@@ -46,8 +46,8 @@ void leave_out_files(FoundTextureFiles& textures, const std::set<std::filesystem
 /// \return one warning per file.
 std::vector<std::string> leave_out_unreadable_files(FoundTextureFiles& textures);
 
-/// Reads material files and checks which textures exist, without reading the textures. Stores
-/// warnings about material files in the result's item for colour textures.
+/// Reads material files and checks which textures exist, without reading the textures. The result's
+/// item for colour textures also has the warnings about material files.
 /// \param heads  topology and texture coordinates that all heads share
 /// \param files  the file of each head
 /// \return one item per kind of texture: always the colours, then each kind that any head has.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/paint/bands.h"
+#include "crowdface/paint/mask_bands.h"
 
 #include <gtest/gtest.h>
 
@@ -73,7 +73,8 @@ TEST_F(FiveBands, EarsLieAtTheSidesAndTheNeckBelowTheChin) {
   EXPECT_GT(right, 100);
 }
 
-// The transitions around ears and neck were 16 mm wide, and blended faces had ridges above the ears.
+// The transitions around ears and neck were 16 mm wide, and blended faces had ridges above the
+// ears.
 TEST_F(FiveBands, AllTransitionsAreWide) {
   const double face = marks_.eye_to_mouth();
   double steepest = 0;

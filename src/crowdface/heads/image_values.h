@@ -6,9 +6,8 @@
 
 namespace crowdface {
 
-/// The image's colours, converted to linear light. Integers count as sRGB, floats as linear. If the
-/// image is grey, its first channel becomes all three colour channels of the result. Alpha is
-/// ignored.
+/// The image's colours as linear light. Integers count as sRGB, floats as linear. All three
+/// channels of a grey image get its first channel. Alpha is ignored.
 /// \param image  must outlive the result.
 ImageRows linear_light_of(const Image& image);
 

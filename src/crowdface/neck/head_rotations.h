@@ -14,10 +14,10 @@ namespace crowdface {
 /// \param from, to  #points by 3; at least three points that are not collinear
 RigidMotion head_motion(const Positions& from, const Positions& to);
 
-/// Returns the part of a rotation between two heads that is due to their different poses. The
-/// rotations of heads in the same pose also differ: by up to 6 degrees about the axis through
-/// the ears (the inclination of faces varies) and by up to 2 degrees about other axes (heads are
-/// nearly symmetric). This function removes such differences.
+/// Returns the part of the rotation between two heads that their different poses cause. The
+/// rotations of heads in the same pose also differ: by up to 6 degrees about the axis through the
+/// ears (the inclination of faces varies) and by up to 2 degrees about other axes (heads are nearly
+/// symmetric). This function removes such differences.
 /// \param across  the axis through the ears, a unit vector
 Eigen::Matrix3d pose_difference(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across);
 

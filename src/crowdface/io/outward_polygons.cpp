@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/io/right_side_out.h"
+#include "crowdface/io/outward_polygons.h"
 
 #include <algorithm>
 #include <string>

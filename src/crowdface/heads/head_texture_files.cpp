@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/attachment_textures.h"
+#include "crowdface/heads/head_texture_files.h"
 
 #include <algorithm>
 #include <map>
@@ -34,7 +34,7 @@ std::optional<std::string> unused_materials_warning(const NamedTextures& named, 
   for (const auto& [material, path] : colours->second) {
     if (!material.empty()) textured.push_back(quoted(material));
   }
-  for (const std::string& material : face_materials(file.materials, face_count).names) {
+  for (const std::string& material : polygon_materials(file.materials, face_count).names) {
     if (colours->second.contains(material)) return std::nullopt;
     if (!material.empty()) used.push_back(quoted(material));
   }
@@ -84,7 +84,7 @@ HeadTextureFiles texture_files_of(const std::map<std::string, fs::path>& of_mate
   HeadTextureFiles placed;
   if (of_material.empty()) return placed;
   placed.file_of_polygon.assign(tiles.size(), kNoIndex);
-  const FaceMaterials materials = face_materials(ranges, static_cast<Index>(tiles.size()));
+  const PolygonMaterials materials = polygon_materials(ranges, static_cast<Index>(tiles.size()));
   std::map<fs::path, std::uint32_t> rows;
   for (std::size_t f = 0; f < tiles.size(); ++f) {
     throw_if_interrupted();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/neck/head_turns.h"
+#include "crowdface/neck/head_rotations.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/heads/light_of_image.h"
+#include "crowdface/heads/image_values.h"
 
 #include <gtest/gtest.h>
 
