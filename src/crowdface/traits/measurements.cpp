@@ -21,7 +21,7 @@ constexpr LandmarkRow kLandmarks[] = {
     {"crown", "v", "the highest point of the head, in the middle"},
     {"hairline", "tr", "where the hair begins, in the middle of the forehead"},
     {"brow_middle", "g", "the foremost point of the forehead between the brows, in the middle"},
-    {"skull_back", "op", "the point of the back of the head farthest behind, in the middle"},
+    {"skull_back", "op", "the rearmost point of the head, in the middle"},
     {"nose_bridge", "n", "the deepest point between the eyes, in the middle"},
     {"nose_tip", "prn", "the foremost point of the nose"},
     {"nose_base", "sn", "where the nose's underside meets the upper lip, in the middle"},
@@ -156,17 +156,17 @@ std::vector<Measurement> make_table() {
   table.ratio("facial_index", "n-gn / zy-zy", "face_height", "face_width",
               "height of the face by its width");
   table.ratio("mandibular_index", "go-go / zy-zy", "jaw_width", "face_width",
-              "width of the jaw by that of the face");
+              "width of the jaw by width of the face");
   table.ratio("nasal_index", "al-al / n-sn", "nose_width", "nose_height",
               "width of the nose by its height");
   table.ratio("nasal_protrusion_index", "sn-prn / al-al", "nose_protrusion", "nose_width",
               "protrusion of the nose by its width");
   table.ratio("intercanthal_index", "en-en / ex-ex", "intercanthal", "biocular",
-              "distance between the eyes by that of their outer corners");
+              "distance of the inner corners of the eyes by distance of the outer corners");
   table.ratio("eye_index", "ps-pi / en-ex", "eye_height", "eye_width",
               "height of the eye's opening by its width");
   table.ratio("mouth_face_index", "ch-ch / zy-zy", "mouth_width", "face_width",
-              "width of the mouth by that of the face");
+              "width of the mouth by width of the face");
   table.ratio("lower_face_index", "sn-gn / n-gn", "lower_face_height", "face_height",
               "share of the face's height below the nose");
   return table.rows();
