@@ -1,6 +1,6 @@
-# Every third-party library, found once. scripts/install_dependencies.sh installs them on Debian.
+# Finds all third-party libraries. scripts/install_dependencies.sh installs them on Debian.
 find_package(Threads REQUIRED)
-find_package(Eigen3 REQUIRED NO_MODULE)  # a version here would refuse the next major one: 5 follows 3.4
+find_package(Eigen3 REQUIRED NO_MODULE)  # no version here: it would exclude Eigen 5, the major version after 3.4
 if(Eigen3_VERSION VERSION_LESS 3.4)
   message(FATAL_ERROR "crowdface needs Eigen 3.4 or newer; found ${Eigen3_VERSION} in ${Eigen3_DIR}")
 endif()
@@ -16,7 +16,7 @@ find_package(spdlog REQUIRED)
 find_package(Freetype REQUIRED)
 find_package(PNG REQUIRED)
 find_package(OpenImageIO REQUIRED)
-# Debian's OpenImageIO names the headers of OpenCV too, which it neither needs nor installs.
+# Removes OpenCV's headers, which Debian's package of OpenImageIO lists but neither needs nor installs.
 set_property(TARGET OpenImageIO::OpenImageIO PROPERTY INTERFACE_INCLUDE_DIRECTORIES
   ${OpenImageIO_INCLUDE_DIRS})
 find_package(embree REQUIRED)
@@ -29,13 +29,13 @@ find_package(assimp REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(hwy REQUIRED IMPORTED_TARGET libhwy)
-# On ARM kernels are compiled for NEON alone; the others that Highway knows differ in AES and bfloat16, or have vectors of no
-# fixed size (SVE). On x86 they are compiled for the baseline, AVX2 and AVX-512; the rest would only lengthen the build.
+# On ARM, kernels are compiled only for NEON: Highway's other targets differ only in AES and bfloat16, or have vectors without
+# a fixed size (SVE). On x86, kernels are compiled for the baseline, AVX2 and AVX-512; more targets would only slow the build.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
   set(hwy_choice HWY_COMPILE_ONLY_STATIC)
 elseif(hwy_VERSION VERSION_GREATER_EQUAL 1.0.6)
   set(hwy_choice "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4|HWY_AVX3_ZEN4|HWY_AVX3_SPR)")
-else()  # which lacks two of the names
+else()  # older versions lack HWY_AVX3_ZEN4 and HWY_AVX3_SPR
   set(hwy_choice "HWY_DISABLED_TARGETS=(HWY_SSSE3|HWY_SSE4)")
 endif()
 set_property(TARGET PkgConfig::hwy APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS "${hwy_choice}")

@@ -1,5 +1,5 @@
-# `cmake --install` puts the program, the libraries with their headers and a CMake package in place:
-# find_package(crowdface), then link crowdface::run or any other module.
+# `cmake --install` installs the program, the libraries with their headers, and a CMake package. To use the package:
+# find_package(crowdface), then link crowdface::run or another module.
 include(CMakePackageConfigHelpers)
 
 get_property(modules GLOBAL PROPERTY CROWDFACE_MODULES)
@@ -7,13 +7,13 @@ get_property(modules GLOBAL PROPERTY CROWDFACE_MODULES)
 install(TARGETS crowdface COMPONENT program)
 install(TARGETS crowdface_images crowdface_meshes EXPORT crowdfaceTargets COMPONENT program)
 install(TARGETS ${modules} EXPORT crowdfaceTargets COMPONENT library)
-# The public headers: crowdface.h and all that it includes.
+# The public headers: crowdface.h and all headers that it includes, directly or indirectly.
 set(unread crowdface/crowdface.h)
 set(public_headers "")
 while(unread)
   list(POP_FRONT unread header)
   if(header IN_LIST public_headers OR NOT EXISTS ${PROJECT_SOURCE_DIR}/src/${header})
-    continue()  # version.h is made
+    continue()  # version.h is generated
   endif()
   list(APPEND public_headers ${header})
   file(STRINGS ${PROJECT_SOURCE_DIR}/src/${header} includes REGEX "^#include \"")
@@ -38,13 +38,13 @@ install(FILES
   ${PROJECT_BINARY_DIR}/crowdfaceConfig.cmake ${PROJECT_BINARY_DIR}/crowdfaceConfigVersion.cmake
   DESTINATION ${package_dir} COMPONENT library)
 
-# The gallery's page, if scripts/build_gallery.sh has built it.
+# The gallery's page; missing if scripts/build_gallery.sh has not built it.
 install(DIRECTORY ${PROJECT_BINARY_DIR}/share/crowdface/gallery
   DESTINATION ${CMAKE_INSTALL_DATADIR}/crowdface OPTIONAL COMPONENT program PATTERN ".state" EXCLUDE)
 install(DIRECTORY configs masks DESTINATION ${CMAKE_INSTALL_DATADIR}/crowdface COMPONENT program)
 install(FILES LICENSE README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-# What the program prints for man and for shells.
+# The manual page and the shell completions, which the program prints.
 foreach(folder man bash-completion zsh fish)
   install(DIRECTORY ${PROJECT_BINARY_DIR}/share/${folder} DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 endforeach()

@@ -1,16 +1,16 @@
-# How a module of crowdface is built: one static library a module, includes from src/.
+# Builds each module of crowdface as one static library. Include paths begin at src/.
 
-# Flags that every target shares. Bits must not depend on the compiler: no contraction, no fast math.
+# Compiler flags of all targets. Results must have the same bits with every compiler: no contraction, no fast math.
 add_library(crowdface_flags INTERFACE)
 target_compile_options(crowdface_flags INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  # GCC 12 sees overlapping copies in std::string's operator+ where there are none (GCC bug 105651).
+  # GCC 12 wrongly warns of overlapping copies in std::string's operator+ (GCC bug 105651).
   target_compile_options(crowdface_flags INTERFACE -Wno-restrict)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
-  # GCC 14 reports parts of Eigen's matrices in std::optional and std::vector as uninitialised where they are not. clang-tidy
-  # and valgrind find real ones.
+  # GCC 14 wrongly reports parts of Eigen's matrices in std::optional and std::vector as uninitialised. clang-tidy and valgrind
+  # find uninitialised values.
   target_compile_options(crowdface_flags INTERFACE -Wno-maybe-uninitialized)
 endif()
 if(CROWDFACE_WERROR)
@@ -18,11 +18,11 @@ if(CROWDFACE_WERROR)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(crowdface_flags INTERFACE -fpch-preprocess)  # for ccache
-  # GCC takes what several sources are compiled from together for a header.
+  # GCC treats the sources of a unity build as headers.
   target_compile_options(crowdface_flags INTERFACE -Wno-subobject-linkage)
 endif()
 if(CROWDFACE_FUZZ)
-  # Counted regions tell in the end how much of each parser its corpus reaches (scripts/fuzz.sh).
+  # Coverage counters, from which scripts/fuzz.sh computes how much of each parser its corpus reaches.
   target_compile_options(crowdface_flags INTERFACE
     -fsanitize=fuzzer-no-link -fprofile-instr-generate -fcoverage-mapping)
   target_link_options(crowdface_flags INTERFACE -fprofile-instr-generate)
@@ -33,8 +33,8 @@ if(CROWDFACE_SANITIZE)
   target_link_options(crowdface_flags INTERFACE -fsanitize=${CROWDFACE_SANITIZE})
 endif()
 
-# What nearly every source includes, compiled once. That headers are complete without it shows in
-# tests/structure, which compiles each alone, and in the dev preset and scripts/lint.sh, which do without.
+# Precompiles headers that nearly all sources include. The dev preset, scripts/lint.sh and tests/structure (which compiles each
+# header alone) do not use the precompiled headers, so they detect missing includes.
 set(crowdface_prefix_headers
   <algorithm> <array> <cmath> <filesystem> <functional> <map> <optional> <set> <span> <string>
   <string_view> <vector> <Eigen/Core> <Eigen/Geometry>)
@@ -44,9 +44,9 @@ target_compile_features(crowdface_prefix PRIVATE cxx_std_20)
 set_target_properties(crowdface_prefix PROPERTIES POSITION_INDEPENDENT_CODE ON)
 target_precompile_headers(crowdface_prefix PRIVATE ${crowdface_prefix_headers})
 
-# The presets but `dev` compile several sources of a module together (CMAKE_UNITY_BUILD), which halves the time:
-# names in unnamed namespaces are unique within a module. What Highway compiles once for each instruction set includes
-# itself, and stands alone.
+# All presets except `dev` compile several sources of a module together (CMAKE_UNITY_BUILD), which halves the build time.
+# Therefore names in unnamed namespaces must be unique within a module. Sources with hwy/foreach_target.h include themselves
+# once for each instruction set, so they are compiled alone.
 function(crowdface_compile_kernels_alone)
   foreach(source IN LISTS ARGN)
     file(STRINGS ${source} itself REGEX "hwy/foreach_target" LIMIT_COUNT 1)

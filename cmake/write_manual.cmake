@@ -1,4 +1,4 @@
-# Writes the manual page and the completions of shells that the program prints into FOLDER.
+# Writes the manual page and the shell completions, which the program prints, into FOLDER.
 #   cmake -D PROGRAM=… -D FOLDER=… -P write_manual.cmake
 function(write file)
   get_filename_component(folder ${FOLDER}/${file} DIRECTORY)

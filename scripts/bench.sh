@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds and runs the benchmarks at full size. Compare figures within one run only: each benchmark
-# stands beside its baseline, and the counters named "ratio…" relate the two.
+# Builds and runs the benchmarks at full size. Only times of the same run are comparable. The output lists each
+# benchmark next to its baseline; the counters named "ratio…" compare both.
 #
-#   scripts/bench.sh                    all of them
+#   scripts/bench.sh                    all benchmarks
 #   scripts/bench.sh SUBJECT [OPTION …] one program, such as: scripts/bench.sh core --benchmark_filter=Hash
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What casting costs against the crowd's size: whole `crowdface plan` commands with prepared heads,
-# wall-clock and processor seconds. Prints a table.
+# Measures how the time of casting grows with the crowd's size: wall-clock and processor seconds of whole
+# `crowdface plan` commands with prepared heads. Prints a table.
 #
 #   scripts/bench_cast.sh [HEADS_DIR [MASK [MIN_DISTANCE [COUNT …]]]]
 #

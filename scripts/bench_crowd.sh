@@ -1,21 +1,21 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The main job at full size, from heads on disk to meshes, points and contact sheets: what a night's
-# work takes on this machine. Prints what each stage took beside its floor, measured just after, and one
-# line of a table. Floors: reading, `cat` of the heads; blending, the bare benchmark (if scripts/bench.sh has
-# built it, 15 heads); writing and the whole, `dd conv=fsync` of as many bytes.
+# Measures a run at full size, from heads on disk to meshes, points and contact sheets. Prints the time of each
+# stage next to its floor (a lower bound, measured just after the run), and one line of a table. Floors: for
+# reading, `cat` of the heads; for blending, the benchmark of blending alone (only for 15 heads, and if
+# scripts/bench.sh has built it); for writing and for the whole run, `dd conv=fsync` of as many bytes.
 #
 #   scripts/bench_crowd.sh [HEADS [VERTICES [FACES [OPTION …]]]]      default: 15 1200000 200
 #   scripts/bench_crowd.sh --dressed [JOB …]
 #
-# --dressed measures jobs with textures and hair instead, and prints clock and processor seconds of the whole
-# command; each job first fills the cache. JOBs, by default all: demo film plan version synth. Floors: `cat` of the
-# heads' meshes and maps, libdeflate at level 1 on one face's maps as PNG filters them (one thread), `dd
+# --dressed measures jobs with textures and hair instead, and prints the wall-clock and processor seconds of whole
+# commands; a first run of each job fills the cache. JOBs (default: all): demo film plan version synth. Floors: `cat`
+# of the heads' meshes and maps; libdeflate at level 1 (one thread) on one face's maps after PNG filtering; `dd
 # conv=fsync` of one face's files.
 #
-# OPTIONs are those of `crowdface generate`, such as --memory "4 GiB". Everything goes to
-# out/bench_crowd, the crowd itself is removed at the end (200 faces of 1.2 million vertices take
-# 30 GB); the heads stay for the next time.
+# OPTIONs are those of `crowdface generate`, such as --memory "4 GiB". All files are
+# written to out/bench_crowd. The crowd is removed at the end (200 faces of 1.2 million vertices take
+# 30 GB); the heads are kept for the next run.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -23,7 +23,7 @@ crowdface=build/release/bin/crowdface
 folder=out/bench_crowd
 [ -x "$crowdface" ] || { scripts/install_dependencies.sh; scripts/build.sh release crowdface; }
 mkdir -p "$folder"
-seconds() {  # of the clock, that a command takes
+seconds() {  # COMMAND…: its wall-clock seconds
   local start=$EPOCHREALTIME
   "$@" > /dev/null 2>&1
   echo "$EPOCHREALTIME $start" | awk '{ print $1 - $2 }'
@@ -36,10 +36,10 @@ row() {  # NAME COMMAND…: a line of the table
   read -r wall user system < "$folder/time"
   awk -v n="$name" -v w="$wall" -v u="$user" -v s="$system" 'BEGIN { printf "| %s | %.2f | %.2f |\n", n, w, u + s }'
 }
-heads_of() {  # NAME OPTION…: synthetic heads, made once
+heads_of() {  # NAME OPTION…: makes synthetic heads, unless they exist
   [ -e "$folder/$1/regions.png" ] || "$crowdface" synth -q -o "$folder/$1" --force --seed 1 "${@:2}"
 }
-crowd_of() {  # NAME FACES: a config for these heads
+crowd_of() {  # NAME FACES: writes a config for these heads
   cat > "$folder/$1.yaml" <<YAML
 schema: 1
 crowd: {name: bench, count: $2, seed: 7}
@@ -49,11 +49,11 @@ sampling: {max_sources: 3, smoothness: [0.15, 0.7], extrapolation: [0.9, 1.2]}
 YAML
   cat >> "$folder/$1.yaml"
 }
-make() {  # NAME FACES: the whole crowd; all that the cache keeps is there from the second time
+make() {  # NAME FACES: generates the whole crowd; from the second call on, with a full cache
   rm -rf "$folder/crowd"
   row "$1, $2 faces" "$crowdface" generate -q --count "$2" --out "$folder/crowd" "$folder/$1.yaml"
 }
-floors() {  # NAME: what is the least for the files of these heads and of one face
+floors() {  # NAME: lower bounds of the time for the files of these heads and of one face
   local face bytes
   face=$(find "$folder/crowd/meshes" -name '*_0001*')
   bytes=$(echo "$face" | xargs cat | wc -c)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# How the main job's cost grows with faces, vertices and heads: runs scripts/bench_crowd.sh over
-# three series, each point twice as large as the last, and prints its table. Heads are prepared anew for
-# each, into a cache that is removed at the end.
+# Measures how the time of a run grows with the numbers of faces, vertices and heads: runs
+# scripts/bench_crowd.sh for three series, in which the size doubles from run to run, and prints its table. Each
+# run prepares the heads again, in a cache that is removed at the end.
 #
 #   scripts/bench_scaling.sh
 set -euo pipefail

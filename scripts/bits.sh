@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Test 13 of docs/reliability.md across compilers and optimisation: builds the test of the golden
-# crowds with each and compares their hashes with tests/golden. Prints a line a build, with the
+# Test 13 of docs/reliability.md for several compilers and optimisation levels: builds the test of the golden
+# crowds with each, and compares the crowds' hashes with tests/golden. Prints one line per build, with the
 # instruction sets of this processor that were compared.
 #
 #   scripts/bits.sh [COMPILER-OPTIMISATION …]   default: g++-O0 g++-O2 g++-O3 clang++-O0 clang++-O2

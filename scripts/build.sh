@@ -10,7 +10,7 @@ shift
 
 options=()
 command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-# ccache may keep what is compiled behind a precompiled header (cmake/CrowdfaceModule.cmake).
+# Let ccache cache sources that use a precompiled header (cmake/CrowdfaceModule.cmake).
 export CCACHE_SLOPPINESS=pch_defines,time_macros
 targets=()
 [ $# -gt 0 ] && targets=(--target "$@")
@@ -25,7 +25,7 @@ quietly() {
   }
 }
 
-# A compiler takes up to a gigabyte where sources are compiled together.
+# Compiling several sources together takes up to a gigabyte of memory.
 jobs=$(awk -v most="$(nproc)" '/^MemAvailable/ { room = int($2 / 1048576) }
   END { print room < 1 ? 1 : room < most ? room : most }' /proc/meminfo)
 
@@ -38,7 +38,7 @@ if [ -t 1 ]; then
 else
   quietly cmake --build --preset "$preset" --parallel "$jobs" "${targets[@]}"
 fi
-# The gallery belongs to the program. It is a comfort: without npm, or without its registry, all else works.
+# Also build the gallery. It is optional: without npm or without its registry, the rest works.
 case " $* " in
   "  " | *" crowdface "*)
     scripts/build_gallery.sh "$preset" || echo "no gallery's page (crowds get none until it is built)"

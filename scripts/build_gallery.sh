@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Fetches the packages of gallery/package.json, among them those that tests need, and bundles the pages of
-# gallery and of commands (gallery/, with three.js) for the program of a preset. Silent when nothing has changed
-# since the last time; needs node and npm.
+# Fetches the packages of gallery/package.json (including packages for tests), and bundles the pages in gallery/
+# with three.js for the program of a preset. Prints nothing if nothing has changed since the last run. Needs node
+# and npm.
 #
 #   scripts/build_gallery.sh PRESET      into build/PRESET/share/crowdface/gallery
 set -euo pipefail

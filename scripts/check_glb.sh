@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs the Khronos glTF validator on GLB files; an error or a warning fails. The validator is one of the
-# packages of gallery/package.json, which scripts/build.sh fetches; where it is not there, exits with 69.
+# Runs the Khronos glTF validator on GLB files; fails if it reports errors or warnings. scripts/build.sh fetches the
+# validator, a package of gallery/package.json; if the validator is missing, exits with 69.
 #
 #   scripts/check_glb.sh FILE.glb …
 set -euo pipefail

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# From nothing to a first crowd: installs what is missing, builds, makes sixteen synthetic heads and
-# casts 24 faces from them. May be run again at any time.
+# Makes a first crowd from a fresh checkout: installs missing packages, builds, makes sixteen synthetic heads and
+# generates 24 faces from them. May be run again at any time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -10,7 +10,7 @@ scripts/build.sh release crowdface
 
 start=$SECONDS
 crowdface=build/release/bin/crowdface
-# --force: after a change of the program or of configs/demo.yaml the demo's own folders are filled anew.
+# --force replaces the demo's folders after a change of the program or of configs/demo.yaml.
 "$crowdface" synth -o out/demo_heads --count 16 --vertices 20000 --seed 1 --textures 1024 --hair --force
 "$crowdface" generate configs/demo.yaml --force
 

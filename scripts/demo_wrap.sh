@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# From coloured scans in another topology to a coloured crowd: four synthetic heads stand for scans (of other
-# vertices than the template, with textures, landmarks picked on both), are wrapped by a fifth, and give a crowd.
-# May be run again at any time.
+# Makes a coloured crowd from coloured scans: uses four synthetic heads as scans (with textures and picked
+# landmarks, in another topology than the template), fits a fifth head, the template, to each scan, and generates
+# a crowd from the results. May be run again at any time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -13,11 +13,11 @@ mkdir -p "$out"
 
 "$crowdface" synth -o "$out/template" --count 1 --vertices 20000 --seed 1 --textures 1024 --quiet
 "$crowdface" synth -o "$out/scans" --count 5 --vertices 12000 --seed 1 --textures 1024 --quiet
-# The first head is the template's own person: a scan of it would be too easy.
+# The first scan shows the same person as the template, so fitting to it would be too easy.
 rm -f "$out"/scans/synth_01*
 
-# Heads of one seed are the same persons at every resolution, so vertex 1000 of the coarse mean is found on
-# the fine template by its place: landmarks are the places of some vertices of the template's person.
+# With the same seed, synth makes the same persons at every resolution. The landmarks are some vertices of the
+# coarse mesh of the template's person; their positions also lie on the fine mesh.
 vertices="300 900 1500 2100 2700 3300 4200 5100 6000 7000 8000 9000"
 "$crowdface" synth -o "$out/landmarks" --count 1 --vertices 12000 --seed 1 --textures 64 --quiet
 place() { grep '^v ' "$1" | sed -n "$(($2 + 1))s/^v \([^ ]*\) \([^ ]*\) \([^ ]*\).*/[\1, \2, \3]/p"; }

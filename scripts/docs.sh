@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes the API page, build/docs/html/index.html: Doxygen, from the comments in the headers. A warning fails.
+# Makes the API page, build/docs/html/index.html, with Doxygen from the comments in the headers. Fails if Doxygen warns.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

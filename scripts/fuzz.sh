@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Fuzzes the parsers, one after the other, with AddressSanitizer and UBSan, and says how much of
-# each parser's own code its inputs and the tests of its module reach. What is found stays in
-# build/fuzz/found; once mended it belongs into tests/fuzz/corpus, where a test reads it for ever.
+# Fuzzes the parsers, one after the other, with AddressSanitizer and UBSan, and prints how much of each parser's
+# code the fuzzing inputs and the tests of its module reach. Inputs that fail are kept in build/fuzz/found; after
+# the fix, move them to tests/fuzz/corpus, whose files a test reads.
 #
 #   scripts/fuzz.sh [SECONDS [PARSER …]]    processor time, by default 1200 s each of all parsers below. 0 s: coverage of what is there
 set -euo pipefail
@@ -13,7 +13,7 @@ parsers=("$@")
 [ ${#parsers[@]} -gt 0 ] || parsers=(obj mask material yaml review edits pattern beside override plan cache ledger crowd_files
   scan landmarks points weights rig http morph)
 
-# The files that make a parser, in src/crowdface or src/head_models: what they share is counted with each.
+# The source files of each parser, in src/crowdface or src/head_models. Shared files count for each parser.
 declare -A sources=(
   [obj]='io/obj_file.cpp io/obj_scan.cpp'
   [mask]='io/image.cpp'
@@ -48,10 +48,10 @@ TMPDIR=$(mktemp -d /dev/shm/crowdface_fuzz.XXXXXX) # what a target writes stays 
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 rm -f "$out"/*_test.profraw
-# The words that the readers of configs, plans and reviews know.
+# The words that the parsers of configs, plans and reviews accept.
 grep -oh '"[a-z_][a-z_]*"' src/crowdface/{config/*,crowd/*}.cpp src/head_models/morph/*.cpp | sort -u >"$out/words.dict"
 
-# Seeds that are no files of tests/fuzz.
+# Seeds outside tests/fuzz.
 more_seeds() {
   case $1 in
   yaml) echo configs configs/paper ;;
@@ -59,7 +59,7 @@ more_seeds() {
   esac
 }
 
-# Until the parser has had its time of a processor, however busy the machine is with other things.
+# Fuzzes a parser until it has used its processor time, even if other programs slow the machine.
 fuzz() {
   local parser=$1 dictionary=() left=$seconds TIMEFORMAT='%U %S'
   case $parser in yaml | review | edits | beside | override | points | plan | crowd_files | morph) dictionary=(-dict="$out/words.dict") ;; esac
@@ -73,7 +73,7 @@ fuzz() {
   done
 }
 
-# What the tests of a module reach, once.
+# Measures once which lines the tests of a module reach.
 test_profile() {
   local profile=$out/$1_test.profraw
   [ -e "$profile" ] || LLVM_PROFILE_FILE=$profile "$out/bin/crowdface_$1_test" \
@@ -81,7 +81,7 @@ test_profile() {
   echo "$profile"
 }
 
-# Lines of the parser's own files that all its inputs and the tests together reach, in percent.
+# The lines of the parser's files that its inputs and the tests together reach, in percent.
 coverage() {
   local parser=$1 program=$out/bin/crowdface_${parser}_fuzz names
   names=$(cd src/crowdface && printf '/%s ' ${sources[$parser]})
@@ -95,7 +95,7 @@ coverage() {
   for module in "${tested[@]}"; do seen+=(-object "$out/bin/crowdface_${module}_test"); done
   llvm-cov show "${seen[@]}" >"$out/$parser.lines.txt"
   llvm-cov report "${seen[@]}" >"$out/$parser.files.txt"
-  # Columns 8 and 9: lines of a file, and those that were missed.
+  # Columns 8 and 9: lines of a file, and missed lines.
   awk -v names="$names" '
     BEGIN {count = split(names, name, " ")}
     {

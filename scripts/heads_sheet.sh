@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# One contact sheet of a folder of heads (2 to 50 OBJ files in centimetres, +Y up, facing +Z), to
-# look at before a crowd is made of them.
+# Renders a contact sheet of a folder of heads (2 to 50 OBJ files in centimetres, +Y up, facing +Z), without
+# making a crowd.
 #
 #   scripts/heads_sheet.sh HEADS_DIR SHEET.png [COLUMNS] [CELL_PX] [VIEWS]
 #   scripts/heads_sheet.sh out/demo_heads out/heads.png 4 256 "front, profile"
@@ -19,7 +19,7 @@ if grep -qs '^map_Kd' "$heads"/*.mtl; then texture=true; fi
 names=()
 for file in "$heads"/*.obj; do names+=("$(basename "$file" .obj)"); done
 
-# A head that lends itself all its detail is itself again.
+# A face equals its target if the target is also its only source.
 {
   echo "schema: 1"
   echo "crowd: {name: $(basename "$heads"), count: 0}"

@@ -1,18 +1,18 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian packages that crowdface needs and that are missing; prints nothing if all are there. Works as root and
-# with sudo. Where it may not install, it lists what is missing and exits with 69. Tested on Debian 12 (bookworm),
+# Installs the missing Debian packages of those that crowdface needs; prints nothing if none is missing. Works as root and
+# with sudo. Without permission to install, lists the missing packages and exits with 69. Tested on Debian 12 (bookworm),
 # Debian 13 (trixie) and Debian testing (forky, November 2026); Ubuntu 24.04 has the same package names.
 #
-#   scripts/install_dependencies.sh          what building needs, and most tests
-#   scripts/install_dependencies.sh --test   and the browser that the gallery is tested in, Doxygen, and what the Python module needs
-#   scripts/install_dependencies.sh --package  and what scripts/package.sh and the Python module need
-#   scripts/install_dependencies.sh --farm   only what the tests of farms start: Slurm, GNU parallel, sshd
-#   scripts/install_dependencies.sh --docs   and what scripts/docs.sh needs
-#   scripts/install_dependencies.sh --check  and what scripts/lint.sh and scripts/format.sh need
-#   scripts/install_dependencies.sh --fuzz   and what scripts/fuzz.sh and scripts/bits.sh need
-#   scripts/install_dependencies.sh --releases  only what scripts/releases.sh needs
-#   scripts/install_dependencies.sh --list   prints the packages of the first line and installs nothing
+#   scripts/install_dependencies.sh          packages for building and for most tests
+#   scripts/install_dependencies.sh --test   also the browser for the tests of the gallery, Doxygen, and packages of the Python module
+#   scripts/install_dependencies.sh --package  also packages for scripts/package.sh and the Python module
+#   scripts/install_dependencies.sh --farm   only the programs that the tests of farms start: Slurm, GNU parallel, sshd
+#   scripts/install_dependencies.sh --docs   also packages for scripts/docs.sh
+#   scripts/install_dependencies.sh --check  also packages for scripts/lint.sh and scripts/format.sh
+#   scripts/install_dependencies.sh --fuzz   also packages for scripts/fuzz.sh and scripts/bits.sh
+#   scripts/install_dependencies.sh --releases  only packages for scripts/releases.sh
+#   scripts/install_dependencies.sh --list   prints the packages for building and for most tests; installs nothing
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -23,15 +23,15 @@ packages=(
   libeigen3-dev libtbb-dev libtinyobjloader-dev libyaml-cpp-dev nlohmann-json3-dev libcli11-dev
   libspdlog-dev libxxhash-dev librandom123-dev libembree-dev libhwy-dev
   libmeshoptimizer-dev libdraco-dev libassimp-dev libpng-dev
-  # OpenImageIO's CMake package insists on its command-line tools
+  # required by OpenImageIO's CMake package
   libopenimageio-dev openimageio-tools
-  # the labels of contact sheets
+  # for the labels of contact sheets
   libfreetype-dev fonts-dejavu-core
   # tests and benchmarks
   libgtest-dev libgmock-dev libbenchmark-dev libopenmesh-dev libtinygltf-dev libcpp-httplib-dev
 )
 python=(pybind11-dev python3-dev python3-numpy)
-# The gallery's page; node may have come from elsewhere, with npm in it.
+# For the gallery's page. Skipped if npm is already installed, for example with a node that is not a Debian package.
 command -v npm >/dev/null || packages+=(nodejs npm)
 case "${1-}" in
   "") ;;
@@ -46,7 +46,7 @@ case "${1-}" in
   *) echo "usage: scripts/install_dependencies.sh [--test | --package | --farm | --docs | --check | --fuzz | --releases | --list]" >&2; exit 64 ;;
 esac
 
-# Says what crowdface needs in words that hold on every system.
+# Lists the dependencies by names that do not depend on the distribution.
 by_cmake_names() {
   local found='cmake/CrowdfaceDependencies.cmake'
   echo "On this system ($system) nobody has tested crowdface. It needs g++ or clang++ with C++20, CMake 3.25, Ninja and"
@@ -104,7 +104,7 @@ apt() {
 }
 echo "installing ${missing[*]}"
 [ "${as_root[0]}" = env ] || "${as_root[@]}" true  # the password, before the output is hidden
-apt update || true  # some other source may be out of reach; whether it matters, install finds out
+apt update || true  # a package source may be unreachable; install fails if it is needed
 apt install -y --no-install-recommends "${missing[@]}" || {
   tail -n 20 "$log" >&2
   cannot "apt-get could not install them (its last words are above)."

@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Checks form and finds unclear code; changes nothing.
+# Checks the format, and runs clang-tidy; changes nothing.
 #
 #   scripts/lint.sh                         clang-format and clang-tidy over everything
-#   scripts/lint.sh --format                only clang-format: seconds
+#   scripts/lint.sh --format                only clang-format; takes seconds
 #   scripts/lint.sh --tidy [FILE.cpp …]     only clang-tidy, over everything or these files
-#   scripts/lint.sh --tidy --since COMMIT   clang-tidy over what changed since then and as many other
-#                                           files as there is time for, at each commit from another on
+#   scripts/lint.sh --tidy --since COMMIT   clang-tidy over the files changed since COMMIT, then over the
+#                                           other files, beginning with a different file at each commit
 #
-# clang-tidy takes 5 to 30 seconds a file; files that passed are not seen again until they, a header of
-# ours that they include or .clang-tidy change (build/lint/passed). TIDY_SECONDS=300 begins no further file
-# after that time and says how many were not seen.
+# clang-tidy takes 5 to 30 seconds per file. Files that passed are skipped until the file, one of our headers that it
+# includes, or .clang-tidy changes (build/lint/passed). With TIDY_SECONDS=300, the script starts no further file after
+# 300 seconds, and prints the number of unchecked files.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# sources PATTERN …: our files, tracked or new, that are there.
+# sources PATTERN …: our existing files, tracked or new.
 sources() {
   git ls-files --cached --others --exclude-standard -- "$@" | while read -r file; do
     [ ! -f "$file" ] || echo "$file"
@@ -31,8 +31,8 @@ check_format() {
   echo "clang-format: ${#files[@]} files in form"
 }
 
-# The .cpp files that changed, and for every header that changed one that includes it: its own, or
-# the first. (clang-tidy reports on our headers, too.)
+# The changed .cpp files, and for each changed header one .cpp file that includes it: the file of the same name, or
+# else the first file. (clang-tidy also checks our headers.)
 changed_since() {
   local file
   {
@@ -53,8 +53,8 @@ changed_since() {
   done | sort -u
 }
 
-# The files that --since names: the changed ones, then all others, from a place on that moves by the
-# number of files which a few minutes allow.
+# The files in the order of --since: the changed files, then all others. The first of the others moves by 40 files
+# with each commit, about as many as clang-tidy checks in a few minutes.
 by_turns() {
   local others
   changed_since "$1"
@@ -63,8 +63,8 @@ by_turns() {
   printf '%s\n' "${others[@]:start}" "${others[@]:0:start}"
 }
 
-# "FILE KEY" a line: the key changes with the file, with the headers of ours that it includes, directly
-# or not, and with what clang-tidy checks.
+# Lines "FILE KEY". The key is a hash of the file, of our headers that it includes directly or indirectly, and of
+# clang-tidy's settings.
 with_keys() {
   local settings
   settings=$(clang-tidy --version | cat - .clang-tidy tests/.clang-tidy CMakeLists.txt cmake/* | sha256sum)
@@ -101,12 +101,12 @@ tidy_one() {
     return
   fi
   local said
-  # The build's flags are for g++; clang does not know them all.
+  # The build's flags are for g++; clang does not know all of them.
   if said=$(clang-tidy -p build/lint --quiet --extra-arg=-Wno-unknown-warning-option "$1" 2>&1); then
     touch "build/lint/passed/$2"
     return
   fi
-  # Counts of what was suppressed in the libraries' headers are of no interest.
+  # Drop the numbers of suppressed warnings in headers of libraries.
   grep -vE '^[0-9]+ warnings? generated' <<<"$said"
   return 1
 }
@@ -120,7 +120,7 @@ check_tidy() {
   else
     mapfile -t files < <(sources "${cpp[@]}")
   fi
-  # tests/structure/consumer is a project of its own.
+  # tests/structure/consumer is a separate project.
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -v -e '^$' -e '^tests/structure/')
   mkdir -p build/lint/passed
   : >build/lint/unseen

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# How far the marks of faces (eyes, tip of the nose, mouth) move if their heads are rotated, thinned,
-# refined, noisy or cut: a table in Markdown for each folder.
+# Measures how far the detected marks of faces (eyes, tip of the nose, mouth) move if the heads are rotated,
+# thinned, refined, cut, or get noise. Prints a Markdown table for each folder.
 #
 #   scripts/measure_marks.sh HEADS_DIR…
 #

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# How eyes and teeth sit in heads, in a crowd whose parts follow and in the same crowd blended as skin:
-# builds what it needs, paints a mask of three bands, makes both crowds, prints the table of docs/parts.md
-# and how long blending took in each.
+# Measures the fit of eyes and teeth in heads, in a crowd with parts, and in the same crowd with all parts blended
+# as skin. Builds the programs, paints a mask of three bands, makes both crowds, and prints the table of
+# docs/parts.md and the time that blending took in each crowd.
 #
 #   scripts/measure_parts.sh HEADS_DIR [WORK_DIR]
 #
 # HEADS_DIR holds OBJ files in centimetres, +Y up, facing +Z, with eyes and teeth. Masks, config, meshes and
-# a sheet of eight faces of each crowd stay in WORK_DIR (default out/measure_parts).
+# a sheet of eight faces of each crowd are kept in WORK_DIR (default out/measure_parts).
 set -euo pipefail
 
 [ $# -ge 1 ] || { sed -n '/^#   scripts/s/^#   //p' "$0" >&2; exit 64; }

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The module graph, drawn from the includes. Includes must point downwards: a module on the same
-# floor or above is an error (exit code 1, each with file and line).
+# Draws the module graph from the #include lines. A module may include only modules of lower layers; for other
+# includes, prints file and line, and exits with 1.
 #
 #   scripts/module_graph.sh                 prints the graph (Mermaid)
 #   scripts/module_graph.sh --write         writes it into docs/architecture.md, between the markers
-#   scripts/module_graph.sh --check         fails if what stands there is another
-#   … ROOT                                  of another source tree than this one (for tests)
+#   scripts/module_graph.sh --check         fails if docs/architecture.md has a different graph
+#   … ROOT                                  uses the source tree ROOT (for tests)
 set -euo pipefail
 
 mode=print
@@ -20,7 +20,7 @@ page=docs/architecture.md
 begin='<!-- module graph: begin, by scripts/module_graph.sh -->'
 end='<!-- module graph: end -->'
 
-# The floor of each module (docs/architecture.md).
+# The layer of each module (docs/architecture.md).
 floors='core 0
 mesh 1
 plane 1
@@ -56,8 +56,8 @@ editor 10
 cli 11
 crowdface 11'
 
-# "file:line includer included" for every include of ours. The umbrella header, crowdface/crowdface.h, counts
-# as a module `crowdface`.
+# Prints "file:line includer included" for each include of a project header. The umbrella header,
+# crowdface/crowdface.h, counts as a module `crowdface`.
 includes() {
   find src -name '*.h' -o -name '*.cpp' -o -name '*.in' | sort |
     xargs grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<]((crowdface|head_models)/[a-z_]+|cli|multiscale_faces)[/.][^">]*' |
@@ -89,7 +89,7 @@ graph() {
       }
       uses[$2, $3] = 1
     }
-    # Whether a reaches b over at least one other module, downwards only.
+    # Whether a path of includes leads down from a to b through at least one other module.
     function reaches(a, b,   i, via) {
       for (i = 1; i <= modules; ++i) {
         via = module[i]

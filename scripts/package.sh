@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Makes Debian packages of this system's release, and a source tarball of the last commit, in build/packages.
+# Makes Debian packages for this system's Debian release, and a source tarball of the last commit, in build/packages.
 #
 #   scripts/package.sh           builds the preset `release` and packs it
-#   scripts/package.sh --test    then installs the packages in a fresh root and makes a crowd of two there
+#   scripts/package.sh --test    then installs the packages in a fresh system and makes a crowd of two faces there
 #
 # crowdface             the program, with manual page, completions and documentation
 # libcrowdface-dev      the libraries, headers and the CMake package
@@ -25,24 +25,24 @@ packages=$PWD/build/packages
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
 
-# What the libraries need of whoever links them; see cmake/crowdfaceConfig.cmake.in.
+# The packages that programs need to link the libraries; see cmake/crowdfaceConfig.cmake.in.
 library_needs() {
   local package
   for package in $(scripts/install_dependencies.sh --list); do
     case $package in
       libgtest-dev | libgmock-dev | libbenchmark-dev | libopenmesh-dev | libtinygltf-dev | libcpp-httplib-dev) ;;  # tests
-      libcli11-dev | librandom123-dev | libopenimageio-dev | libassimp-dev) ;;  # within the libraries
+      libcli11-dev | librandom123-dev | libopenimageio-dev | libassimp-dev) ;;  # used only inside the libraries
       lib*-dev | nlohmann-json3-dev | pkg-config) echo "$package" ;;
     esac
   done
 }
 
-# install_component COMPONENT PACKAGE: into the folder of the package, below /usr.
+# install_component COMPONENT PACKAGE: installs the component into usr/ in the package's folder.
 install_component() {
   cmake --install build/release --prefix "$place/$2/usr" --component "$1" --strip >/dev/null
 }
 
-# needs_of PACKAGE: the packages of the shared libraries that its files are linked with.
+# needs_of PACKAGE: the packages of the shared libraries with which the package's files are linked.
 needs_of() {
   mkdir -p "$place/shlibdeps/debian"
   echo "Source: crowdface" >"$place/shlibdeps/debian/control"
@@ -74,7 +74,7 @@ mkdir -p "$packages"
 
 install_component program crowdface
 gzip -9n "$place"/crowdface/usr/share/man/man1/*.1
-mkdir -p "$place/crowdface/usr/share/zsh/vendor-completions"  # where Debian's zsh looks
+mkdir -p "$place/crowdface/usr/share/zsh/vendor-completions"  # the folder in which Debian's zsh searches
 mv "$place"/crowdface/usr/share/zsh/{site-functions,vendor-completions}/_crowdface
 rmdir "$place/crowdface/usr/share/zsh/site-functions"
 pack crowdface "$architecture" "crowds of believable faces from a handful of scanned heads" \
@@ -106,7 +106,7 @@ if git rev-parse HEAD >/dev/null 2>&1; then
 fi
 [ -n "$test" ] || exit 0
 
-# In a fresh root.
+# The test, which runs in a fresh system.
 try() {
   export DEBIAN_FRONTEND=noninteractive
   apt-get update -q
@@ -134,7 +134,7 @@ print(crowd, [face.mesh().name for face in crowd.values()])'
 scripts/install_dependencies.sh --releases
 # shellcheck source=/dev/null
 release=$(. /etc/os-release && echo "$VERSION_CODENAME")
-# This system's CMake may be told to use programs that the root has not.
+# Unset CMAKE_… variables, which may name programs that the fresh system does not have.
 # shellcheck disable=SC2016
 { echo 'set -euxo pipefail; unset "${!CMAKE_@}"; cd "$(mktemp -d)"'; declare -f try; echo try; } >"$place/inside"
 tar --create --file "$place/consumer.tar" -C tests/structure consumer

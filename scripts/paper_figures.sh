@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Our version of the paper's figures, from configs/paper/, for any set of at least six heads. Pictures
-# go to out/paper/NAME/figures; docs/paper.md shows those of synthetic and of ICT heads.
+# Makes our version of the paper's figures from configs/paper/, for any set of at least six heads. Writes pictures to
+# out/paper/NAME/figures. docs/paper.md shows the pictures for synthetic heads and ICT heads.
 #
 #   scripts/paper_figures.sh                            synthetic heads, 40,000 vertices
-#   scripts/paper_figures.sh NAME HEADS_DIR [MASK]      yours (OBJ, centimetres, +Y up, facing +Z);
-#                                                       MASK: a picture of three regions, may hold <UDIM>
-#   CROWDFACE=PROGRAM scripts/paper_figures.sh …        another program than that of the release build
-#   scripts/paper_figures.sh --table [VERTICES]         only Table 1: time a face against heads (1,200,000)
+#   scripts/paper_figures.sh NAME HEADS_DIR [MASK]      your heads (OBJ, centimetres, +Y up, facing +Z);
+#                                                       MASK: an image of three regions, may contain <UDIM>
+#   CROWDFACE=PROGRAM scripts/paper_figures.sh …        PROGRAM instead of the release build's program
+#   scripts/paper_figures.sh --table [VERTICES]         only Table 1: time per face by number of heads (1,200,000)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=${CROWDFACE:-$PWD/build/release/bin/crowdface}
 [ -x "$program" ] || { echo "paper_figures: build first, scripts/build.sh release crowdface" >&2; exit 69; }
 
-# Heads 2 to 15 of one size: what blending alone takes. So many faces that what only the first of them
-# cost, fresh memory, is small beside it.
+# Measures the time of blending alone with 2 to 15 heads of one size. With 320 faces, the extra time of the first
+# faces (for fresh memory) hardly matters.
 table() {
   local vertices=$1 faces=320 folder=out/paper/table
   mkdir -p "$folder"
@@ -27,7 +27,7 @@ table() {
     for i in $(seq 1 "$heads"); do
       ln -s "../heads/$(printf 'synth_%02d' "$i").obj" "$folder/heads_$heads/"
     done
-    # The least of three runs: whatever else the machine does only adds.
+    # Take the shortest of three runs: other programs only lengthen a run.
     local least=''
     for _ in 1 2 3; do
       "$program" generate configs/paper/table1.yaml --quiet --force --count "$faces" \
@@ -68,7 +68,7 @@ for file in "$given"/*.obj; do
 done
 [ "$number" -ge 6 ] || { echo "paper_figures: six heads or more are needed, found $number" >&2; exit 66; }
 
-# figure NAME [--set KEY=VALUE …]: the sheet of one config.
+# figure NAME [--set KEY=VALUE …]: makes the sheet of one config.
 figure() {
   local figure=$1
   shift
@@ -96,7 +96,7 @@ for levels in cubic basis; do
   figure "fig12_$levels" --set "output.contact_sheet.compare=$PWD/$folder/fig12_exact"
 done
 
-# The method of Yoon, Lewis and Rhee beside ours: pictures and a table, figures/multiscale.md.
+# Compare our method with the method of Yoon, Lewis and Rhee: pictures and a table, figures/multiscale.md.
 multiscale=${program%/*}/multiscale_figures
 if [ -x "$multiscale" ]; then
   "$multiscale" "$heads" "$folder" "$folder/figures" ${mask:+"$mask"}

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the time to prepare a head against size and against L_max, as SVG.
+"""Plots the time to prepare a head over the number of vertices and over L_max, as SVG.
 
   scripts/bench.sh smooth --benchmark_filter=PrepareHead --benchmark_out=prepare.json
   scripts/plot_prepare.py prepare.json docs/images/prepare_time.svg

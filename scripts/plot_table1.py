@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws the time of one face against the number of heads, ours and the paper's, as SVG.
+"""Plots the time per face over the number of heads, measured and from the paper, as SVG.
 
   scripts/plot_table1.py times.json table1.svg
 """

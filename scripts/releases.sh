@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs the two commands of the README on fresh Debian systems: for each release a minimal root is made with
-# mmdebstrap, the working tree is copied into it, and scripts/demo.sh and scripts/test.sh run there.
+# Runs the two commands of the README on fresh Debian systems. For each release, makes a minimal system with
+# mmdebstrap, copies the working tree into it, and runs scripts/demo.sh and scripts/test.sh there.
 #
 #   scripts/releases.sh [--short] [RELEASE …]     default: bookworm trixie; forky is testing
 #   scripts/releases.sh arm64                     64-bit ARM: cross-built on trixie, run under qemu-user
 #
-# --short replaces the whole test suite by the tests that depend on compilers and libraries (minutes instead of an hour);
-# on arm64 always. This system runs the demo first; plans and meshes must have its bytes. Logs and hashes are left in
-# build/releases/RELEASE. Works as root, or as a user who may make user namespaces.
+# --short runs only the tests that depend on compilers and libraries (minutes instead of an hour); arm64 implies --short.
+# The script first runs the demo on this system; the plans and meshes of all systems must have the same bytes. Writes logs
+# and hashes to build/releases/RELEASE. Works as root, or as a user who may create user namespaces.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 short=
@@ -19,16 +19,16 @@ fi
 releases=("$@")
 [ ${#releases[@]} -gt 0 ] || releases=(bookworm trixie)
 
-# Modules whose results depend on compilers and libraries most: kernels, pictures, YAML, and whole crowds with golden hashes.
+# Modules whose results depend most on compilers and libraries: kernels, images, YAML, and whole crowds with golden hashes.
 first_tests='smooth blend cast validity texture render config run'
 
-# hashes DIRECTORY: of the plan and the meshes in it, which must not depend on the system.
+# hashes DIRECTORY: prints the hashes of its plan and meshes, which must not depend on the system.
 hashes() { (cd "$1" && sha256sum plan.jsonl meshes/*.*); }
 
-# Fails if the compiler warned of anything in the last build; not in the short form, which CI runs.
+# Fails if the last build printed warnings; does nothing with --short, which CI runs.
 refuse_warnings() { [ -n "$short" ] || ! grep --max-count=20 'warning:' build/release/build.log; }
 
-# run_first_tests BUILD [RUNNER]: of whole crowds only those with golden hashes.
+# run_first_tests BUILD [RUNNER]: runs the tests of `first_tests`; of the module run, only tests of golden hashes.
 run_first_tests() {
   local test
   for test in $first_tests; do
@@ -37,7 +37,7 @@ run_first_tests() {
   done
 }
 
-# The two commands, in a fresh root.
+# Runs the two commands, in a fresh system.
 native() {
   scripts/demo.sh
   refuse_warnings
@@ -50,7 +50,7 @@ native() {
   refuse_warnings
 }
 
-# The same for arm64. The heads are those of this system: their textures would take half an hour under emulation.
+# Runs demo and tests for arm64. Uses this system's heads, because making their textures would take half an hour under emulation.
 cross() {
   export DEBIAN_FRONTEND=noninteractive
   apt-get update
@@ -58,7 +58,7 @@ cross() {
   for package in $(scripts/install_dependencies.sh --list); do
     case $package in
       g++ | nodejs | npm) continue ;;
-      lib* | openimageio-tools)  # libraries of arm64; tools and headers alone are of any processor
+      lib* | openimageio-tools)  # libraries for arm64, unless the package has only tools or headers and is the same for all processors
         [ -z "$(apt-cache show "$package:arm64" 2>/dev/null)" ] || package+=:arm64
         ;;
     esac
@@ -82,9 +82,9 @@ trap 'rm -f "$inside" "$tree"' EXIT
 git ls-files -z --cached --others --exclude-standard |
   tar --create --file "$tree" --null --ignore-failed-read --files-from - 2>/dev/null
 
-# in_fresh_root RELEASE ARCHITECTURES COMMAND RESULT: mmdebstrap mounts what a system needs, runs the hooks, and removes the root at
-# the end. The certificates are those of this system, for networks that have their own. A mirror's index may be past its date, as
-# testing's is after a week: an old state of the archive is as good for a trial, and signatures are checked all the same.
+# in_fresh_root RELEASE ARCHITECTURES COMMAND RESULT: runs COMMAND in a system that mmdebstrap makes and removes at the end. Copies
+# this system's certificates, for networks with their own certificates. Accepts expired indices of mirrors (testing's expire after a
+# week), because an old state of the archive suffices for a test; apt still checks signatures.
 in_fresh_root() {
   {
     echo 'set -euo pipefail; cd /crowdface; export LANG=C.UTF-8'

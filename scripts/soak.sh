@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The tests of docs/reliability.md with their large numbers, and a long run whose memory and open
-# files are watched; ends with a summary table. Hours on a small machine.
+# Runs the tests of docs/reliability.md with large numbers, and a long run with a check of its memory and open
+# files; prints a summary table at the end. Takes hours on a small machine.
 #
-#   scripts/soak.sh                    all of it
+#   scripts/soak.sh                    all tests and the long run
 #   scripts/soak.sh 'Disturbed*'       only tests that match this GoogleTest filter
 #   scripts/soak.sh long               only the long run
 #   SOAK_FACES=200 scripts/soak.sh     a shorter long run (default: 1000 faces)
@@ -36,8 +36,8 @@ run_tests() {
   done
 }
 
-# Resident memory in KiB and open descriptors of a process, a line every few seconds, and "sheets" as
-# soon as that folder of its crowd is there.
+# Every two seconds, prints a process's resident memory in KiB, its number of open descriptors, and "sheets" or
+# "faces": whether the crowd already has the folder `sheets`.
 watch_process() {
   while kill -0 "$1" 2>/dev/null; do
     echo "$(awk '/^VmRSS/ {print $2}' "/proc/$1/status" 2>/dev/null || echo 0)" \
@@ -46,8 +46,9 @@ watch_process() {
   done
 }
 
-# Test 17: while faces are made, after the first tenth neither may grow by more than a twentieth. The
-# sheets come at the end; their index shows all faces, so what they take is only told.
+# Test 17: while the run makes faces, after the first tenth of the time, memory may grow by at most a twentieth, and
+# open descriptors by at most four. The table also shows the memory of the sheets, which are made at the end; it has
+# no limit, because the sheets' index shows all faces.
 long_run() {
   local start=$SECONDS result=passed
   "$bin/crowdface" synth -q -o "$work/heads" --count 6 --vertices 5000 --seed 1

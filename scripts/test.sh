@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs what is missing, builds and tests; the last lines are ctest's summary.
+# Installs missing packages, builds and tests; the last lines are ctest's summary.
 #
-#   scripts/test.sh [CTEST OPTION …]        all but the slow tests, or what options choose: -R Blend
-#   scripts/test.sh --all [CTEST OPTION …]  the slow ones too (label `slow`): they disturb whole runs, run
-#                                         every example, real heads, or pages at length
+#   scripts/test.sh [CTEST OPTION …]        all tests that are not slow; options select tests: -R Blend
+#   scripts/test.sh --all [CTEST OPTION …]  also tests with the label `slow`: disturbed runs, all examples, real
+#                                         heads, and long tests of pages
 #   PRESET=asan scripts/test.sh             another preset of CMakePresets.json
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -8,13 +8,13 @@ import bpy.utils.previews
 from . import crowds, faces
 from .program import CROWDFACE_OT_cancel, Job, Problem, RunsJob
 
-PAGE = 12  # faces of a page
+PAGE = 12  # faces per page
 
 _pictures = None
 
 
 def picture(crowd, face):
-    """The number of a face's thumbnail; 0 without a picture."""
+    """Blender's icon number for a face's thumbnail; 0 if the face has no picture."""
     file = crowd.picture(face)
     if not file:
         return 0
@@ -117,12 +117,12 @@ class CROWDFACE_OT_add_glb(RunsJob, bpy.types.Operator):
 
 
 def round_of(crowd, *more):
-    """The command that makes a crowd again where it is."""
+    """The command that generates a crowd again in its folder."""
     return ["generate", os.path.join(crowd.folder, "config.yaml"), "--out", crowd.folder, *more]
 
 
 def write_review(browse, file):
-    """Writes the marks as a review. Returns the ids of marked faces that are drawn again."""
+    """Writes the marks as a review. Returns the ids of the faces that the review changes."""
     marked = [item for item in browse.faces if item.mark != 'NONE']
     if not marked:
         raise Problem("mark at least one face")

@@ -48,7 +48,8 @@ class Crowd:
         return _first(self._pictures, face + ".png")
 
     def filtered(self, words="", tags=(), trait=None, low=None, high=None):
-        """`low` and `high` are single precision in Blender, and the table has four decimals."""
+        """The faces that pass all filters. Traits are compared with a tolerance of 1e-4, because `low` and `high` have single
+        precision in Blender, and the table has four decimals."""
         wanted = words.lower().split()
         return [face for face in self.faces
                 if all(word in face.words for word in wanted) and all(tag in face.tags for tag in tags)
@@ -74,7 +75,7 @@ def _first(folders, name):
 
 
 def read(folder):
-    """The crowd in a folder, or None if the folder has no finished plan. Read again when its table changes."""
+    """The crowd in a folder, or None if the folder has no finished plan. Reads the folder again if crowd.csv changed."""
     try:
         changed = os.stat(os.path.join(folder, "crowd.csv")).st_mtime_ns
         if _read.get(folder, (0,))[0] != changed:
@@ -85,5 +86,5 @@ def read(folder):
 
 
 def forget(folder):
-    """Has the next `read` read the folder again, after its files changed and its table did not."""
+    """Makes the next `read` read the folder again. Needed if files changed, but crowd.csv did not."""
     _read.pop(folder, None)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Imports faces of a crowd and places them.
 
-Each face has a collection of its own, with the face and what it wears. The face's object knows its crowd and id.
+Each face gets a collection with the face and its attachments. The face's object stores the crowd's folder and the id.
 """
 import os
 
@@ -42,7 +42,7 @@ def _fill(collection, items):
 def import_face(crowd, face, level, parent, weld=False):
     """A new collection below `parent` with one face. Returns its objects, the face first.
 
-    `weld` merges vertices that GLB files split at texture seams. The order of vertices is then another in each face.
+    `weld` merges vertices that GLB files split at texture seams. The vertex order then differs between faces.
     """
     file = crowd.mesh(face, level)
     if not file:
@@ -56,7 +56,7 @@ def import_face(crowd, face, level, parent, weld=False):
 
 
 def _duplicate(items, parent):
-    """Objects that share the meshes of others."""
+    """Copies objects; the copies share the meshes of the originals."""
     copies = {item: item.copy() for item in items}
     for copy in copies.values():
         if copy.parent in copies:
@@ -68,7 +68,7 @@ def _duplicate(items, parent):
 
 
 def see_through(scene):
-    """Lets rays of Cycles pass hair cards and transparent shells over the eyes, which turn black after 8 surfaces."""
+    """Lets rays of Cycles pass at least 64 transparent surfaces. With the default of 8, hair cards and eyes become black."""
     if hasattr(scene, "cycles"):
         scene.cycles.transparent_max_bounces = max(64, scene.cycles.transparent_max_bounces)
 

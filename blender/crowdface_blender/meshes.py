@@ -15,17 +15,17 @@ UP, FRONT = "+Z", "-Y"
 
 
 def plain_name(name):
-    """A name as crowdface accepts it."""
+    """The name with each character that crowdface does not accept replaced by `_`."""
     return re.sub(r"[^A-Za-z0-9_.-]", "_", name).lstrip(".")[:64] or "_"
 
 
 def base_name(name):
-    """Without the number that Blender adds to a name in use, such as .001."""
+    """The name without the number, such as .001, that Blender appends to make names unique."""
     return re.sub(r"\.\d{3}$", "", name)
 
 
 def _material_names(mesh):
-    """Heads that were imported one after the other have materials skin, skin.001, …; in each file it is skin."""
+    """Material names without Blender's numbers: the skin of each imported head is "skin", not "skin.001"."""
     names = [plain_name(material.name) if material else "none" for material in mesh.materials]
     short = [base_name(name) for name in names]
     return short if len(set(short)) == len(set(names)) else names
@@ -47,7 +47,7 @@ def _corners(mesh):
 
 
 def _texture_coordinates(mesh, corners):
-    """Different (vertex, u, v), and the row of each corner."""
+    """The texture coordinates of all different (vertex, u, v), and for each corner an index of these rows."""
     layer = mesh.uv_layers.active
     if not layer:
         return None, None
@@ -58,7 +58,7 @@ def _texture_coordinates(mesh, corners):
 
 
 def write_obj(file, item, block=None, materials=True):
-    """Writes the base mesh; modifiers do not count."""
+    """Writes the mesh without its modifiers."""
     mesh = item.data
     corners = _corners(mesh)
     uvs, uv_corners = _texture_coordinates(mesh, corners)
@@ -140,7 +140,7 @@ def read_points(file):
 
 
 def set_points(item, points):
-    """Moves the vertices of an object to points as `points_of` gives them."""
+    """Moves the vertices of an object to `points`, in the coordinates of `points_of`."""
     turn = numpy.linalg.inv(numpy.array(item.matrix_world.to_3x3()))
     item.data.vertices.foreach_set("co", (points @ turn.T).astype(numpy.float32).reshape(-1))
     item.data.update()

@@ -14,7 +14,7 @@ MESSAGE = 12  # lines of an error message that Blender shows
 
 
 class Problem(Exception):
-    """What the user must know."""
+    """An error message for the user."""
 
 
 def path():
@@ -47,7 +47,7 @@ class Job:
             stdin=subprocess.DEVNULL, stdout=self._log, stderr=self._log)
 
     def running(self):
-        """Updates message and fraction; starts the next command. False if everything has ended."""
+        """Updates message and fraction; starts the next command. False if all commands have ended."""
         if self._process.poll() is None:
             self._update()
             return True
@@ -60,7 +60,7 @@ class Job:
         return self._process.returncode == 0 and not self._commands
 
     def cancel(self):
-        """SIGTERM: the program stops in order, and a later run continues."""
+        """Sends SIGTERM: the program stops cleanly, and a later run continues."""
         self.cancelled = True
         if self._process.poll() is None:
             self._process.terminate()
@@ -146,7 +146,7 @@ class RunsJob:
     def _running():
         try:
             return RunsJob.current.running()
-        except OSError:  # the program has gone
+        except OSError:  # the program no longer exists
             RunsJob.current.cancel()
             return False
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Preferences, and what the panels remember in the scene."""
+"""The add-on's preferences, and the panels' settings, which the scene stores."""
 import os
 
 import bpy

@@ -64,7 +64,7 @@ def read_heads(
 
 
 def _line_of(recipe: Mapping[str, Any]) -> str:
-    """A line of a plan; what a recipe written by hand leaves out does not matter."""
+    """A line of plan.jsonl. Adds the keys that a recipe written by hand may omit."""
     regions = {
         name: {"position": None, "smoothness": 0, "extrapolation": 1, **region}
         for name, region in recipe.get("regions", {}).items()
@@ -91,11 +91,11 @@ class Smoothing:
         return self._smoothing.smooth(positions, list(iterations))
 
     def blend(self, recipe: Mapping[str, Any], masks: Any = None) -> Positions:
-        """The skin of a recipe, (V, 3), in the unit of the heads.
+        """The skin of a recipe's face, (V, 3), in the unit of the heads.
 
         recipe: `target` and `regions`, as in a plan; a region needs `weights` (by name of the head,
-        sum one) and `iterations`, and may have `extrapolation` (1), `position`, `bands`.
-        masks: (V, R), not negative, rows with sum one; R is the number of the recipe's regions.
+        with the sum 1) and `iterations`, and may have `extrapolation` (1), `position`, `bands`.
+        masks: (V, R), not negative, each row with the sum 1; R is the recipe's number of regions.
         None: one region.
         """
         return self._smoothing.blend(_line_of(recipe), list(recipe.get("regions", {})), masks)
@@ -142,7 +142,7 @@ def _cache(cache: Optional[PathLike]) -> Path:
 
 
 def _with(config: Config, section: str, key: str, path: Path) -> Config:
-    """The config of a Job with a path to arrays."""
+    """The config with `key` of `section` set to `path`, under which the job finds arrays."""
     if not isinstance(config, Mapping):
         raise UsageError("heads, masks: expected the config as a dict, found a file")
     return {**config, section: {**config.get(section, {}), key: str(path)}}
@@ -154,7 +154,7 @@ class Job:
     config: a file, or the same keys as a dict; relative paths in a dict begin at the working
     directory. settings: changes of values, such as {"crowd.count": 20}. heads, masks: arrays that
     replace the keys `faces.directory` and `regions.mask` of a dict; masks are (V, R), one column for
-    each name of `regions.names`. As from mesh files, positions are rounded to single precision.
+    each name of `regions.names`. Positions are rounded to single precision, as in mesh files.
     """
 
     def __init__(
@@ -188,7 +188,7 @@ class Job:
 
     @property
     def masks(self) -> Numbers:
-        """Weights of the regions, (V, R); rows have the sum one."""
+        """Weights of the regions, (V, R); each row has the sum 1."""
         return self._job.masks
 
     @property

@@ -22,9 +22,9 @@ def cache_directory() -> Path:
 class Heads:
     """Heads of one topology.
 
-    positions: one array (V, 3) per head, or an array (H, V, 3). faces: an array (F, k) of vertices
-    from 0, or (corners, offsets), or a list of lists. uvs: (T, 2). uv_faces: rows of `uvs` in the
-    form of `faces`, -1: none; None: the same as `faces`. names: default head_00, head_01, …
+    positions: one array (V, 3) per head, or an array (H, V, 3). faces: an array (F, k) of vertex
+    indices from 0, or (corners, offsets), or a list of lists. uvs: (T, 2). uv_faces: indices of rows
+    of `uvs`, in the form of `faces`; -1: none. uv_faces=None: the same indices as `faces`. names: default head_00, head_01, …
     """
 
     def __init__(
@@ -48,10 +48,10 @@ class Heads:
         """(T, 2), a view; no rows without texture coordinates."""
     @property
     def corners(self) -> Indices:
-        """(C,), a view: the vertices of all polygons."""
+        """(C,), a view: the vertex indices of all polygons."""
     @property
     def uv_corners(self) -> Indices:
-        """(C,) or (0,), a view: rows of `uvs`; 4294967295: none."""
+        """(C,) or (0,), a view: indices of rows of `uvs`; 4294967295: none."""
     @property
     def offsets(self) -> Indices:
         """(F + 1,), a view: polygon f has the corners from offsets[f] up to offsets[f + 1]."""

@@ -187,7 +187,7 @@ class Crowd(Mapping[str, Face]):
     ) -> Path:
         """Writes a review file for this crowd.
 
-        keep, reject: ids of faces. lock: rejected faces of which these regions stay, by id.
+        keep, reject: ids of faces. lock: for rejected faces, by id, the regions that stay.
         notes: a remark for a rejected face, by id. changes: by id, the keys of `changes` in
         docs/config.md, such as {"market_0013": {"age": "older"}}. Pass the file to `run_round`.
         """

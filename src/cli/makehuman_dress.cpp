@@ -138,8 +138,8 @@ HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels
           [from, max_texels] { return encoded(downsampled(read_picture(from), max_texels)); }};
 }
 
-/// Makes the irises of an eye texture darker and less saturated: those of the package glow, and the
-/// brown ones are red.
+/// Makes the irises of an eye texture darker and less saturated: the package's irises are too
+/// bright, and its brown irises are red.
 /// \param look  how the irises change
 void tone_irises(Picture& picture, const IrisLook& look) {
   // Centres and radius of the irises, as fractions of the width.
@@ -169,7 +169,7 @@ void tone_irises(Picture& picture, const IrisLook& look) {
 
 /// Blends skin textures. Averages optical densities instead of colours, because the densities of
 /// mixed pigments add up.
-/// Skins become a little greyer, because those of the package are too red.
+/// Skins become a little greyer, because the package's skins are too red.
 /// \param tone  factor on the densities.
 Picture blended_skin(const std::vector<WeightedSkin>& shares, double tone) {
   std::vector<Picture> pictures;

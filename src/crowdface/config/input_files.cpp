@@ -147,7 +147,7 @@ std::vector<fs::path> list_heads(const fs::path& folder) {
     }
   }
   // Remove all files that are neither OBJ files nor files of the most frequent format. Of the files
-  // of this format, also remove those that have the same stem as an OBJ file.
+  // of this format, also remove each file with the same stem as an OBJ file.
   std::set<std::string> obj_stems;
   for (const fs::path& file : files) {
     if (is_obj(file)) obj_stems.insert(file.stem().string());
