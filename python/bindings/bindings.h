@@ -24,8 +24,7 @@ void bind_job(pybind11::module_& module);
 using PositionsArray =
     pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-/// A view of an array's rows. \throws InvalidInput unless the array has `rows` rows of three
-/// numbers.
+/// A view of an array's rows. \throws InvalidInput unless the array has `rows` rows of three numbers.
 inline Eigen::Map<const Positions> rows_of(const PositionsArray& array, Index rows,
                                            std::string_view name) {
   if (array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {

@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::uint32_t kColumns = 21, kRows = 61;
 
-/// A sheet of squares of one millimetre, folded in its middle: the lower half lies two millimetres
-/// below.
+/// A sheet of squares of one millimetre, folded in its middle: the lower half lies two millimetres below.
 class FoldedSheet : public ::testing::Test {
  protected:
   FoldedSheet() : mesh_(kColumns * kRows, 3) {

@@ -41,8 +41,7 @@ TEST(FilteredTexture, GivesTexelsAsTheyAreAtTheirCentres) {
   }
 }
 
-// Texels that each cover many of the texture's must give the mean, and not a moiré of single
-// texels.
+// Texels that each cover many of the texture's must give the mean, and not a moiré of single texels.
 TEST(FilteredTexture, ManyTexelsGiveTheirMean) {
   const FilteredTexture checks =
       all_covered(1024, [](int x, int y) { return (x + y) % 2 == 0 ? 0.8F : 0.2F; });

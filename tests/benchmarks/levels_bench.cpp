@@ -2,8 +2,7 @@
 // How well the levels of a head are represented: the paper's cubic and the basis at several
 // tolerances, against the exact filter in double precision at every vertex. Prints a table.
 //
-//   crowdface_levels_bench [HEAD.obj [ROUNDS]] ROUNDS of subdivision; without a file, a synthetic
-//   head
+//   crowdface_levels_bench [HEAD.obj [ROUNDS]]    ROUNDS of subdivision; without a file, a synthetic head
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -181,8 +181,7 @@ TEST(Init, AlignsHeadsThatStandDifferently) {
   EXPECT_THAT(checked.err, ::testing::Not(::testing::HasSubstr("is not aligned")));
 }
 
-// The mean of three heads of which one was mirrored, or ten times as large, had another unit and
-// axes.
+// The mean of three heads of which one was mirrored, or ten times as large, had another unit and axes.
 TEST(Init, TellsHeadsThatCheckRefusesAndLeavesThemOut) {
   const TemporaryFolder folder;
   const std::string heads = (folder / "heads").string(), config = (folder / "c.yaml").string();

@@ -74,8 +74,7 @@ TEST(Usage, WrongCommandLinesAre64) {
   crowdface(64, {"generate"}, {"config"});
 }
 
-// `--shard "$PART"` with PART unset ran everything, `synth -o ""` filled the folder it was called
-// in.
+// `--shard "$PART"` with PART unset ran everything, `synth -o ""` filled the folder it was called in.
 TEST(Usage, EmptyValuesAre64) {
   const SmallCrowdFolder folder(SmallCrowd{});
   const std::string config = folder.config().string();

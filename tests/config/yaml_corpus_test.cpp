@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Test 7 of docs/reliability.md: whatever is wrong with a
-// config is told with file, line and column.
+// SPDX-License-Identifier: Apache-2.0
+// Test 7 of docs/reliability.md: whatever is wrong with a config is told with file, line and column.
 #include <random>
 #include <regex>
 

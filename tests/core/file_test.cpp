@@ -101,8 +101,8 @@ TEST(MakeDirectories, RefusesWhereAFileStands) {
   EXPECT_NO_THROW(make_directories(std::filesystem::path("m.png").parent_path()));
 }
 
-// Reading a file put a handler of SIGBUS into the host's process, which ended it where a file was
-// cut. (The first of these tests: later ones switch the handler on, as the program does.)
+// Reading a file put a handler of SIGBUS into the host's process, which ended it where a file was cut. (The first
+// of these tests: later ones switch the handler on, as the program does.)
 TEST(MappedFile, UnwatchedLeavesSignalsToTheHostAndIsACopy) {
   const TemporaryFolder folder;
   const std::string bytes(20'000, 'x');

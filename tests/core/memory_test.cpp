@@ -50,8 +50,8 @@ TEST(MachineMemory, IsPlausible) {
 
 using testing::TemporaryFolder;
 
-// The limit of the outermost group was read, which Slurm and systemd never set: a run planned with
-// three quarters of the node and was killed.
+// The limit of the outermost group was read, which Slurm and systemd never set: a run planned with three quarters of
+// the node and was killed.
 TEST(MemoryLimitOfGroups, IsTheLeastOfTheProcessGroupAndThoseItLiesIn) {
   const TemporaryFolder folder;
   const auto limit = [&](const std::string& groups) {

@@ -306,8 +306,7 @@ TEST_F(EditCommandTest, OpensACrowdAndReviewsIt) {
             "schema: 1\nafter: 1\nfaces:\n  mob_0004: {mark: keep}\n");
 }
 
-// The run beside the page did not know of the editor's --limit, and refused what the editor had
-// opened.
+// The run beside the page did not know of the editor's --limit, and refused what the editor had opened.
 TEST_F(EditCommandTest, GeneratesTheCrowdBesideThePageUnderTheSameLimits) {
   std::ofstream(folder_.config(), std::ios::app) << '#' << std::string(1 << 20, 'x') << '\n';
   more_ = {"--limit", "yaml_bytes=2000000"};
@@ -367,8 +366,7 @@ TEST_F(EditCommandTest, RegionsComeAndGoInTheConfig) {
         << "the first masks stay for undo";
     EXPECT_EQ(post("api/face", {{"recipe", start()}})->status, 200);
 
-    // Each change of the regions can be taken back: to those before the last, and to the config's
-    // own.
+    // Each change of the regions can be taken back: to those before the last, and to the config's own.
     const std::string cheeks = saved.substr(saved.find('{'), saved.find('}') - saved.find('{') + 1);
     const auto back = post("api/regions", {{"back", cheeks}});
     EXPECT_EQ(back->status, 200) << back->body;

@@ -8,8 +8,7 @@
 namespace crowdface::testing {
 namespace {
 
-/// Two regions of three heads. The first region's heads measure 10, 20 and 40; the second hardly
-/// counts.
+/// Two regions of three heads. The first region's heads measure 10, 20 and 40; the second hardly counts.
 class SteerTrait : public ::testing::Test {
  protected:
   SteerTrait() {

@@ -19,8 +19,8 @@ std::shared_ptr<const Texture> plain(const LinearRgb& colour) {
 
 const LinearRgb kRed(1, 0, 0), kGreen(0, 1, 0), kBlue(0, 0, 1);
 
-/// Three quads in three tiles side by side; the first head has a picture for each, the second one
-/// for the last two, the third none.
+/// Three quads in three tiles side by side; the first head has a picture for each, the second one for the
+/// last two, the third none.
 Inputs three_tiles() {
   Inputs inputs;
   HeadSet& head_set = inputs.head_set;

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Heads are read once: then the cache knows them, is never
-// trusted when damaged, and sees any change.
+// SPDX-License-Identifier: Apache-2.0
+// Heads are read once: then the cache knows them, is never trusted when damaged, and sees any
+// change.
 #include "crowdface/heads/read_heads.h"
 
 #include <array>

@@ -66,8 +66,8 @@ class ImageCorpus : public ::testing::Test {
     return with_directory_first(read_text(file));
   }
 
-  /// The same TIFF (classic, little endian) with its directory, and what that points to, in front
-  /// of the pixels: then a cut leaves a directory that is whole.
+  /// The same TIFF (classic, little endian) with its directory, and what that points to, in front of
+  /// the pixels: then a cut leaves a directory that is whole.
   static std::string with_directory_first(const std::string& bytes) {
     const auto word = [&](std::size_t at, std::size_t size) {
       std::uint32_t value = 0;
@@ -230,8 +230,7 @@ TEST_F(ImageCorpus, CutAnywhereIsRefused) {
   EXPECT_GE(refused, 100);
 }
 
-// The decoder took a strip that it could not read for one that it had, and its old memory for
-// pixels.
+// The decoder took a strip that it could not read for one that it had, and its old memory for pixels.
 TEST_F(ImageCorpus, ATiffCutAnywhereIsRefusedWhateverItsForm) {
   for (const char* compression : {"none", "lzw", "zip", "packbits"}) {
     for (const bool tiled : {false, true}) {

@@ -23,8 +23,7 @@ using std::filesystem::path;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-// Loading the library for images set and cancelled the alarm of the host, and handled the host's
-// signals.
+// Loading the library for images set and cancelled the alarm of the host, and handled the host's signals.
 TEST(ImageLibrary, LeavesAlarmAndHandlersToTheHost) {
   const auto handlers = [] {
     std::vector<void (*)(int)> found;

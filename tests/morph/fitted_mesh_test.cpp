@@ -74,8 +74,7 @@ TEST_F(Wardrobe, DressedHeadsKeepTheirSkinToTheBit) {
   const auto skin = static_cast<Index>(
       vertices_of_material(naked.neutral().topology, naked.materials(), {"skin"}).size());
   const Positions expected = naked.positions(3, 2), found = dressed.positions(3, 2);
-  // The tube's vertices come before those of the left eye in the file, and behind those of the
-  // right one.
+  // The tube's vertices come before those of the left eye in the file, and behind those of the right one.
   EXPECT_EQ(found.topRows(skin), expected.middleRows(4, skin));
   // Eyes are without their corneas: a square on either side; then teeth and tongue.
   EXPECT_EQ(found.rows(), skin + 4 * 4);

@@ -33,8 +33,7 @@ TEST(PolygonsBelow, AreOnOneSideOfTheLoop) {
   for (std::size_t f = 0; f < below.size(); ++f) EXPECT_EQ(below[f], f < 5 * tube.around) << f;
 }
 
-// The loop lies in a plane at 40 degrees, so that some polygons below it are higher than its
-// middle.
+// The loop lies in a plane at 40 degrees, so that some polygons below it are higher than its middle.
 TEST(PolygonsBelow, FollowASlopingLoop) {
   const Tube tube;
   Positions positions = tube.positions();

@@ -76,8 +76,8 @@ TEST(LowestRim, IsTheLowestLongOne) {
   });
 }
 
-/// A head's neck is a tube that begins at y = 0. The body is the same tube, turned over: its ring
-/// at y = 0 is its last, in the order of the head's rim.
+/// A head's neck is a tube that begins at y = 0. The body is the same tube, turned over: its ring at
+/// y = 0 is its last, in the order of the head's rim.
 class MatchingRim : public ::testing::Test {
  protected:
   MatchingRim() : head_(tube_.positions()(tube_.rim(), kAllColumns)), body_(tube_.positions()) {

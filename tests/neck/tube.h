@@ -14,8 +14,8 @@
 
 namespace crowdface::testing {
 
-/// A tube of `rows` rows of quads along +y, `around` vertices in each ring, in mm. Its section is
-/// an egg, so that each ring fits itself in one way only.
+/// A tube of `rows` rows of quads along +y, `around` vertices in each ring, in mm. Its section is an
+/// egg, so that each ring fits itself in one way only.
 struct Tube {
   std::uint32_t around = 24, rows = 12;
   double radius = 60, height = 120, bottom = 0;

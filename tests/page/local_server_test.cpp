@@ -169,8 +169,7 @@ TEST_F(LocalServerTest, SlowClientsHoldNobodyUp) {
   }
 }
 
-// Where more clients came at once than the server serves, it hung up on those whose request was
-// there already.
+// Where more clients came at once than the server serves, it hung up on those whose request was there already.
 TEST_F(LocalServerTest, AFloodOfClientsHoldsNobodyUp) {
   std::atomic<bool> done = false;
   std::list<std::jthread> floods;

@@ -1,7 +1,8 @@
-// SPDX-License-Identifier: Apache-2.0 How far the marks of faces move if their heads are rotated,
-// thinned, refined, noisy or cut: for each change the marks that were not found, that are off by
-// more than 3 mm, and the largest error. crowdface_measure_marks HEADS_FOLDER… Heads look along +z,
-// +y is up; each folder has one topology.
+// SPDX-License-Identifier: Apache-2.0
+// How far the marks of faces move if their heads are rotated, thinned, refined, noisy or cut: for each
+// change the marks that were not found, that are off by more than 3 mm, and the largest error.
+//   crowdface_measure_marks HEADS_FOLDER…
+// Heads look along +z, +y is up; each folder has one topology.
 #include <filesystem>
 #include <iostream>
 #include <map>

@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint32_t kColumns = 40, kRows = 30, kStride = kColumns + 1, kTear = 22;
 constexpr std::uint32_t kVertices = kStride * (kRows + 1);
 
-/// A flat sheet of unit quads, waved a little so that some edges are worth more; its texture is
-/// torn along a column, where the right part lies five units higher.
+/// A flat sheet of unit quads, waved a little so that some edges are worth more; its texture is torn along a
+/// column, where the right part lies five units higher.
 Mesh torn_sheet() {
   Mesh sheet;
   sheet.topology.vertex_count = kVertices;

@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Tests 19, 24 and 25 of docs/reliability.md: an editor that is
-// killed, or whose system calls fail, while a user works; two editors at a time; an editor among
-// hostile clients.
+// SPDX-License-Identifier: Apache-2.0
+// Tests 19, 24 and 25 of docs/reliability.md: an editor that is killed, or whose system calls fail, while a user
+// works; two editors at a time; an editor among hostile clients.
 #include <csignal>
 #include <fstream>
 #include <list>
@@ -27,8 +27,7 @@ using Json = nlohmann::ordered_json;
 using Kind = Fault::Kind;
 using ::testing::HasSubstr;
 
-/// A crowd of two in a folder that is watched together with its config; heads, masks and cache
-/// stand elsewhere.
+/// A crowd of two in a folder that is watched together with its config; heads, masks and cache stand elsewhere.
 class DisturbedEditor : public ::testing::Test {
  public:
   DisturbedEditor() : folder_(small()) {
@@ -409,8 +408,7 @@ TEST_F(DisturbedEditor, TwoEditorsLoseNothingThatWasConfirmedIfOneIsKilled) {
   EXPECT_GT(killed, 0);
 }
 
-// The crowd's folder has another name for a while, and all processes except the test are another
-// user's.
+// The crowd's folder has another name for a while, and all processes except the test are another user's.
 TEST_F(DisturbedEditor, ServesItsUserAmongHostileClients) {
   const auto hand_over = [](const fs::path& path) {
     return ::geteuid() != 0 || ::lchown(path.c_str(), kNobody, kNobody) == 0;

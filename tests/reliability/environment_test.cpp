@@ -58,8 +58,8 @@ const std::vector<Surroundings>& all_surroundings() {
   return all;
 }
 
-/// Writes "comma/LC_NUMERIC" below the folder: numbers as Germans write them. Needs localedef,
-/// which every Debian has, and no other locale; it complains about all else that a locale defines.
+/// Writes "comma/LC_NUMERIC" below the folder: numbers as Germans write them. Needs localedef, which
+/// every Debian has, and no other locale; it complains about all else that a locale defines.
 void make_comma_locale(const TemporaryFolder& folder) {
   const fs::path source = folder.write("comma.txt",
                                        "LC_NUMERIC\ndecimal_point \",\"\nthousands_sep \".\"\n"

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Tests 20 and 21 of docs/reliability.md: each file that a job
-// reads gives its place to a pipe, or changes.
+// SPDX-License-Identifier: Apache-2.0
+// Tests 20 and 21 of docs/reliability.md: each file that a job reads gives its place to a pipe, or changes.
 #include <fstream>
 
 #include <sys/stat.h>
@@ -171,8 +171,7 @@ TEST_F(InputsOfAJob, PipesInACrowdsFolderStopNoCommand) {
   }
 }
 
-// Another colour in a head's material file changed nothing, and the faces' own materials kept the
-// old one.
+// Another colour in a head's material file changed nothing, and the faces' own materials kept the old one.
 TEST_F(InputsOfAJob, ThatChangeMakeTheCrowdAnew) {
   const auto generate = [&](const char* out, bool force) {
     auto arguments = command("generate", folder_.config());

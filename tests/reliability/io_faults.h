@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 What can happen to a run at its system calls. Test programs
-// that link io_faults.cpp with the linker's --wrap send the calls of crowdface's own code through
-// it (tests/reliability/CMakeLists.txt).
+// SPDX-License-Identifier: Apache-2.0
+// What can happen to a run at its system calls. Test programs that link io_faults.cpp with the
+// linker's --wrap send the calls of crowdface's own code through it (tests/reliability/CMakeLists.txt).
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 namespace crowdface::testing {
 
-/// What happens at one of the calls that concern files and folders below a folder: open, read,
-/// write, fsync, close, rename, unlink, flock, fstat, mmap, opendir, readdir.
+/// What happens at one of the calls that concern files and folders below a folder: open, read, write,
+/// fsync, close, rename, unlink, flock, fstat, mmap, opendir, readdir.
 struct Fault {
   enum class Kind {
     kNone,

@@ -1,8 +1,8 @@
-// SPDX-License-Identifier: Apache-2.0 Preloaded into the program: one call of one kind fails,
-// whoever makes it, our code, the C++ library or any other. FAULT_CALL names the kind, FAULT_AT its
-// number, counted from the program's first call of signal(), with which main begins; FAULT_COUNT a
-// file for how many there were. With FAULT_FOREVER all calls from that number on fail.
-// FAULT_VANISHES names a file that is removed after each look at it.
+// SPDX-License-Identifier: Apache-2.0
+// Preloaded into the program: one call of one kind fails, whoever makes it, our code, the C++ library or any
+// other. FAULT_CALL names the kind, FAULT_AT its number, counted from the program's first call of signal(),
+// with which main begins; FAULT_COUNT a file for how many there were. With FAULT_FOREVER all calls from that number on
+// fail. FAULT_VANISHES names a file that is removed after each look at it.
 #include <atomic>
 #include <cerrno>
 #include <csignal>

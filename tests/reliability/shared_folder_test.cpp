@@ -96,8 +96,7 @@ TEST_F(SharedFolder, WaitingEndsAtASignal) {
   EXPECT_FALSE(fs::exists(folder_.out() / "plan.jsonl"));
 }
 
-// The lock's file was looked at twice; where the run before removed it between the two, this one
-// ended with 73.
+// The lock's file was looked at twice; where the run before removed it between the two, this one ended with 73.
 TEST_F(SharedFolder, ALockThatVanishesIsNoObstacle) {
   fs::create_directories(folder_.out());
   const fs::path lock = CrowdDirectory{folder_.out()}.lock();

@@ -163,8 +163,8 @@ TEST(AttachmentMesh, CastsShadowsButThroughItsHoles) {
   EXPECT_LT(darkest(scene.render(black(0)), bare), 1);
 }
 
-/// A card seen through a hole in another before it, which keeps the light off it: what falls on its
-/// other side comes through, unless something lies there, too.
+/// A card seen through a hole in another before it, which keeps the light off it: what falls on its other
+/// side comes through, unless something lies there, too.
 TEST(AttachmentMesh, LetsLightThroughWhereItIsDark) {
   const Scene scene;
   const auto at = [&](double scale, double z) {

@@ -55,8 +55,7 @@ TEST(Camera, EveryHeadFitsWithItsMarginAndTouchesIt) {
   }
 }
 
-// Masks of faces, and busts that end at the throat, lost their chins. A mask's nose lies as low as
-// a bust's chin.
+// Masks of faces, and busts that end at the throat, lost their chins. A mask's nose lies as low as a bust's chin.
 TEST(Camera, NeverCutsAChin) {
   const auto lowest_shown = [](double front_of_lowest, double height_of_nose) {
     Positions head(9, 3);

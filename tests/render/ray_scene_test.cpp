@@ -18,8 +18,8 @@ namespace {
   return litter[100];
 }
 
-// Rays go in packets of sixteen. What stood in the lanes of a packet that had no ray was taken for
-// rays, on processors without vectors of sixteen, and ended the program.
+// Rays go in packets of sixteen. What stood in the lanes of a packet that had no ray was taken for rays, on processors
+// without vectors of sixteen, and ended the program.
 TEST(RayScene, AnyNumberOfRaysMeetsASquare) {
   const RayDevice device;
   const std::vector<Quad> quads = {{0, 1, 2, 3}};

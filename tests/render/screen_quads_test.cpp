@@ -19,8 +19,7 @@ namespace {
 
 constexpr float kDistance = 5;
 
-/// What is seen at some places of every pixel of an image, by squares, and the rays that look
-/// there.
+/// What is seen at some places of every pixel of an image, by squares, and the rays that look there.
 struct Look {
   std::vector<Ray> rays;
   std::vector<std::optional<RayHit>> hits;
@@ -54,8 +53,7 @@ Look look(const std::vector<float>& points, const std::vector<Quad>& quads, int 
   return look;
 }
 
-/// Quads of any shape and size, some of them triangles or behind the camera, from a hundredth of
-/// the image's side.
+/// Quads of any shape and size, some of them triangles or behind the camera, from a hundredth of the image's side.
 struct Soup {
   std::vector<float> points;
   std::vector<Quad> quads;

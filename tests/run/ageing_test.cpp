@@ -76,8 +76,8 @@ class TenPeople {
   std::string tags_;
 };
 
-// The mean of all old heads stood for each of them: with age 1, the closest pair came to 0.47 of
-// its distance.
+// The mean of all old heads stood for each of them: with age 1, the closest pair came to 0.47 of its
+// distance.
 TEST(AgedPeople, RemainTenPeople) {
   const TenPeople ten;
   const std::vector<reference::Points> young = ten.at(0);
@@ -92,8 +92,8 @@ TEST(AgedPeople, RemainTenPeople) {
     }
     return least;
   };
-  // The young heads are 26 years old on average, the old ones 66: these people are 20 years older.
-  // With 24 years, one of the ten was nearer to another's younger self than to their own.
+  // The young heads are 26 years old on average, the old ones 66: these people are 20 years older. With
+  // 24 years, one of the ten was nearer to another's younger self than to their own.
   const std::vector<reference::Points> older = ten.at(0.5), oldest = ten.at(1);
   for (std::size_t a = 0; a < older.size(); ++a) {
     const auto nearest = std::ranges::min_element(

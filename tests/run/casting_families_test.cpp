@@ -232,8 +232,7 @@ TEST(CastingFamilies, ChildrenResembleBothParentsThroughGenerations) {
     EXPECT_LE(family.at("to_founder_mm").at("max").get<double>(), 1.5 + kTolerance);
   }
 
-  // Children stay near their parents' mean, so parents who stay make them stay when the crowd
-  // grows.
+  // Children stay near their parents' mean, so parents who stay make them stay when the crowd grows.
   ConfigOverrides more;
   more.count = "20";
   run_to(folder, "more", more);

@@ -128,8 +128,7 @@ TEST(GenerateBands, ChildrenInheritByBand) {
   }
 }
 
-// Bands of two parents, put together, began above those before them, and blending ended in a bug's
-// words.
+// Bands of two parents, put together, began above those before them, and blending ended in a bug's words.
 TEST(GenerateBands, OfParentsWithOtherLevelsKeepTheirOrder) {
   SmallCrowd crowd = banded();
   crowd.heads = 6;

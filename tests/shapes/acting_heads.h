@@ -64,8 +64,8 @@ inline std::pair<Vector3d, double> ball_of(const Heads& heads, const Part& eye,
   return {motion.apply(ball.centre), motion.scale * ball.radius};
 }
 
-/// The rims of the lids in front of an eye: the highest vertex of the lower lid and the lowest of
-/// the upper one in each of some columns.
+/// The rims of the lids in front of an eye: the highest vertex of the lower lid and the lowest of the
+/// upper one in each of some columns.
 struct Rims {
   std::vector<std::uint32_t> low, high;
 };

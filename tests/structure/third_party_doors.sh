@@ -27,7 +27,7 @@ door 'xxhash' 'crowdface/core/[a-z_]*\.cpp'
 door 'Random123/' 'crowdface/core/[a-z_]*\.cpp'
 door 'hwy/' 'crowdface/core/fused_lanes-inl\.h' 'crowdface/core/[a-z_]*\.cpp' \
   'crowdface/smooth/[a-z_]*_kernels\.cpp' 'crowdface/blend/[a-z_]*_kernels\.cpp' \
-  'crowdface/(render/(front_quads|light_sharing|shading)|validity/leaf_boxes)\.cpp' 'crowdface/(cast|texture)/[a-z_]*_kernels\.cpp'
+  'crowdface/(render/(front_quads|visibility_filter|shading)|validity/leaf_boxes)\.cpp' 'crowdface/(cast|texture)/[a-z_]*_kernels\.cpp'
 door 'tiny_obj_loader' 'crowdface/io/[a-z_]*\.cpp'
 door 'OpenImageIO/' 'crowdface/io/openimageio_codec\.cpp'
 door 'png\.h' 'crowdface/io/png_codec\.cpp'

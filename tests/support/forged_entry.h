@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Entries of the cache that hold other numbers under a right
-// checksum; bytes as heads/cache_entry.cpp writes them.
+// SPDX-License-Identifier: Apache-2.0
+// Entries of the cache that hold other numbers under a right checksum; bytes as heads/cache_entry.cpp writes them.
 #pragma once
 
 #include <cstdint>

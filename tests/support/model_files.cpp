@@ -126,8 +126,7 @@ std::string small_picture(std::uint8_t grey) {
   return encode_png(4, 4, 4, pixels);
 }
 
-/// Squares around these x, the first of each pair at (0.1, 0.1) of the texture, the second where it
-/// is clear.
+/// Squares around these x, the first of each pair at (0.1, 0.1) of the texture, the second where it is clear.
 void write_attachments(const fs::path& folder, const std::string& name,
                        const std::vector<double>& at_x, const std::vector<std::string>& materials) {
   ThreeMesh mesh;

@@ -9,8 +9,8 @@
 
 namespace crowdface::testing {
 
-/// Five fields of a head on a grid, waves from ten long to a tenth high that die out with the
-/// level; the first column of vertices stands still.
+/// Five fields of a head on a grid, waves from ten long to a tenth high that die out with the level; the first column
+/// of vertices stands still.
 inline HeadSmoothing smooth_levels(Index columns, Index rows, std::size_t head) {
   constexpr int kFields = 5;
   std::vector<float> fields;

@@ -15,8 +15,7 @@ namespace {
 
 using testing::TwoCharts;
 
-/// What `visit(texel, vertices, shares)` is called with for all covered texels, one after the
-/// other.
+/// What `visit(texel, vertices, shares)` is called with for all covered texels, one after the other.
 template <class Visit>
 void for_each_texel(const SurfaceTexels& texels, const Visit& visit) {
   for (int y = 0; y < texels.height(); ++y) {
@@ -36,8 +35,7 @@ void for_each_texel(const SurfaceTexels& texels, const Visit& visit) {
   }
 }
 
-/// Sums of rows over the texels next to each vertex, divided by their count and smoothed by the
-/// definition.
+/// Sums of rows over the texels next to each vertex, divided by their count and smoothed by the definition.
 template <class RowOfTexel>
 Columns means_by_iteration(const TwoCharts& sheet, std::uint64_t level, Index columns,
                            const RowOfTexel& row_of) {

@@ -10,8 +10,7 @@ ColourRows tone(int value) {
   return ColourRows::Constant(3, 3, static_cast<std::uint8_t>(value));
 }
 
-// Pigments add up: half of a light tone and half of a dark one reflect the geometric mean of their
-// light.
+// Pigments add up: half of a light tone and half of a dark one reflect the geometric mean of their light.
 TEST(VertexColoursBlend, IsAMeanOfDensities) {
   const std::vector<ColourRows> heads = {tone(204), tone(51), ColourRows(0, 3)};
   const ColourRows half = blend_vertex_colours(heads, {{0.5, 0.5, 0}, {1, 0, 0}}, {});

@@ -18,8 +18,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A template as if it had been wrapped onto itself, and regions by height: above the eyes, from
-/// there to the base of the nose, and below.
+/// A template as if it had been wrapped onto itself, and regions by height: above the eyes, from there to
+/// the base of the nose, and below.
 class ScanFaults : public ::testing::Test {
  protected:
   ScanFaults() {

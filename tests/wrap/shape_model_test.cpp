@@ -51,8 +51,7 @@ TEST(ShapeModel, MirrorImagesOfItsHeadsAreHeadsToo) {
   }
 }
 
-/// A flat sheet of 13 by 13 points, 8 mm apart; heads are shifted to the side as far as they are
-/// raised.
+/// A flat sheet of 13 by 13 points, 8 mm apart; heads are shifted to the side as far as they are raised.
 TEST(ShapeRegression, WhereAPlaceLiesAlongTheSurfaceFollowsFromHowHeadsDiffer) {
   constexpr int kSide = 13;
   SkinMesh skin;

@@ -30,9 +30,8 @@ struct TruthScan {
 };
 
 /// Turns a head into what a scanner would make of it: only what can be seen from outside (eyeballs
-/// too), about so many triangles that have nothing to do with the head's own, noise, holes, some
-/// place in space; landmarks picked by a hand that errs. The same for the same seed on every
-/// machine.
+/// too), about so many triangles that have nothing to do with the head's own, noise, holes, some place
+/// in space; landmarks picked by a hand that errs. The same for the same seed on every machine.
 /// \param landmarks  names and rows of the head.
 TruthScan make_truth_scan(const WrapTemplate& head, const std::vector<WrapLandmark>& landmarks,
                           const TruthOptions& options = {});

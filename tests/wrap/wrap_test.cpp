@@ -85,8 +85,7 @@ TEST_P(WrapAtTwoSizes, FindsAHeadItHasNeverSeen) {
 }
 INSTANTIATE_TEST_SUITE_P(Vertices, WrapAtTwoSizes, ::testing::Values(5000, 16000));
 
-/// A head as a scan in centimetres that stands in no particular way, with a crown four times as
-/// high.
+/// A head as a scan in centimetres that stands in no particular way, with a crown four times as high.
 TEST(Wrap, AFaceIsFoundInAnyTurnAndBelowAHighCrown) {
   constexpr double kCrownMm = 60, kTimes = 4, kCm = 0.1;
   const WrapTemplate shape = synthetic(5000, 1), head = synthetic(5000, 2);

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Makes, writes and reads texts in pieces, because the texts of
-// a large crowd may not fit in memory.
+// SPDX-License-Identifier: Apache-2.0
+// Makes, writes and reads texts in pieces, because the texts of a large crowd may not fit in
+// memory.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: Apache-2.0 Loads what every face gets in addition to its head: shapes,
-// points, a rig, attachments, and the fit to a body. Each function requires inputs whose heads and
-// parts are known, and adds all problems that it finds.
+// SPDX-License-Identifier: Apache-2.0
+// Loads what every face gets in addition to its head: shapes, points, a rig, attachments, and the
+// fit to a body. Each function requires inputs whose heads and parts are known, and adds all
+// problems that it finds.
 #pragma once
 
 #include "crowdface/config/config.h"

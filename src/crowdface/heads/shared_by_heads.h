@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: Apache-2.0 Computes data from all heads together. Because this takes
-// about a second per million vertices, the results for large heads are cached.
+// SPDX-License-Identifier: Apache-2.0
+// Computes data from all heads together. Because this takes about a second per million vertices,
+// the results for large heads are cached.
 #pragma once
 
 #include "crowdface/cast/sample_cells.h"

@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: Apache-2.0 Messages to the user about crowds that may be, or are,
-// impossible to cast.
+// SPDX-License-Identifier: Apache-2.0
+// Messages to the user about crowds that may be, or are, impossible to cast.
 #pragma once
 
 #include <cstdint>
