@@ -91,8 +91,8 @@ class Watch {
     Reading reading;
     for (const Eye& eye : eyes_) {
       // Of the layers of an eyeball the outermost.
-      const PointGrid ball(mesh, eye.part->surface);
-      const Vector3d centre = middle_of(mesh, eye.part->surface);
+      const PointGrid ball(mesh, eye.part->ball_vertices);
+      const Vector3d centre = middle_of(mesh, eye.part->ball_vertices);
       const auto gaps = [&](const std::vector<std::uint32_t>& vertices) {
         std::vector<double> result;
         for (const std::uint32_t v : vertices) {
@@ -180,8 +180,8 @@ class Watch {
     constexpr int kSectors = 60;
     constexpr double kNear = 0.35;  // cm
     Eye eye{&part, {}, {}, {}};
-    const PointGrid ball(mean_, part.surface);
-    const Vector3d centre = middle_of(mean_, part.surface);
+    const PointGrid ball(mean_, part.ball_vertices);
+    const Vector3d centre = middle_of(mean_, part.ball_vertices);
     std::vector<double> nearest(kSectors, 0.4);
     std::vector<std::uint32_t> rim(kSectors, kNoIndex);
     for (const std::uint32_t v : skin_) {

@@ -61,9 +61,9 @@ TEST(Parts, KnowAnEyeballsSurface) {
   const PartList list = parts_of(testing::simple_head());
   const Part& eye = list.parts[0];
   EXPECT_EQ(eye.ball_component, HeadComponent::kLeftEye);
-  EXPECT_EQ(static_cast<Index>(eye.surface.size()),
+  EXPECT_EQ(static_cast<Index>(eye.ball_vertices.size()),
             list.shapes[HeadComponent::kLeftEye].vertex_count);
-  EXPECT_TRUE(list.parts[2].surface.empty());
+  EXPECT_TRUE(list.parts[2].ball_vertices.empty());
 }
 
 TEST(Parts, DoNotDependOnUnitsOrPlace) {

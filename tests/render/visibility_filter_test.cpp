@@ -28,7 +28,7 @@ class LightSharing : public ::testing::Test {
           pixels_.field_values(static_cast<int>(f))[at] = pixel[f];
       }
     }
-    for (auto& field_values : lists_) field_values.assign(kSquareSide + kMaxLanes, 0);
+    for (auto& list : lists_) list.assign(kSquareSide + kMaxLanes, 0);
     for (int x = 0; x < kSquareSide; ++x) {
       const std::array<float, kFields> point = draw(x, kRow);
       for (std::size_t f = 0; f < kFields; ++f) lists_[f][static_cast<std::size_t>(x)] = point[f];

@@ -43,7 +43,7 @@ class IrisCoverTest : public ::testing::Test {
     const Job job = load_job(folder_ / "config.yaml", {});
     for (const Part& part : job.inputs.parts.parts) {
       if (!part.is_eyeball) continue;
-      const Positions eye = job.inputs.head_set.heads[0].positions(part.surface, Eigen::all);
+      const Positions eye = job.inputs.head_set.heads[0].positions(part.ball_vertices, Eigen::all);
       const Eigen::RowVector3d low = eye.colwise().minCoeff(), high = eye.colwise().maxCoeff();
       eye_centre_ = (low + high) / 2;
       iris_radius_ = kIrisRadius * (high - low).maxCoeff() / 2;

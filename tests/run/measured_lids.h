@@ -108,7 +108,7 @@ class MeasuredLids {
   BallRadii map_in(const Positions& mesh) const {
     const ComponentShape& ball = parts_.shapes[part_.ball_component];
     const RigidMotion motion = fit_rigid_motion(mean_, mesh, part_.vertices, ones_);
-    return BallRadii(faces_.topology, around_, mesh, part_.surface, motion.apply(ball.centre),
+    return BallRadii(faces_.topology, around_, mesh, part_.ball_vertices, motion.apply(ball.centre),
                      motion.scale * ball.radius, axes_);
   }
 

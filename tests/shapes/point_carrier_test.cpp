@@ -40,8 +40,8 @@ struct HeadsWithPoints {
   }
   Eigen::Vector3d middle_of_eye(const Positions& head) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const std::uint32_t v : eye().surface) sum += row3(head, v);
-    return sum / static_cast<double>(eye().surface.size());
+    for (const std::uint32_t v : eye().ball_vertices) sum += row3(head, v);
+    return sum / static_cast<double>(eye().ball_vertices.size());
   }
   /// The middle of an eye, the tip of the nose and a place deep in the head.
   PointSet points(const std::vector<std::size_t>& of_heads) const {

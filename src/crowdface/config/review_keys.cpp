@@ -15,7 +15,7 @@ namespace {
 using Verdict = ReviewMark::Verdict;
 
 constexpr std::size_t kLongestNote = 2000;
-constexpr std::uint64_t kMaxFaces = 1'000'000;
+constexpr std::uint64_t kMaxReviewedFaces = 1'000'000;
 
 /// Returns the ids of all faces of this config's crowd, except sampled faces.
 std::vector<std::string> named_ids(const Config& config) {
@@ -74,11 +74,11 @@ Review read_marks(const std::optional<YamlNode>& root, ConfigDraft& draft) {
     read_whole_number(*schema, 1, 1, draft.complaints);
   }
   if (const YamlNode* count = map.find("count")) {
-    review.reviewed_face_count = read_whole_number(*count, 0, kMaxFaces, draft.complaints);
+    review.reviewed_face_count = read_whole_number(*count, 0, kMaxReviewedFaces, draft.complaints);
   }
   if (const YamlNode* after = map.find("after")) {
     review.review_count_seen_by_reviewer =
-        read_whole_number(*after, 0, kMaxFaces, draft.complaints);
+        read_whole_number(*after, 0, kMaxReviewedFaces, draft.complaints);
   }
   if (const YamlNode* distance = map.find("min_distance")) {
     review.min_distance_mm = length(kMaxDistanceMm).read(*distance, draft);

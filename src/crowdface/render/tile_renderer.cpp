@@ -42,7 +42,7 @@ Vector disc_offset(const Vector& axis, const Eigen::Vector2f& disc) {
 /// only in normals; kEdge: in surface or colour.
 enum class PixelVariation : std::uint8_t { kNone, kRelief, kEdge };
 
-/// Storage for PointVisibility of a row of points: one field_values per field.
+/// Storage for PointVisibility of a row of points: one list of values for each field.
 class PointLists {
  public:
   void resize(std::size_t count) {

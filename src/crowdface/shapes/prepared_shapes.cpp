@@ -127,8 +127,8 @@ void PreparedShapes::add_eye(const Part& part, const ComponentShape& ball, const
   const auto map_in = [&](const Positions& head) {
     const RigidMotion motion =
         fit_rigid_motion(mean, head, bound.fitted_vertices, bound.equal_weights);
-    return BallRadii(head_set.topology, vertex_faces, head, part.surface, motion.apply(ball.centre),
-                     motion.scale * ball.radius, axes);
+    return BallRadii(head_set.topology, vertex_faces, head, part.ball_vertices,
+                     motion.apply(ball.centre), motion.scale * ball.radius, axes);
   };
   PreparedEye eye{rigid_parts.size() - 1, {map_in(shape_set.neutral), {}, {}}, {}};
   eye.balls.resize(head_set.heads.size());
