@@ -23,7 +23,7 @@ def comments():
         block, code_before = [], ""
         for line in path.read_text().split("\n"):
             text = line.strip()
-            is_comment = text.startswith("//") and "SPDX" not in text
+            is_comment = text.startswith("//") and "SPDX" not in text and "clang-format" not in text
             continues = is_comment and (not code_before or text.startswith("///<"))
             if block and not continues:
                 yield f"{path.relative_to(ROOT)}: {' '.join(block)}    [{code_before or text}]"

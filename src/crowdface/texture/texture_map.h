@@ -96,7 +96,7 @@ void move_to_disk(TextureMap& map, const std::filesystem::path& folder);
 struct ImageRows {
   int width = 0;
   int height = 0;
-  /// Reads row y: writes `width` texels.
+  /// Writes the `width` texels of row y.
   std::function<void(int y, std::span<Eigen::Array3f> texels)> read_row;
   /// Optional, for images that contain linear light: a faster alternative to `read_row` that writes
   /// row y as densities. The result equals density_of_light of each value but needs no logarithms.
