@@ -57,7 +57,7 @@ TEST_P(LayoutAt, HasNearlyTheWantedSize) {
   EXPECT_NEAR(static_cast<double>(layout.topology.vertex_count), static_cast<double>(wanted),
               0.1 * static_cast<double>(wanted));
   EXPECT_EQ(layout.topology.vertex_count, nearest_counts(wanted).vertex_count());
-  EXPECT_EQ(layout.addresses.size(), static_cast<std::size_t>(layout.topology.vertex_count));
+  EXPECT_EQ(layout.lattice_points.size(), static_cast<std::size_t>(layout.topology.vertex_count));
 }
 
 TEST_P(LayoutAt, IsOneManifoldPieceOfQuadsWithSixHoles) {
@@ -159,7 +159,7 @@ TEST(Layout, CutsOnlyAlongTheSeams) {
     EXPECT_LE(uvs.size(), 3U);
     if (uvs.size() == 1) continue;
     ++split;
-    const Address& a = layout.addresses[vertex];
+    const LatticePoint& a = layout.lattice_points[vertex];
     EXPECT_EQ(a.patch, SkinPatch::kStrip);
     EXPECT_TRUE(a.b == 0 || std::abs(a.a) == column_distance(kColumns - 1));
   }

@@ -30,11 +30,13 @@ TEST(Sculpture, LeftEqualsRight) {
 
 TEST(MeanHead, SkinIsOnTheSculpture) {
   const Layout layout = make_layout(5000);
-  for (const Address& address : layout.addresses) {
-    if (address.patch == SkinPatch::kEar || address.patch == SkinPatch::kEarCore) continue;
-    const bool strip = address.patch == SkinPatch::kStrip || address.patch == SkinPatch::kCap;
-    if (!strip && address.b > 1) continue;
-    ASSERT_NEAR(skin_distance(mean_skin(address).position), 0, 1e-8);
+  for (const LatticePoint& lattice_point : layout.lattice_points) {
+    if (lattice_point.patch == SkinPatch::kEar || lattice_point.patch == SkinPatch::kEarCore)
+      continue;
+    const bool strip =
+        lattice_point.patch == SkinPatch::kStrip || lattice_point.patch == SkinPatch::kCap;
+    if (!strip && lattice_point.b > 1) continue;
+    ASSERT_NEAR(skin_distance(mean_skin(lattice_point).position), 0, 1e-8);
   }
 }
 
@@ -54,8 +56,8 @@ TEST(MeanHead, RingsBeginWhereTheStripEnds) {
 TEST(MeanHead, HasHumanProportions) {
   const Layout layout = make_layout(20000);
   Vector3d low = Vector3d::Constant(1e9), high = -low;
-  for (const Address& address : layout.addresses) {
-    const Vector3d p = mean_skin(address).position;
+  for (const LatticePoint& lattice_point : layout.lattice_points) {
+    const Vector3d p = mean_skin(lattice_point).position;
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }

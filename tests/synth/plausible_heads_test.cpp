@@ -67,7 +67,7 @@ TEST_F(Plausible, NoQuadIsFlippedOrVanishes) {
 TEST_F(Plausible, NoQuadIsTurnedAwayFromItsPlaceOnTheAverageHead) {
   Positions mean(topology_.vertex_count, 3);
   for (Index i = 0; i < mean.rows(); ++i) {
-    mean.row(i) = synth::mean_skin(layout_.addresses[static_cast<std::size_t>(i)]).position;
+    mean.row(i) = synth::mean_skin(layout_.lattice_points[static_cast<std::size_t>(i)]).position;
   }
   for (std::uint64_t h = 0; h < kHeads; ++h) {
     for (Index f = 0; f < topology_.face_count(); ++f) {
@@ -97,7 +97,7 @@ TEST_F(Plausible, LidsAndLipsStayApart) {
   // Above and below at the same place of an opening's edge: a on the upper side, 5 − a below.
   std::map<std::array<double, 3>, std::array<Index, 2>> pairs;
   for (Index i = 0; i < topology_.vertex_count; ++i) {
-    const synth::Address& a = layout_.addresses[static_cast<std::size_t>(i)];
+    const synth::LatticePoint& a = layout_.lattice_points[static_cast<std::size_t>(i)];
     if (a.b != 1 || (a.patch != synth::SkinPatch::kEye && a.patch != synth::SkinPatch::kMouth))
       continue;
     const auto patch = static_cast<double>(a.patch);

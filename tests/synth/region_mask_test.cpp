@@ -56,7 +56,7 @@ TEST(RegionMask, NoseIsMiddleMouthIsBottomForeheadIsTop) {
   const synth::Layout layout = synth::make_layout(5000);
   const auto mask = synthetic_region_mask(kMaskSize);
   for (std::size_t c = 0; c < layout.topology.corner_vertices.size(); ++c) {
-    const synth::Address& a = layout.addresses[layout.topology.corner_vertices[c]];
+    const synth::LatticePoint& a = layout.lattice_points[layout.topology.corner_vertices[c]];
     const auto uv = layout.uvs.row(layout.topology.corner_uvs[c]);
     const auto bands = at(mask, uv.x(), uv.y());
     if (a.patch == synth::SkinPatch::kNostril) {

@@ -47,7 +47,7 @@ TEST(SyntheticHeads, LeftAndRightDifferALittle) {
   const Positions head = small_heads().positions(1, 0);
   std::map<std::array<double, 4>, Index> at;
   for (Index i = 0; i < head.rows(); ++i) {
-    const auto& a = layout.addresses[static_cast<std::size_t>(i)];
+    const auto& a = layout.lattice_points[static_cast<std::size_t>(i)];
     at[{static_cast<double>(a.patch), a.side, a.a, a.b}] = i;
   }
   double largest = 0;

@@ -51,7 +51,7 @@ struct DiversityOptions {
 
   /// Returns the smallest distance in mm that a sampled face may have from any earlier face.
   ///
-  /// \param index  number of the sampled face, from 1; 0: a face of a family.
+  /// \param index  number of the sampled face, beginning with 1; 0 for a face of a family.
   double min_distance_mm_of(std::uint64_t index) const {
     const auto first = min_distance_mm_up_to_face.lower_bound(index);
     return first == min_distance_mm_up_to_face.end() ? min_distance_mm : first->second;

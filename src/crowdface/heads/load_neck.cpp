@@ -226,9 +226,9 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
   return hasher.digest();
 }
 
-/// Unit normals at the ring of the neck, #rim by 3.
-/// \param areas       the heads' area vectors around each vertex of the ring
-/// \param body_areas  the body's area vectors around each vertex of the ring
+/// Returns the unit normals at the vertices of the neck's rim, #rim by 3.
+/// \param areas       the sum of the heads' area vectors around each vertex of the rim
+/// \param body_areas  the sum of the body's area vectors around each vertex of the rim
 Positions normals_of(Positions areas, const Positions& body_areas) {
   areas += body_areas;
   for (Index i = 0; i < areas.rows(); ++i) areas.row(i) = row3(areas, i).normalized().transpose();

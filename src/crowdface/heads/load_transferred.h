@@ -25,11 +25,11 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
 /// in the file: a value that is not a position, a missing head, a template with another topology.
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
-/// Loads the rig; the shapes must be loaded before. The rig's vertices are matched to the heads'
-/// vertices by `_VERTEX_ID`; without this attribute, by their distance from the vertices of the
-/// shapes' template or of a head. Problems are: a vertex of the heads without a match, a joint that
-/// is mirrored, sheared or scaled non-uniformly, and a mesh that is far from the heads or of
-/// another size.
+/// Loads the rig; the shapes must be loaded before. Matches the rig's vertices to the heads'
+/// vertices by the attribute `_VERTEX_ID`. Without this attribute, matches each vertex of the rig to
+/// the nearest vertex of the shapes' template or of a head. Reports as problems: a head vertex
+/// that has no match; a joint that is mirrored, sheared or scaled non-uniformly; and a mesh that is
+/// far from the heads or of another size.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the attachments in parallel. A mesh that cannot be read or lies far from the head, or a

@@ -173,7 +173,8 @@ class Profile {
 // The following lengths are millimetres on a face of average size.
 /// Hollows of the profile that are narrower than kMaxSlitMm are filled, such as an open mouth.
 constexpr double kMaxSlitMm = 11;
-/// Heights of the bridge and of the tip of the nose above the eyes on the mean face.
+/// Heights on the mean face, relative to the eyes: of the bridge of the nose and of its tip, which
+/// is below the eyes.
 constexpr double kBridgeMm = 5, kTipMm = -34;
 /// kBridgeSearchMm, kTipSearchMm: half heights of the search ranges of the bridge and of the tip of
 /// the nose. kMouthSpreadMm: unit of the distance in the mouth's height penalty, see

@@ -53,8 +53,8 @@ class EyeSocket {
   /// \param face         The face, with the moved skin.
   /// \return             Motion of the eyeball from the head to the face.
   RigidMotion fit(std::size_t target, const RigidMotion& skin_motion, const Positions& face) const;
-  /// Improves the translation of an eyeball whose size is given: the scale of the motion does not
-  /// change.
+  /// Improves only the translation of an eyeball's motion and keeps its scale, because the caller
+  /// gives the size of the eyeball.
   ///
   /// \param scaled_motion  Result of `fit`, scaled to the wanted size.
   RigidMotion fit_translation(std::size_t target, const RigidMotion& skin_motion,

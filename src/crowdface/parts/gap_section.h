@@ -73,10 +73,10 @@ class Clearance {
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
-    /// `low_indices`: two neighbouring points of the low profile (see GapSection). `high_indices`:
-    /// two neighbouring points of the high profile. An index is a position in the list of all
-    /// profile points (the low profile, then the high profile).
-    std::array<std::uint32_t, 2> low_indices, high_indices;
+    /// Two neighbouring points of the low profile (see GapSection), as indices into the list of all
+    /// profile points: first the points of the low profile, then those of the high profile.
+    std::array<std::uint32_t, 2> low_indices;
+    std::array<std::uint32_t, 2> high_indices;        ///< the same for the high profile
     std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 
     /// Returns the height of the high point above the low point.

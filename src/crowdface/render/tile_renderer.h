@@ -18,8 +18,9 @@ struct Sampling {
   /// normals. If there are attachments (which may be transparent), samples for all pixels without
   /// an edge.
   PixelSamples coarse_samples;
-  PixelSamples fine_samples;                             ///< samples for pixels with edges
-  InterleavedDisc key_light_directions, sky_directions;  ///< rays of a pixel towards each light
+  PixelSamples fine_samples;  ///< samples for pixels with edges
+  /// directions of each pixel's shadow rays, towards the key light and towards the sky
+  InterleavedDisc key_light_directions, sky_directions;
 
   Sampling(int samples_per_side, int key_light_rays, int sky_rays)
       : centre_sample(sample_positions_in_pixel(1)),

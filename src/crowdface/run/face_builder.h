@@ -62,9 +62,8 @@ class FaceBuilder {
   /// Defects in the skin of a face built from this recipe, compared with its target head.
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
-  /// Returns by how many mm a gap of the face exceeds the widest gap of any head at the same
-  /// contact: the maximum over all contacts. A contact is a pair of skin surfaces that almost
-  /// touch, such as the lips.
+  /// A contact is a pair of skin surfaces that almost touch, such as the lips. Returns the maximum
+  /// over all contacts of the face's gap minus the widest gap of any head, in mm.
   double gap_excess_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory in bytes for building the given number of faces at once, including the memory for the

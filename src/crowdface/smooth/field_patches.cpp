@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kPatchesPerTask = 16;
 
 /// Returns weights w_p that bound the error of a sum: |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each
-/// of the levels L and any error vectors e_p. w_p is the largest |φ_p| over the levels, times the
-/// factor from the Cauchy–Schwarz inequality.
+/// of the levels L and any error vectors e_p. With m_p = max_L |φ_p(L)|, the Cauchy–Schwarz
+/// inequality gives w_p = m_p √(max_L Σ_q (φ_q(L) / m_q)²).
 std::vector<double> error_weights(const HeadSmoothing& head,
                                   std::span<const std::uint64_t> levels) {
   std::vector<std::vector<double>> functions;

@@ -106,8 +106,8 @@ FreeRange range_without_hair(const Positions& hair) {
 
 Positions combed_aside(const Positions& hair, const Mesh& head) {
   constexpr double kBehind = -70;  // where hair stays in place, in degrees
-  // (height, angle) at which the swept hair may end: beside the eye up to the brow, and at the
-  // parting from the upper forehead on.
+  // Knots (height, angle): at each height, the angle up to which swept hair may reach. Beside the
+  // eye, hair ends behind the brow; on the upper forehead, it may reach the parting.
   const std::array<Vector2d, 4> allowed = {
       Vector2d{1.6, -42}, {3, -25}, {4.5, 10}, {6.5, kParting}};
   const FreeRange free = range_without_hair(hair);

@@ -87,10 +87,10 @@ Vector3d on_ring(double around, double b) {
 
 }  // namespace
 
-Vector3d ear_position(const Address& address) {
-  if (address.patch == SkinPatch::kEar) return on_ring(address.a, address.b);
+Vector3d ear_position(const LatticePoint& lattice_point) {
+  if (lattice_point.patch == SkinPatch::kEar) return on_ring(lattice_point.a, lattice_point.b);
   // The bowl: the innermost ring, lowered towards the centre.
-  const Vector2d square(2 * address.a - 1, 1 - 2 * address.b);
+  const Vector2d square(2 * lattice_point.a - 1, 1 - 2 * lattice_point.b);
   const double m = std::max(std::abs(square.x()), std::abs(square.y()));
   if (m == 0) return ear_point({0, 0}, 0.05);
   const Vector2d round = square / square.norm();

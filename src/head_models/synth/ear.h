@@ -8,8 +8,8 @@
 namespace crowdface::synth {
 
 /// Returns the point, in cm, of the average head's ear at x > 0.
-/// \param address  an address in the rings or the core of the ear.
-Eigen::Vector3d ear_position(const Address& address);
+/// \param lattice_point  an lattice_point in the rings or the core of the ear.
+Eigen::Vector3d ear_position(const LatticePoint& lattice_point);
 
 /// Centre of the ear at x > 0, on the side of the head, cm.
 inline Eigen::Vector3d ear_centre() {

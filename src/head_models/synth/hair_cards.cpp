@@ -35,8 +35,8 @@ struct Root {
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
   const double least = cut.layers > 1 ? 0.1 : cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
-  for (const Address& address : make_layout(24'000).addresses) {
-    const SkinPoint skin = mean_skin_with_sockets(address);
+  for (const LatticePoint& lattice_point : make_layout(24'000).lattice_points) {
+    const SkinPoint skin = mean_skin_with_sockets(lattice_point);
     const Vector3d& p = skin.position;
     const bool at_nape = cut.layers > 1 && p.y() < 0;  // keep curls off the neck
     if (skin.relief_weight < 0.5) continue;

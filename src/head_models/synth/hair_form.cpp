@@ -107,9 +107,9 @@ Mesh HairMesh::to_mesh() && {
 
 void add_hair_cap(const HairCut& cut, HairMesh& hair) {
   const Layout layout = make_layout(kCapLayout);
-  std::vector<std::uint32_t> place(layout.addresses.size(), kNoIndex);
+  std::vector<std::uint32_t> place(layout.lattice_points.size(), kNoIndex);
   for (std::size_t v = 0; v < place.size(); ++v) {
-    const SkinPoint skin = mean_skin_with_sockets(layout.addresses[v]);
+    const SkinPoint skin = mean_skin_with_sockets(layout.lattice_points[v]);
     const double within = distance_inside_hair(cut, skin.position);
     if (skin.relief_weight < 0.5 || within < -kRim - kCapEdge) continue;
     place[v] = static_cast<std::uint32_t>(hair.points.size());

@@ -12,7 +12,7 @@ namespace crowdface::synth {
 enum class SkinPatch { kStrip, kCap, kEye, kNostril, kMouth, kEar, kEarCore };
 
 /// A parametric location on the skin, independent of the tessellation.
-struct Address {
+struct LatticePoint {
   SkinPatch patch = SkinPatch::kStrip;
   double side = 1;  ///< −1: the mirrored patch at the head's right (x < 0)
   /// First coordinate. Strip and cap: signed units around the head from the midline of the face.

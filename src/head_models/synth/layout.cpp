@@ -35,7 +35,7 @@ class PatchJoiner {
       add_rings(opening, 1);
       if (opening.patch != SkinPatch::kMouth) add_rings(opening, -1);
     }
-    layout_.topology.vertex_count = static_cast<Index>(layout_.addresses.size());
+    layout_.topology.vertex_count = static_cast<Index>(layout_.lattice_points.size());
     layout_.uvs.resize(static_cast<Index>(uvs_.size()), 2);
     for (std::size_t i = 0; i < uvs_.size(); ++i) layout_.uvs.row(static_cast<Index>(i)) = uvs_[i];
     return std::move(layout_);
@@ -59,15 +59,17 @@ class PatchJoiner {
   }
   double row_at(int j) const { return row_units_[static_cast<std::size_t>(j)]; }
 
-  std::uint32_t add_vertex(const Address& address) {
-    layout_.addresses.push_back(address);
-    return static_cast<std::uint32_t>(layout_.addresses.size() - 1);
+  std::uint32_t add_vertex(const LatticePoint& lattice_point) {
+    layout_.lattice_points.push_back(lattice_point);
+    return static_cast<std::uint32_t>(layout_.lattice_points.size() - 1);
   }
-  std::uint32_t add_uv(const Address& address) {
-    uvs_.push_back(unwrap(address));
+  std::uint32_t add_uv(const LatticePoint& lattice_point) {
+    uvs_.push_back(unwrap(lattice_point));
     return static_cast<std::uint32_t>(uvs_.size() - 1);
   }
-  Corner add(const Address& address) { return {add_vertex(address), add_uv(address)}; }
+  Corner add(const LatticePoint& lattice_point) {
+    return {add_vertex(lattice_point), add_uv(lattice_point)};
+  }
   void add_quad(Corner a, Corner b, Corner c, Corner d) {
     layout_.topology.add_face(std::array{a.vertex, b.vertex, c.vertex, d.vertex},
                               std::array{a.uv, b.uv, c.uv, d.uv});
@@ -108,12 +110,12 @@ class PatchJoiner {
     for (int j = 0; j <= rows_; ++j) {
       for (int i = -half_; i <= half_; ++i) {
         if (inside(i, j)) continue;
-        const Address address{SkinPatch::kStrip, 1, column_at(i), row_at(j)};
+        const LatticePoint lattice_point{SkinPatch::kStrip, 1, column_at(i), row_at(j)};
         // The texture seam at the back: one vertex, two texture coordinates.
         if (i == half_)
-          strip(i, j) = {strip(-half_, j).vertex, add_uv(address)};
+          strip(i, j) = {strip(-half_, j).vertex, add_uv(lattice_point)};
         else
-          strip(i, j) = add(address);
+          strip(i, j) = add(lattice_point);
       }
     }
     for (int j = 0; j < rows_; ++j) {
@@ -140,14 +142,14 @@ class PatchJoiner {
     for (int k = 0; k <= deep_; ++k) {
       for (int i = -front_; i <= front_; ++i) {
         const double b = column_at(front_ + k) - column_at(front_);
-        const Address address{SkinPatch::kCap, 1, column_at(i), b};
+        const LatticePoint lattice_point{SkinPatch::kCap, 1, column_at(i), b};
         const bool on_rim = k == 0 || k == deep_ || i == front_ || i == -front_;
         if (k == 0)
           cap.push_back(strip(i, 0));
         else if (on_rim)
-          cap.push_back({rim(i, k), add_uv(address)});
+          cap.push_back({rim(i, k), add_uv(lattice_point)});
         else
-          cap.push_back(add(address));
+          cap.push_back(add(lattice_point));
       }
     }
     const auto at = [&](int i, int k) {
@@ -161,14 +163,14 @@ class PatchJoiner {
     }
   }
 
-  /// A mesh vertex on the outline of an opening, with its ring coordinate Address::a, its mesh
+  /// A mesh vertex on the outline of an opening, with its ring coordinate LatticePoint::a, its mesh
   /// column i and its mesh row j.
   struct OutlineVertex {
     Corner corner;
     double a;
     int i, j;
   };
-  /// Returns the ring coordinate (0 … 4 along the four sides, see Address::a) of a point on an
+  /// Returns the ring coordinate (0 … 4 along the four sides, see LatticePoint::a) of a point on an
   /// opening's outline. A point and its mirror image have the same coordinate.
   double around(const Span& s, int side, int i, int j) const {
     const double x0 = column_at(side > 0 ? s.i0 : -s.i1), x1 = column_at(side > 0 ? s.i1 : -s.i0);

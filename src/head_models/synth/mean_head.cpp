@@ -96,42 +96,45 @@ SkinPoint on_skin(const GuideRay& ray) {
   return {position, skin_normal(position), 1};
 }
 
-SkinPoint ring_skin(const Address& address) {
-  const Vector2d circle = point_on_circle(address.a);
-  const GuideRay inner = edge_of(address.patch, circle);
-  if (address.b >= 1) {
+SkinPoint ring_skin(const LatticePoint& lattice_point) {
+  const Vector2d circle = point_on_circle(lattice_point.a);
+  const GuideRay inner = edge_of(lattice_point.patch, circle);
+  if (lattice_point.b >= 1) {
     SkinPoint edge = on_skin(inner);
-    if (address.b == 1) return edge;
-    return {into_opening(address.patch, edge.position, circle, address.b), edge.normal, 0};
+    if (lattice_point.b == 1) return edge;
+    return {into_opening(lattice_point.patch, edge.position, circle, lattice_point.b), edge.normal,
+            0};
   }
-  const GuideRay outer = opening_ray(opening_of(address.patch), address.a);
+  const GuideRay outer = opening_ray(opening_of(lattice_point.patch), lattice_point.a);
   const Vector3d inner_skin_point = project_onto_skin(inner.origin, inner.point_near_skin);
-  return on_skin({outer.origin + address.b * (inner.origin - outer.origin),
-                  outer.point_near_skin + address.b * (inner_skin_point - outer.point_near_skin)});
+  return on_skin(
+      {outer.origin + lattice_point.b * (inner.origin - outer.origin),
+       outer.point_near_skin + lattice_point.b * (inner_skin_point - outer.point_near_skin)});
 }
 
-SkinPoint ear_skin(const Address& address) {
-  const Vector3d position = ear_position(address);
-  const double relief = address.patch == SkinPatch::kEar ? smooth_step(0.2, 0, address.b) : 0;
+SkinPoint ear_skin(const LatticePoint& lattice_point) {
+  const Vector3d position = ear_position(lattice_point);
+  const double relief =
+      lattice_point.patch == SkinPatch::kEar ? smooth_step(0.2, 0, lattice_point.b) : 0;
   return {position, skin_normal(position), relief};
 }
 
-SkinPoint right_side(const Address& address) {
-  switch (address.patch) {
+SkinPoint right_side(const LatticePoint& lattice_point) {
+  switch (lattice_point.patch) {
     case SkinPatch::kStrip:
-      return on_skin(strip_ray(address.a, address.b));
+      return on_skin(strip_ray(lattice_point.a, lattice_point.b));
     case SkinPatch::kCap:
-      return on_skin(cap_ray(address.a, address.b));
+      return on_skin(cap_ray(lattice_point.a, lattice_point.b));
     case SkinPatch::kEar:
     case SkinPatch::kEarCore:
-      return ear_skin(address);
+      return ear_skin(lattice_point);
     default:
-      return ring_skin(address);
+      return ring_skin(lattice_point);
   }
 }
 
-SkinPoint on_its_side(SkinPoint point, const Address& address) {
-  if (address.side < 0) {
+SkinPoint on_its_side(SkinPoint point, const LatticePoint& lattice_point) {
+  if (lattice_point.side < 0) {
     point.position.x() = -point.position.x();
     point.normal.x() = -point.normal.x();
   }
@@ -140,15 +143,17 @@ SkinPoint on_its_side(SkinPoint point, const Address& address) {
 
 }  // namespace
 
-SkinPoint mean_skin(const Address& address) {
-  return on_its_side(right_side(address), address);
+SkinPoint mean_skin(const LatticePoint& lattice_point) {
+  return on_its_side(right_side(lattice_point), lattice_point);
 }
 
-SkinPoint mean_skin_with_sockets(const Address& address) {
-  if (address.patch != SkinPatch::kEye || address.b <= 1) return mean_skin(address);
-  const Vector2d circle = point_on_circle(address.a);
+SkinPoint mean_skin_with_sockets(const LatticePoint& lattice_point) {
+  if (lattice_point.patch != SkinPatch::kEye || lattice_point.b <= 1)
+    return mean_skin(lattice_point);
+  const Vector2d circle = point_on_circle(lattice_point.a);
   const SkinPoint edge = on_skin(eye_edge(circle));
-  return on_its_side({into_socket(edge.position, circle, address.b), edge.normal, 0}, address);
+  return on_its_side({into_socket(edge.position, circle, lattice_point.b), edge.normal, 0},
+                     lattice_point);
 }
 
 }  // namespace crowdface::synth

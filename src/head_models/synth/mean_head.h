@@ -14,12 +14,12 @@ struct SkinPoint {
   double relief_weight = 1;  ///< factor on the fine relief: 0 on eyeballs and inside openings
 };
 
-/// Returns the point of the average head at an address. The skin continues behind the lids, over
+/// Returns the point of the average head at an lattice_point. The skin continues behind the lids, over
 /// the eyeball, to the pupil.
-SkinPoint mean_skin(const Address& address);
+SkinPoint mean_skin(const LatticePoint& lattice_point);
 
 /// Like mean_skin, but for heads with separate eyeballs (LooseParts): behind the lids the skin
 /// forms a pocket around the eyeball.
-SkinPoint mean_skin_with_sockets(const Address& address);
+SkinPoint mean_skin_with_sockets(const LatticePoint& lattice_point);
 
 }  // namespace crowdface::synth

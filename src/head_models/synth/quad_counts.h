@@ -19,7 +19,7 @@ struct QuadCounts {
   int quads_to_column(int k) const;
   /// Returns the number of quads from the cap to lattice row k.
   int quads_to_row(int k) const;
-  /// Returns the coordinate b (see Address) of every ring of an opening, without the opening's
+  /// Returns the coordinate b (see LatticePoint) of every ring of an opening, without the opening's
   /// outline (b = 0).
   std::vector<double> ring_coordinates(SkinPatch patch) const;
   /// Returns the number of vertices of the whole layout.

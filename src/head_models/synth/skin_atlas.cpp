@@ -19,13 +19,13 @@ using Eigen::Vector2d;
 /// texture.
 constexpr Index kVertices = 60'000;
 
-AtlasTexel place_at(const Address& address) {
+AtlasTexel place_at(const LatticePoint& lattice_point) {
   AtlasTexel place;
-  place.skin = mean_skin_with_sockets(address);
+  place.skin = mean_skin_with_sockets(lattice_point);
   place.is_covered = true;
-  if (address.patch == SkinPatch::kEye) place.eye_ring_coordinate = address.b;
-  if (address.patch == SkinPatch::kMouth) place.mouth_ring_coordinate = address.b;
-  if (address.patch == SkinPatch::kNostril) place.nostril_ring_coordinate = address.b;
+  if (lattice_point.patch == SkinPatch::kEye) place.eye_ring_coordinate = lattice_point.b;
+  if (lattice_point.patch == SkinPatch::kMouth) place.mouth_ring_coordinate = lattice_point.b;
+  if (lattice_point.patch == SkinPatch::kNostril) place.nostril_ring_coordinate = lattice_point.b;
   return place;
 }
 
@@ -104,9 +104,9 @@ void spread(int size, std::vector<AtlasTexel>& texels) {
 std::vector<AtlasTexel> skin_atlas(int size) {
   Layout layout = make_layout(kVertices);
   const LooseParts loose(0.5 * std::sqrt(5000.0 / kVertices));
-  std::vector<AtlasTexel> places(layout.addresses.size());
+  std::vector<AtlasTexel> places(layout.lattice_points.size());
   parallel_for_each(places.size(), 1024,
-                    [&](std::size_t i) { places[i] = place_at(layout.addresses[i]); });
+                    [&](std::size_t i) { places[i] = place_at(layout.lattice_points[i]); });
   // Append eyeballs and teeth. The texture shows only the fronts of the eyeballs.
   loose.append_to(layout.topology, layout.uvs);
   for (Index v = 0; v < loose.vertex_count(); ++v) {

@@ -13,14 +13,12 @@ namespace crowdface::synth {
 /// The point of the average head that one texel of the skin texture shows.
 struct AtlasTexel {
   SkinPoint skin;  ///< on the average head
-  /// Address::b around an eye: 0 at the outline of the eye's patch, 1 at the edge of the lid, 2 at
-  /// the hole
+  /// Coordinate LatticePoint::b in the rings around an eye: 0 at their outline, 1 at the edge of the
+  /// lid, 2 at the hole
   double eye_ring_coordinate = 0;
-  /// Address::b around the mouth: 0 at the outline of the mouth's patch, 1 at the edge of the lips'
-  /// opening, 2 at the hole
+  /// the same around the mouth: 1 at the edge of the opening between the lips
   double mouth_ring_coordinate = 0;
-  /// Address::b around a nostril: 0 at the outline of the nostril's patch, 1 at the edge of the
-  /// nostril, 2 at the hole
+  /// the same around a nostril: 1 at the edge of the nostril
   double nostril_ring_coordinate = 0;
   double on_eyeball = 0;  ///< 1 on an eyeball
   Eigen::Vector3d point_on_ball =

@@ -37,15 +37,16 @@ SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp) : scalp
   synth::Layout layout = synth::make_layout(skin);
   topology_ = std::move(layout.topology);
   uvs_ = std::move(layout.uvs);
-  mean_.resize(layout.addresses.size());
+  mean_.resize(layout.lattice_points.size());
   parallel_for_each(mean_.size(), kVerticesPerBlock, [&](std::size_t i) {
-    const synth::Address& address = layout.addresses[i];
-    mean_[i] = loose_ ? synth::mean_skin_with_sockets(address) : synth::mean_skin(address);
+    const synth::LatticePoint& lattice_point = layout.lattice_points[i];
+    mean_[i] =
+        loose_ ? synth::mean_skin_with_sockets(lattice_point) : synth::mean_skin(lattice_point);
   });
-  for (std::uint32_t v = 0; v < layout.addresses.size(); ++v) {
-    const synth::Address& address = layout.addresses[v];
-    if (address.patch != synth::SkinPatch::kStrip) continue;
-    if (address.b == synth::row_distance(synth::kRows - 1)) rim_.push_back(v);
+  for (std::uint32_t v = 0; v < layout.lattice_points.size(); ++v) {
+    const synth::LatticePoint& lattice_point = layout.lattice_points[v];
+    if (lattice_point.patch != synth::SkinPatch::kStrip) continue;
+    if (lattice_point.b == synth::row_distance(synth::kRows - 1)) rim_.push_back(v);
   }
   edge_cm_ = edge_of(topology_.vertex_count);
   if (loose_) loose_->append_to(topology_, uvs_);

@@ -70,16 +70,17 @@ HalfAxes half_axes_of(SkinPatch patch) {
   return {{0.4, 0.4}, {0.4, 0.4}};
 }
 
-Eigen::Vector2d in_opening(const Address& address) {
-  const HalfAxes axes = half_axes_of(address.patch);
-  if (address.patch == SkinPatch::kEarCore) {
-    return {axes.edge.x() * (2 * address.a - 1), axes.edge.y() * (1 - 2 * address.b)};
+Eigen::Vector2d in_opening(const LatticePoint& lattice_point) {
+  const HalfAxes axes = half_axes_of(lattice_point.patch);
+  if (lattice_point.patch == SkinPatch::kEarCore) {
+    return {axes.edge.x() * (2 * lattice_point.a - 1), axes.edge.y() * (1 - 2 * lattice_point.b)};
   }
-  const Eigen::Vector2d start = point_on_square(address.a);
-  const Eigen::Vector2d round = address.patch == SkinPatch::kEar ? start : start / start.norm();
+  const Eigen::Vector2d start = point_on_square(lattice_point.a);
+  const Eigen::Vector2d round =
+      lattice_point.patch == SkinPatch::kEar ? start : start / start.norm();
   const Eigen::Vector2d edge = round.cwiseProduct(axes.edge);
-  if (address.b <= 1) return start + (edge - start) * address.b;
-  return edge + (round.cwiseProduct(axes.hole) - edge) * (address.b - 1);
+  if (lattice_point.b <= 1) return start + (edge - start) * lattice_point.b;
+  return edge + (round.cwiseProduct(axes.hole) - edge) * (lattice_point.b - 1);
 }
 
 /// Maps a point q in the square [−1, 1]² of an opening to texture coordinates.
@@ -123,14 +124,16 @@ Eigen::RowVector2d unwrap_hole(SkinPatch patch, double side, const Eigen::Vector
   return unwrap_opening(patch, side, place.cwiseProduct(half_axes_of(patch).hole));
 }
 
-Eigen::RowVector2d unwrap(const Address& address) {
-  if (address.patch == SkinPatch::kStrip) return scaled(across(address.a), down(address.b));
-  if (address.patch == SkinPatch::kCap) {
+Eigen::RowVector2d unwrap(const LatticePoint& lattice_point) {
+  if (lattice_point.patch == SkinPatch::kStrip)
+    return scaled(across(lattice_point.a), down(lattice_point.b));
+  if (lattice_point.patch == SkinPatch::kCap) {
     const double deep = column_distance(kBackColumn) - column_distance(kFrontColumn);
-    return scaled(across(address.a), -kCapHeight * address.b / deep);
+    return scaled(across(lattice_point.a), -kCapHeight * lattice_point.b / deep);
   }
-  const SkinPatch patch = address.patch == SkinPatch::kEarCore ? SkinPatch::kEar : address.patch;
-  return unwrap_opening(patch, address.side, in_opening(address));
+  const SkinPatch patch =
+      lattice_point.patch == SkinPatch::kEarCore ? SkinPatch::kEar : lattice_point.patch;
+  return unwrap_opening(patch, lattice_point.side, in_opening(lattice_point));
 }
 
 }  // namespace crowdface::synth

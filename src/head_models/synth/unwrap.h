@@ -7,9 +7,9 @@
 
 namespace crowdface::synth {
 
-/// Returns the texture coordinates of an address in the tile [0, 1]². The texture layout has no
+/// Returns the texture coordinates of an lattice_point in the tile [0, 1]². The texture layout has no
 /// overlaps. The texture seam is at the back of the head, and the cap is attached to the forehead.
-Eigen::RowVector2d unwrap(const Address& address);
+Eigen::RowVector2d unwrap(const LatticePoint& lattice_point);
 
 /// Returns the texture coordinates (u, v) of a point in the hole that an opening leaves in the
 /// texture.
@@ -30,7 +30,7 @@ Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 
 /// Returns the texture coordinate v of the strip (SkinPatch) at a distance below the cap; v
 /// decreases from forehead to neck.
-/// \param units_below_cap  the second coordinate of an Address on the strip.
+/// \param units_below_cap  the second coordinate of an LatticePoint on the strip.
 double strip_v(double units_below_cap);
 
 /// Maps a ring coordinate (0 … 4, one unit per side) to the point on the outline of the square
