@@ -26,8 +26,8 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the rig; the shapes must be loaded before. Matches the rig's vertices to the heads'
-/// vertices by the attribute `_VERTEX_ID`. Without this attribute, matches each vertex of the rig to
-/// the nearest vertex of the shapes' template or of a head. Reports as problems: a head vertex
+/// vertices by the attribute `_VERTEX_ID`. Without this attribute, matches each vertex of the rig
+/// to the nearest vertex of the shapes' template or of a head. Reports as problems: a head vertex
 /// that has no match; a joint that is mirrored, sheared or scaled non-uniformly; and a mesh that is
 /// far from the heads or of another size.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);

@@ -14,8 +14,8 @@ struct SkinPoint {
   double relief_weight = 1;  ///< factor on the fine relief: 0 on eyeballs and inside openings
 };
 
-/// Returns the point of the average head at an lattice_point. The skin continues behind the lids, over
-/// the eyeball, to the pupil.
+/// Returns the point of the average head at a point of the lattice. The skin continues behind the
+/// lids, over the eyeball, to the pupil.
 SkinPoint mean_skin(const LatticePoint& lattice_point);
 
 /// Like mean_skin, but for heads with separate eyeballs (LooseParts): behind the lids the skin

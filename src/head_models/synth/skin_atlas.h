@@ -13,8 +13,8 @@ namespace crowdface::synth {
 /// The point of the average head that one texel of the skin texture shows.
 struct AtlasTexel {
   SkinPoint skin;  ///< on the average head
-  /// Coordinate LatticePoint::b in the rings around an eye: 0 at their outline, 1 at the edge of the
-  /// lid, 2 at the hole
+  /// Coordinate LatticePoint::b in the rings around an eye: 0 at their outline, 1 at the edge of
+  /// the lid, 2 at the hole
   double eye_ring_coordinate = 0;
   /// the same around the mouth: 1 at the edge of the opening between the lips
   double mouth_ring_coordinate = 0;

@@ -7,7 +7,7 @@
 
 namespace crowdface::synth {
 
-/// Returns the texture coordinates of an lattice_point in the tile [0, 1]². The texture layout has no
+/// Returns the texture coordinates of a lattice point in the tile [0, 1]². The layout has no
 /// overlaps. The texture seam is at the back of the head, and the cap is attached to the forehead.
 Eigen::RowVector2d unwrap(const LatticePoint& lattice_point);
 
