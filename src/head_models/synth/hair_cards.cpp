@@ -22,16 +22,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int kPieces = 9, kPiecesOfShort = 6, kPiecesOfCurl = 6;  // quads along a card
-constexpr double kShort = 10;                                      // length of short hair, cm
-constexpr double kRootSpacing = 0.78;                              // distance between roots, cm
-constexpr double kCardWidth = 1.1;                                 // cm
+constexpr int kPieces = 9, kPiecesOfShort = 6, kPiecesOfCurl = 4;  // quads along a card
+constexpr double kRootSpacing = 0.73;                              // distance between roots, cm
+constexpr double kSparseRoots = 0.15;  // additional distance between hidden roots, relative
+constexpr double kCardWidth = 1.05;    // cm
+constexpr double kSinks = 0.06;        // cm per cm: how fast combed hair approaches the head
+constexpr double kHalfWave = 2.6;      // half the wavelength of curly locks, cm
+constexpr int kWispLayer = 1;          // layer of combed hair: single strands above the locks
+constexpr double kWispFraction = 0.2;  // fraction of the roots that have a card in this layer
 
 struct Root {
   Vector3d place, normal;
+  double inside = 0;  ///< distance from the hairline, cm
 };
 
-/// Returns the roots of hair cards, spread over the scalp with a minimum distance of kRootSpacing.
+/// Returns the roots of hair cards, spread over the scalp with a minimum distance. Long hair hides
+/// the roots far from the hairline, so their distance is larger. Roots near a parting are moved to
+/// its line.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
   const double least = cut.layers > 1 ? 0.1 : cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;
@@ -40,11 +47,17 @@ std::vector<Root> roots_on_scalp(const HairCut& cut) {
     const Vector3d& p = skin.position;
     const bool at_nape = cut.layers > 1 && p.y() < 0;  // keep curls off the neck
     if (skin.relief_weight < 0.5) continue;
-    if (distance_inside_hair(cut, p) < (at_nape ? 0.6 : least)) continue;
+    if (distance_inside_hair(cut, p) < (at_nape ? 2 : least)) continue;
+    const double inside = distance_inside_hair(cut, p), from_parting = p.x() - cut.parting_x;
+    const bool at_parting = cut.has_parting() && std::abs(from_parting) < 0.5 && p.z() > -4;
+    const double hidden = cut.is_long() ? smooth_step(0.5, 3, inside) : 0;
+    const double spacing = kRootSpacing * (1 + (at_parting ? 0 : kSparseRoots * hidden));
     const bool near = std::ranges::any_of(roots, [&](const Root& other) {
-      return (other.place - p).squaredNorm() < kRootSpacing * kRootSpacing;
+      return (other.place - p).squaredNorm() < spacing * spacing;
     });
-    if (!near) roots.push_back({p, skin.normal});
+    if (near) continue;
+    roots.push_back({p, skin.normal, inside});
+    if (at_parting) roots.back().place.x() = cut.parting_x + std::copysign(0.12, from_parting);
   }
   return roots;
 }
@@ -59,40 +72,48 @@ struct Card {
 class HairCardBuilder {
  public:
   explicit HairCardBuilder(const HairCut& cut)
-      : cut_(cut),
-        locks_(mix(7, 1, 5), 1.6),
-        pieces_(std::max(cut.top_length, cut.side_length) > kShort ? kPieces : kPiecesOfShort) {}
+      : cut_(cut), locks_(mix(7, 1, 5), 1.6), pieces_(cut.is_long() ? kPieces : kPiecesOfShort) {}
 
   Card grow(const Root& root, std::uint64_t number, int layer) const {
-    return cut_.layers > 1 ? random_curl(root, number, layer) : comb(root, number);
+    return cut_.layers > 1 ? random_curl(root, number, layer) : comb(root, number, layer);
   }
 
  private:
   /// Traces a lock from its root: the lock first follows the combing direction on the head, then
   /// hangs down.
-  Card comb(const Root& root, std::uint64_t number) const {
+  Card comb(const Root& root, std::uint64_t number, int layer) const {
     const auto unit = [&](const char* purpose) { return random_uniform({17, number, purpose}); };
-    const double top = smooth_step(3, 8, root.place.y()), level = unit("level");
+    const double top = smooth_step(3, 8, root.place.y());
+    const double lift =
+        layer == kWispLayer ? 0.14 + 0.36 * unit("level") : 0.06 + 0.16 * unit("level");
     const double length = (cut_.side_length + top * (cut_.top_length - cut_.side_length)) *
                           (0.85 + 0.3 * unit("length"));
     const double hem = cut_.hem_y - 1.2 * unit("hem");
     const double fringe = cut_.fringe_y + 0.5 * (unit("hem") - 0.5),
-                 twist = 0.35 * (unit("twist") - 0.5);
+                 twist = 0.25 * (unit("twist") - 0.5);
     const Vector3d way = combing_direction(cut_, root.place);
     // Shift the root, so that roots do not form a straight line along the hairline.
     Vector3d p = root.place - (0.45 * unit("root") - 0.1) * way;
     double rest = hair_stand_off(cut_, p);
     p += (rest + 0.02 - head_distance(p)) * head_distance_gradient(p);
     Vector3d direction = (0.1 * root.normal + way).normalized();
+    const double curl = cut_.is_curly ? cut_.wave_amplitude : 0;
+    const double phase = 2 * locks_.at(0.4 * root.place) + 0.5 * unit("phase");
+    double grown = 0;
     Card card;
     for (int i = 0;; ++i) {
       const Vector3d normal = head_distance_gradient(p);
-      card.middle.push_back(p);
-      card.across.push_back((direction.cross(normal) + twist * normal).normalized());
+      const Vector3d across = (direction.cross(normal) + twist * normal).normalized();
+      const double turn = phase + grown / kHalfWave;
+      card.middle.emplace_back(p + curl * smooth_step(0, 4, grown) *
+                                       (smooth_wave(turn) * across +
+                                        (1 + smooth_wave(turn + 0.5)) * direction.cross(across)));
+      card.across.push_back(across);
       if (i == pieces_ || (i > 1 && cut_off(p, hem, fringe))) return resampled(card);
       // Pieces near the root are short, because they follow the curvature of the head.
-      const double t = static_cast<double>(i + 1) / pieces_, grown = along(t) * length;
-      const double step = grown - along(static_cast<double>(i) / pieces_) * length;
+      const double t = static_cast<double>(i + 1) / pieces_, before = grown;
+      grown = along(t) * length;
+      const double step = grown - before;
       const double held = cut_.is_tied ? smooth_step(-3, -6, p.z()) : 1;
       const double falls = held * smooth_step(0.5, 5, grown);
       const double hangs = falls * smooth_step(1, -3, p.y());
@@ -104,10 +125,11 @@ class HairCardBuilder {
       const double swing = cut_.wave_amplitude * smooth_step(0, 0.4, t);
       next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
       next = beside_face(next, fringe);
-      // A lock lies on the hair below it: the lock's distance from the head never decreases along
-      // the lock.
-      rest = std::max(rest, hair_stand_off(cut_, next));
-      next = moved_off_head(next, rest + (0.07 + 0.28 * level) * smooth_step(0, 2, grown));
+      // A lock lies on the hair below it: the lock's distance from the head decreases slowly above
+      // the ears, and never below.
+      rest =
+          std::max(rest - kSinks * step * smooth_step(3, 6, next.y()), hair_stand_off(cut_, next));
+      next = moved_off_head(next, rest + lift * smooth_step(0, 2, grown));
       // Over the face, the lock ends at the lower edge of the fringe; elsewhere, at the lower edge
       // of the haircut.
       const double limit = over_face(next) ? fringe : hem;
@@ -145,15 +167,16 @@ class HairCardBuilder {
     const double length = (cut_.side_length + top * (cut_.top_length - cut_.side_length)) *
                           (0.8 + 0.4 * unit("length"));
     const Vector3d any(unit("x") - 0.5, unit("y") - 0.5, unit("z") - 0.5);
-    const Vector3d axis = Vector3d(unit("a") - 0.5, unit("b") - 0.5, unit("c") - 0.5).normalized();
+    const Vector3d other(unit("a") - 0.5, unit("b") - 0.5, unit("c") - 0.5);
     Vector3d p = root.place + level * (0.45 + 0.35 * top) * cut_.volume_factor * root.normal;
-    Vector3d direction = (any.normalized() + 0.2 * root.normal).normalized();
+    Vector3d direction = (any.normalized() + 0.6 * root.normal).normalized();
+    const Vector3d axis = direction.cross(other).normalized();
     Card card;
     for (int i = 0; i <= kPiecesOfCurl; ++i) {
       card.middle.push_back(p);
-      card.across.push_back((axis + 0.3 * any).normalized());
-      // Each piece turns by about 50° around the axis.
-      direction = (0.64 * direction + 0.77 * axis.cross(direction) + 0.1 * axis).normalized();
+      card.across.push_back(axis);
+      // Each piece turns by about 35° around the axis.
+      direction = (0.82 * direction + 0.57 * axis.cross(direction)).normalized();
       p += length / kPiecesOfCurl * direction;
       const double missing = 0.15 - head_distance(p);
       if (missing > 0) p += missing * head_distance_gradient(p);
@@ -199,7 +222,7 @@ void add_card(const Card& card, double width, int strip, bool turned, HairMesh& 
   const auto pieces = static_cast<std::uint32_t>(card.middle.size() - 1);
   for (std::size_t i = 0; i <= pieces; ++i) {
     const double t = static_cast<double>(i) / pieces;
-    const double half = width / 2 * (0.7 + 0.3 * smooth_step(0, 0.3, t)) * (1 - 0.35 * t * t);
+    const double half = width / 2 * (0.6 + 0.4 * smooth_step(0, 0.25, t)) * (1 - 0.35 * t * t);
     for (const double side : {-1.0, 1.0}) {
       hair.points.emplace_back(card.middle[i] + side * half * card.across[i]);
       hair.uvs.emplace_back((strip + 0.5 + (turned ? -side : side) * 0.49) / kTextureStripCount,
@@ -217,14 +240,22 @@ void add_card(const Card& card, double width, int strip, bool turned, HairMesh& 
 
 void add_hair_cards(const HairCut& cut, HairMesh& hair) {
   const std::vector<Root> roots = roots_on_scalp(cut);
-  const double width = cut.layers > 1 ? 0.55 * kCardWidth : kCardWidth;
+  const bool combed = cut.layers == 1;
+  const double width = combed ? kCardWidth : 0.7 * kCardWidth;
   const HairCardBuilder grower(cut);
   for (std::size_t r = 0; r < roots.size(); ++r) {
-    for (int layer = 0; layer < cut.layers; ++layer) {
+    for (int layer = 0; layer < (combed ? kWispLayer + 1 : cut.layers); ++layer) {
       const std::uint64_t number = r * 16 + static_cast<std::uint64_t>(layer);
-      const double strip = kCardStripCount * random_uniform({17, number, "strip"});
-      const bool turned = random_uniform({17, number, "turned"}) < 0.5;
-      add_card(grower.grow(roots[r], number, layer), width, static_cast<int>(strip), turned, hair);
+      const auto unit = [&](const char* purpose) { return random_uniform({17, number, purpose}); };
+      const bool is_wisp = combed && layer == kWispLayer;
+      if (is_wisp && unit("wisp") > kWispFraction) continue;
+      // Hair is thin at the hairline and, if curly, at its surface.
+      const bool is_thin =
+          combed ? roots[r].inside < 0.3 + 0.7 * unit("hairline") : layer + 1 == cut.layers;
+      const int strip = is_wisp   ? kWispStrip
+                        : is_thin ? kThinStrip
+                                  : static_cast<int>(kThinStrip * unit("strip"));
+      add_card(grower.grow(roots[r], number, layer), width, strip, unit("turned") < 0.5, hair);
     }
   }
 }

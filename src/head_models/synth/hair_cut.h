@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string_view>
 
@@ -33,6 +34,8 @@ struct HairCut {
   bool excludes_old_people = false;  ///< true: the cut is not for old people
 
   bool has_fringe() const { return fringe_y < kNoFringe; }
+  bool has_parting() const { return layers == 1 && backward_combing < 0.8 && !has_fringe(); }
+  bool is_long() const { return std::max(top_length, side_length) > 10; }
 };
 /// Returns all haircuts.
 std::span<const HairCut> hair_cuts();

@@ -22,7 +22,7 @@ using Eigen::Vector3d;
 constexpr Index kCapLayout = 12'000;
 constexpr double kCapEdge = 0.45;    // size of the cap's quads, cm
 constexpr double kRim = 0.5;         // width of sparse roots beyond the hairline, cm
-constexpr double kFade = 2.1;        // width of the zone in which the cap becomes closed, cm
+constexpr double kFade = 1.9;        // width of the zone in which the cap becomes closed, cm
 constexpr double kStripWidth = 1.5;  // width of the cap that one texture strip covers, cm
 
 /// A triangle wave between 0 and 1, so that neighbouring copies of a strip match.
@@ -44,13 +44,9 @@ double across_hair(const HairCut& cut, const Vector3d& p) {
 
 /// Returns the texture coordinate v of the cap at a point whose distance from the hairline,
 /// measured inwards, is `within` cm.
-double v_at_distance_from_hairline(const HairCut& cut, double within) {
-  constexpr double kTips = 0.02, kSpan = 0.75;
-  const double closed = within + kRim - kFade;
-  if (closed <= 0) return kTips + kSpan * std::max(0.0, 1 + closed / kFade);
-  // Farther from the hairline, straight hair shows the part of the texture without strand tips.
-  // Curls (more than one layer) use different values of v, so that neighbouring curls differ.
-  return kTips + kSpan - (cut.layers > 1 ? 0.25 * triangle_wave(closed / 1.2) : 0);
+double v_at_distance_from_hairline(double within) {
+  // Farther than kFade from its edge, the cap shows the part of the texture without strand tips.
+  return 0.02 + 0.75 * std::clamp((within + kRim) / kFade, 0.0, 1.0);
 }
 
 }  // namespace
@@ -77,10 +73,10 @@ double hair_stand_off(const HairCut& cut, const Vector3d& p) {
                top = smooth_step(3, 8, p.y());
   if (cut.layers > 1)
     return 0.5 * cut.volume_factor * rises * (0.45 + 0.35 * smooth_step(1, 7, p.y()));
-  const bool parted = cut.backward_combing < 0.8 && !cut.has_fringe();
   const double parting =
       smooth_step(2.2, 0, std::abs(p.x() - cut.parting_x)) * smooth_step(-6, -2, p.z());
-  return 0.7 * cut.volume_factor * rises * (0.55 + 0.45 * top) * (parted ? 1 - 0.55 * parting : 1);
+  return 0.7 * cut.volume_factor * rises * (0.55 + 0.45 * top) *
+         (cut.has_parting() ? 1 - 0.4 * parting : 1);
 }
 
 Vector3d combing_direction(const HairCut& cut, const Vector3d& p) {
@@ -117,7 +113,7 @@ void add_hair_cap(const HairCut& cut, HairMesh& hair) {
                              (0.03 + hair_stand_off(cut, skin.position)) * skin.normal);
     const double u = 0.03 + 0.94 * triangle_wave(across_hair(cut, skin.position) / kStripWidth);
     hair.uvs.emplace_back((kCardStripCount + u) / kTextureStripCount,
-                          v_at_distance_from_hairline(cut, within));
+                          v_at_distance_from_hairline(within));
   }
   for (Index f = 0; f < layout.topology.face_count(); ++f) {
     std::vector<std::uint32_t> corners;

@@ -2,7 +2,6 @@
 #include "head_models/synth/hair_picture.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "crowdface/core/random.h"
@@ -12,32 +11,49 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::size_t kStrands = 30;          // strands per strip
-constexpr double kAcross = 1.9, kDown = 1.5;  // noise frequencies of curls on the cap's strip
-
-/// The last strip of the texture is for the cap, the mesh on the scalp under the hair cards. From
-/// v = 1 down to this fraction of its length, the strip shows strands without gaps; the remaining
-/// part shows single hair roots.
-constexpr double kCapClosed = 0.5;
+constexpr std::size_t kStrands = 56;          // strands per strip
+constexpr double kWaves = 8, kSwing = 0.075;  // least half waves of a curly strand, and amplitude
 
 struct Strand {
-  double place = 0;  ///< horizontal position, in units of a strip's width
-  double half = 0;   ///< half the strand's width, in units of a strip's width
-  double start = 0;  ///< start as a fraction of the card's length
-  double end = 1;    ///< end as a fraction of the card's length
-  double light = 1;  ///< brightness relative to the hair colour
+  std::uint64_t clump = 0;  ///< number of the clump, unique among all strips
+  double place = 0;         ///< horizontal position of the root, in units of a strip's width
+  double middle = 0;        ///< horizontal position of the clump's middle
+  double half = 0;          ///< half the strand's width, in units of a strip's width
+  double start = 0;         ///< start as a fraction of the card's length
+  double end = 1;           ///< end as a fraction of the card's length
+  double light = 1;         ///< brightness relative to the hair colour
+  double bend = 0;          ///< amplitude of the strand's own bends, in units of a strip's width
+  double waves = 0, phase = 0;  ///< curly hair: number of half waves, and their phase
 };
 
-std::vector<Strand> draw_strands() {
+/// Draws the strands of all strips at random. The strands of a clump have similar brightness and
+/// gather towards their tips.
+std::vector<Strand> draw_strands(bool curly) {
+  const std::uint64_t clumps = curly ? 4 : 8;  // per strip
   std::vector<Strand> strands;
   for (std::uint64_t s = 0; s < kTextureStripCount * kStrands; ++s) {
+    const std::uint64_t strip = s / kStrands,
+                        clump = strip * clumps + s % kStrands * clumps / kStrands;
     const auto unit = [&](const char* purpose) { return random_uniform({29, s, purpose}); };
-    const std::uint64_t strip = s / kStrands;
-    const auto within = static_cast<double>(s % kStrands);
-    strands.push_back(
-        {static_cast<double>(strip) + 0.07 + 0.86 * (within + 0.2 + 0.6 * unit("place")) / kStrands,
-         0.03 * (0.7 + 0.6 * unit("half")), 0.12 * unit("start"), 0.7 + 0.3 * unit("end"),
-         0.78 + 0.46 * unit("light")});
+    const auto of_clump = [&](const char* purpose) { return random_uniform({30, clump, purpose}); };
+    const bool is_wisp = strip == kWispStrip, is_cap = strip == kCardStripCount;
+    if ((is_wisp && s % 6 != 0) || (strip == kThinStrip && s % 2 != 0)) continue;
+    const double within = static_cast<double>(s % kStrands) + unit("place");
+    const double place = 0.08 + 0.84 * within / kStrands, edge = (2 * place - 1) * (2 * place - 1);
+    Strand strand;
+    strand.clump = clump;
+    strand.place = static_cast<double>(strip) + place;
+    strand.middle = (static_cast<double>(clump) + 0.5) / static_cast<double>(clumps);
+    strand.half = is_wisp ? 0.011 : 0.016 * (0.7 + 0.6 * unit("half"));
+    // At its edges, a card shows short single strands.
+    strand.start = (0.01 + (strip < kThinStrip ? 0.04 : 0.12) * edge) * unit("start");
+    strand.end = 0.8 + 0.2 * of_clump("end") - (0.12 + 0.3 * edge) * unit("end");
+    if (is_cap) strand.end = 0.4 + 0.58 * unit("end");
+    strand.light = (0.88 + 0.24 * of_clump("light")) * (0.78 + 0.44 * unit("light"));
+    strand.waves = kWaves * (1 + of_clump("waves"));
+    strand.bend = is_wisp ? 0.12 : 0.02;
+    strand.phase = 2 * of_clump("phase") + 0.35 * unit("phase");
+    strands.push_back(strand);
   }
   return strands;
 }
@@ -45,53 +61,53 @@ std::vector<Strand> draw_strands() {
 }  // namespace
 
 std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, bool curly) {
-  const std::vector<Strand> strands = draw_strands();
-  const SmoothNoise bends(mix(3, curly ? 1 : 0, 8), curly ? 0.09 : 0.3);
-  const double swing = curly ? 0.1 : 0.05;
-  const SmoothNoise clumps(mix(3, 1, 9), 0.11), roots(mix(3, 1, 10), 0.02);
+  const std::vector<Strand> strands = draw_strands(curly);
+  const SmoothNoise bends(mix(3, curly ? 1 : 0, 8), 0.3);
   const auto side = static_cast<std::size_t>(size);
   std::vector<std::uint8_t> bytes(4 * side * side);
   for (std::size_t y = 0; y < side; ++y) {
-    // Centre of each strand in this row.
     const double t = (static_cast<double>(y) + 0.5) / size;
-    std::array<double, kTextureStripCount * kStrands> middles{};
-    for (std::size_t s = 0; s < middles.size(); ++s)
-      middles[s] = strands[s].place + swing * bends.at({0.6 * static_cast<double>(s), t, 0});
-    for (std::size_t x = 0; x < side; ++x) {
-      const double u = (static_cast<double>(x) + 0.5) / size * kTextureStripCount;
-      const auto strip = static_cast<std::size_t>(u);
-      const bool below = strip >= kCardStripCount;
-      // The hair cap ends in single hair roots that become sparse, because a hard edge would look
-      // like a wig.
-      const double root = below ? roots.at({u, t, 0}) : 0;
-      double cover = below ? smooth_step(1, 0.45, t + 0.05 * root) : 0;
-      double light = below ? 0.8 : 0.7;
-      if (below && curly) {  // short, darker curls
-        const double clump = clumps.at({kAcross * u, kDown * t, 0});
-        light = 0.62 + 0.5 * clump + 0.2 * root;
-      } else if (below && t > kCapClosed) {
-        light += 0.12 * root;
-      } else {
-        // Composite the strands of this strip; each strand is darker at its edges.
-        for (std::size_t s = strip * kStrands; s < (strip + 1) * kStrands; ++s) {
-          const Strand& strand = strands[s];
-          const double away = std::abs(u - middles[s]);
-          if (away > 1.2 * strand.half || t >= strand.end) continue;
-          const double half = strand.half * (1 - 0.8 * smooth_step(0.45, 1, t / strand.end));
-          const double across = away / half;
-          // At the start of a strand, the hair is thin and becomes visible gradually.
-          const double grown = below ? 1 : smooth_step(strand.start, strand.start + 0.07, t);
-          const double inside = grown * smooth_step(1.2, 0.7, across);
-          if (inside <= 0) continue;
-          light += inside * (strand.light * (1 - 0.25 * std::min(1.0, across * across)) - light);
-          cover = std::max(cover, inside);
-        }
+    const auto u_of = [&](std::size_t x) {
+      return (static_cast<double>(x) + 0.5) / size * kTextureStripCount;
+    };
+    std::vector<double> lights(side, 0.65), covers(side, 0);
+    // Composite the strands; each strand is darker at its edges.
+    for (std::size_t s = 0; s < strands.size(); ++s) {
+      const Strand& strand = strands[s];
+      if (t >= strand.end) continue;
+      const bool is_cap = strand.place >= kCardStripCount;
+      const double gathered = is_cap ? 0 : 0.5 * smooth_step(0.2, 1, t / strand.end);
+      double middle = strand.place + gathered * (strand.middle - strand.place);
+      middle += 0.05 * bends.at({0.6 * static_cast<double>(strand.clump), t, 0}) +
+                strand.bend * bends.at({0.6 * static_cast<double>(s), t, 5});
+      double light = strand.light * (is_cap ? 0.8 : 1);  // the cap lies in the shade of the cards
+      if (curly) {
+        const double phase = strand.waves * t + strand.phase;
+        middle += kSwing * smooth_wave(phase);
+        light *= 1 + 0.22 * smooth_wave(phase + 0.5);  // one half of each winding lies in shade
       }
-      if (!below) light *= 0.7 + 0.3 * smooth_step(0, 0.35, t);  // darken the roots
+      // Strands become thinner towards their tips, and visible gradually at their roots.
+      const double half = strand.half * (1 - 0.7 * smooth_step(0.5, 1, t / strand.end));
+      const double grown = is_cap ? smooth_step(strand.end, strand.end - 0.4, t)
+                                  : smooth_step(strand.start, strand.start + 0.025, t);
+      const double first = std::max(0.0, (middle - 1.2 * half) * size / kTextureStripCount);
+      for (auto x = static_cast<std::size_t>(first); x < side && u_of(x) < middle + 1.2 * half;
+           ++x) {
+        const double across = std::abs(u_of(x) - middle) / half;
+        const double inside = grown * smooth_step(1.2, 0.7, across);
+        lights[x] += inside * (light * (1 - 0.25 * std::min(1.0, across * across)) - lights[x]);
+        covers[x] = std::max(covers[x], inside);
+      }
+    }
+    for (std::size_t x = 0; x < side; ++x) {
+      const bool is_cap = u_of(x) >= kCardStripCount;
+      const double light = lights[x] * (is_cap ? 1 : 0.65 + 0.35 * smooth_step(0, 0.3, t));
+      // Single hairs near the hairline; farther away, the cap is closed.
+      if (is_cap) covers[x] = std::max(covers[x], smooth_step(0.85, 0.4, t));
       std::uint8_t* texel = &bytes[4 * (y * side + x)];
       for (Eigen::Index c = 0; c < 3; ++c)
         texel[c] = to_byte(std::clamp(colour[c] * light, 0.0, 1.0));
-      texel[3] = to_byte(cover);
+      texel[3] = to_byte(covers[x]);
     }
   }
   return bytes;

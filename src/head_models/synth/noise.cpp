@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "crowdface/core/smooth_step.h"
+
 namespace crowdface::synth {
 namespace {
 
@@ -61,6 +63,10 @@ const Coefficients& coefficients_of(std::uint64_t key, const std::array<std::int
 }
 
 }  // namespace
+
+double smooth_wave(double x) {
+  return 1 - 2 * smooth_step(0, 1, std::abs(x - 2 * std::round(x / 2)));
+}
 
 std::uint64_t mix(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
   return scramble(scramble(scramble(a) ^ b) ^ c);

@@ -21,6 +21,9 @@ class SmoothNoise {
   double spacing_;
 };
 
+/// A wave like cos(πx); std::cos differs between machines.
+double smooth_wave(double x);
+
 /// Hashes three numbers with the finaliser of SplitMix64 (Steele, Lea & Flood 2014, "Fast
 /// splittable pseudorandom number generators").
 std::uint64_t mix(std::uint64_t a, std::uint64_t b, std::uint64_t c);
