@@ -8,7 +8,7 @@
 namespace crowdface::synth {
 
 /// Returns the point, in cm, of the average head's ear at x > 0.
-/// \param lattice_point  an lattice_point in the rings or the core of the ear.
+/// \param lattice_point  a point in the rings or the core of the ear.
 Eigen::Vector3d ear_position(const LatticePoint& lattice_point);
 
 /// Centre of the ear at x > 0, on the side of the head, cm.

@@ -13,10 +13,10 @@ struct GuideRay {
   Eigen::Vector3d origin, point_near_skin;
 };
 
-/// Returns the ray for an lattice_point (a, b) of the strip, interpolated smoothly from hand-placed
+/// Returns the ray for a lattice point (a, b) of the strip, interpolated smoothly from hand-placed
 /// lattice points.
 GuideRay strip_ray(double a, double b);
-/// Returns the ray for an lattice_point (a, b) of the cap, the skin patch on top of the head.
+/// Returns the ray for a lattice point (a, b) of the cap, the skin patch on top of the head.
 GuideRay cap_ray(double a, double b);
 
 /// Returns the ray of a point on the outline (ring coordinate b = 0) of the opening at x > 0.
