@@ -39,7 +39,7 @@ std::span<const HairCut> hair_cuts() {
       HairCut{.name = "side_parting", .parting_x = -3.2, .backward_combing = 0.35,
               .top_length = 8.5, .side_length = 2.6, .hem_y = 0.5, .volume_factor = 0.9,
               .wave_amplitude = 0.05},
-      HairCut{.name = "middle_parting", .parting_x = 0.3, .backward_combing = 0.1,
+      HairCut{.name = "middle_parting", .parting_x = 0.3, .backward_combing = 0.35,
               .top_length = 9.5, .side_length = 4, .hem_y = 0.5, .volume_factor = 1.3,
               .wave_amplitude = 0.12, .excludes_old_people = true},
       HairCut{.name = "swept_back", .sideways_combing = 0.25, .backward_combing = 1,

@@ -245,11 +245,11 @@ double SkinPaint::beard_coverage(const Vector& p, double strand) const {
   const double x = std::abs(p.x());
   // Upper edge of the beard, from the moustache along the cheek to the sideburn: points (|x|, y).
   static const std::array<Vector2d, 5> edge = {
-      {{0, -5.0}, {1.6, -5.15}, {3.1, -6.6}, {5.2, -5.0}, {6.6, -1.2}}};
+      {{0, -5.0}, {2.0, -5.3}, {3.2, -6.5}, {5.2, -5.0}, {6.6, -1.2}}};
   const double over = p.y() - interpolate_knots(edge, x);
   if (over > 1.5 || p.y() < -15) return 0;
   const double wander = 0.35 * hairline_.at(p);
-  const double lip = smooth_step(3.0, 2.4, x);
+  const double lip = smooth_step(3.3, 2.7, x);
   const double below = smooth_step(0.6, -1.1 + 0.4 * lip, over + wander + 0.3 * strand);
   const double neck = smooth_step(-13.4, -11.4, p.y() + wander);
   const double back = smooth_step(-0.5, 0.8, p.z());
@@ -262,7 +262,7 @@ double SkinPaint::beard_coverage(const Vector& p, double strand) const {
 double SkinPaint::beard_length(const Vector& p) const {
   const double x = std::abs(p.x());
   const double lip =
-      smooth_step(3.0, 2.3, x) * smooth_step(-7.3, -6.6, p.y()) * smooth_step(6, 8, p.z());
+      smooth_step(3.3, 2.7, x) * smooth_step(-7.9, -7.1, p.y()) * smooth_step(6, 8, p.z());
   // A chin beard has a round outline and joins the moustache at the corners of the mouth.
   const double round = Vector2d(x / 2.9, (p.y() + 9.5) / 2.5).norm();
   const double joint = smooth_step(0.7, 0.25, std::abs(x - 2.55)) * smooth_step(-6.2, -6.8, p.y()) *
