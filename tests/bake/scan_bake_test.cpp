@@ -34,6 +34,9 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr int kTexels = 512;
 constexpr double kMmPerCm = 10;
+/// The person whose skin the template has: 44 years old, because the wrinkles of old people would
+/// be filled into the holes of younger scans.
+constexpr std::uint64_t kTemplateSkin = 8;
 
 /// CIE L*a*b* of an sRGB texel, for D65.
 Eigen::Array3d lab_of(const std::uint8_t* srgb) {
@@ -84,7 +87,7 @@ class ScanBaking : public ::testing::Test {
         skins_(kTexels),
         paint_(skins_.albedo(1, 2)),
         wrapped_(kMmPerCm * coarse_.positions(1, 2)) {
-    write_file(folder_ / "template.png", encode_png(kTexels, kTexels, 3, skins_.albedo(1, 1)));
+    write_file(folder_ / "template.png", encode_png(kTexels, kTexels, 3, skins_.albedo(1, kTemplateSkin)));
     folder_.write("template.mtl", "newmtl skin\nmap_Kd template.png\n");
     encode_obj({coarse_.topology(), kMmPerCm * coarse_.positions(1, 1), coarse_.uvs()}, "",
                {{"skin", 0}}, "template.mtl")
@@ -319,7 +322,7 @@ TEST_F(ScanBaking, AHoleIsFilledInTheToneOfTheScan) {
   textured_scan();
   encode_obj(holed, "", {{"all", 0}}, "scan.mtl").write(folder_ / "holed.obj");
   const BakedPicture whole = bake(folder_ / "scan.obj"), picture = bake(folder_ / "holed.obj");
-  const Bytes other = skins_.albedo(1, 1);
+  const Bytes other = skins_.albedo(1, kTemplateSkin);
   std::vector<double> error, unmatched, elsewhere;
   for (std::size_t i = 0; i < picture.mask_without_scan.size(); ++i) {
     if (whole.mask_without_scan[i] > 0) continue;
@@ -334,7 +337,7 @@ TEST_F(ScanBaking, AHoleIsFilledInTheToneOfTheScan) {
   EXPECT_GT(error.size(), 300U);
   EXPECT_GT(percentile(unmatched, 0.5), 8);
   EXPECT_LT(percentile(error, 0.5), 3);
-  EXPECT_LT(percentile(error, 0.95), 7) << "mottles of the true skin are not filled in";
+  EXPECT_LT(percentile(error, 0.95), 6) << "mottles of the true skin are not filled in";
   EXPECT_LT(percentile(elsewhere, 0.5), 0.5);
 }
 
