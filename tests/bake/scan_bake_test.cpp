@@ -77,7 +77,7 @@ double finest_energy(const Bytes& srgb, const std::function<bool(int x, int y)>&
   return energy;
 }
 
-/// A template of head 1, and a scan of head 2 in another topology, each with its textures. The
+/// A template of head 1 with another skin, and a scan of head 2 in another topology. The
 /// wrapped template has the true places of head 2.
 class ScanBaking : public ::testing::Test {
  protected:
@@ -87,7 +87,8 @@ class ScanBaking : public ::testing::Test {
         skins_(kTexels),
         paint_(skins_.albedo(1, 2)),
         wrapped_(kMmPerCm * coarse_.positions(1, 2)) {
-    write_file(folder_ / "template.png", encode_png(kTexels, kTexels, 3, skins_.albedo(1, kTemplateSkin)));
+    write_file(folder_ / "template.png",
+               encode_png(kTexels, kTexels, 3, skins_.albedo(1, kTemplateSkin)));
     folder_.write("template.mtl", "newmtl skin\nmap_Kd template.png\n");
     encode_obj({coarse_.topology(), kMmPerCm * coarse_.positions(1, 1), coarse_.uvs()}, "",
                {{"skin", 0}}, "template.mtl")
