@@ -105,6 +105,7 @@ TEST_F(Neck, MayChangeInAFinishedCrowd) {
       for (const char* distance : {"face_mm", "crowd_mm"}) {
         auto& mm = line["nearest"][distance];
         const auto& mm_before = before[i].at("nearest").at(distance);
+        if (!mm.is_number() || !mm_before.is_number()) continue;
         EXPECT_NEAR(mm.get<double>(), mm_before.get<double>(), 1.5e-4);  // rounded
         mm = mm_before;
       }
