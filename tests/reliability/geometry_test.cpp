@@ -137,13 +137,6 @@ TEST_F(Geometry, HeadsThatAreNotOneMeshAreRefusedWithTheirFirstDifference) {
       {"the first face flipped", [](ObjText& obj) { obj.face(0) = flipped(obj.face(0)); }, face(0)},
       {"the last face flipped", [last](ObjText& obj) { obj.face(last) = flipped(obj.face(last)); },
        face(last)},
-      {"a quad as two triangles",
-       [](ObjText& obj) {
-         const auto corners = words_of(obj.face(0));
-         obj.face(0) = concat("f ", corners[1], " ", corners[2], " ", corners[3], "\nf ",
-                              corners[1], " ", corners[3], " ", corners[4]);
-       },
-       face(0)},
       {"a texture coordinate moved", [](ObjText& obj) { obj.uv(3) = "vt 0.123 0.456"; },
        "found 0.123 0.456"},
       {"no texture coordinate at a face",
