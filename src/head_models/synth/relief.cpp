@@ -204,9 +204,9 @@ double Relief::wrinkle_height(const Vector3d& p) const {
     const double inside = 1 - (place - area.centre).cwiseQuotient(area.radii).squaredNorm();
     if (inside <= 0) continue;
     // Coordinates along and across the wrinkles, cm.
-    const Vector2d from = place - area.pole;
-    const double below = area.centre.y() < area.pole.y() ? -1 : 1;
-    const double arc = (area.centre - area.pole).norm() * std::atan2(from.x(), below * from.y());
+    const Vector2d from = place - area.pole, axis = area.centre - area.pole;
+    // Not std::atan2, whose last bits differ between machines.
+    const double arc = axis.norm() * (axis.y() * from.x() - axis.x() * from.y()) / axis.dot(from);
     const double along = area.has_rays ? from.norm() : arc,
                  across = area.has_rays ? arc : from.norm();
     // Each step of the spacing has one wavy wrinkle with gaps.

@@ -54,8 +54,8 @@ class Relief {
 
   std::vector<Stroke> strokes_;
   SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< displace all folds together
-  SmoothNoise wrinkle_waves_;
-  SmoothNoise wrinkle_gaps_;  ///< wrinkles have gaps where this noise is low
+  SmoothNoise wrinkle_waves_;  ///< bends wrinkles; −0.45 … 0.45 of their spacing
+  SmoothNoise wrinkle_gaps_;   ///< wrinkles have gaps where this noise is low
   /// The wrinkles of an area. Lengths in cm.
   struct Wrinkles {
     double depth, spacing;  ///< spacing: mean distance between neighbouring wrinkles
