@@ -49,7 +49,7 @@ class FittedSkin {
   /// of vertices.
   double vertex_spacing() const { return levels_.front().spacing; }
 
-  /// Skin vertices around a point, as vertex indices of the mesh, with weights.
+  /// A patch of skin around a point: vertex indices of the mesh, and a weight for each vertex.
   struct Patch {
     std::vector<std::uint32_t> vertices;
     std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance

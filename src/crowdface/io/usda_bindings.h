@@ -33,6 +33,7 @@ class UsdaBindings {
   };
   using Properties = std::map<std::string, Property, std::less<>>;
 
+  /// Whether a collection has a prim as a member. \param depth  of collections in collections.
   bool has_prim(std::string_view collection, std::string_view prim, int depth) const;
   const Property* binding_at(const Properties& properties, std::string_view prim) const;
 

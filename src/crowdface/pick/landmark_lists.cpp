@@ -149,13 +149,6 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
-/// Whether a field of a table says that a value is missing.
-bool is_missing_value(std::string_view field) {
-  constexpr std::array<std::string_view, 5> kWords = {"", "na", "nan", "n/a", "null"};
-  const std::string word = lower_case(field);
-  return std::ranges::find(kWords, word) != kWords.end();
-}
-
 /// Splits a line into fields. Removes quotes around fields, and empty fields at the end of the
 /// line.
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {

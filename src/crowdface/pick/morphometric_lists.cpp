@@ -41,19 +41,19 @@ std::vector<Line> lines_of(std::string_view text) {
   return lines;
 }
 
-/// Reads a name, which may be missing, and x, y, z. The result has no numbers if one of them is
-/// missing: NA, or the file's code for missing numbers.
+/// Reads a name, which may be absent, and x, y, z. The result has no numbers if one of them is
+/// missing: see is_missing_value, or the file's code for missing numbers.
 ListedLandmark read_landmark(const Line& line, double missing, const FailAtLine& fail) {
   ListedLandmark landmark{{}, {}, line.number};
   bool is_missing = false;
   for (const std::string_view& field : line.fields) {
-    const auto number = parse_double(field);
-    const bool is_name = !number && landmark.name.empty() && &field == line.fields.data();
-    if (is_name && lower_case(field) != "na") {
+    const auto number = is_missing_value(field) ? std::nullopt : parse_double(field);
+    const bool is_word = !number && !is_missing_value(field);
+    if (is_word && &field == line.fields.data()) {
       landmark.name = field;
       continue;
     }
-    if (!number && lower_case(field) != "na") {
+    if (is_word) {
       fail(line.number, concat("expected x, y, z, found ", quoted(field)));
     }
     is_missing = is_missing || !number || *number == missing;
@@ -200,6 +200,11 @@ constexpr std::array<Format, 5> kFormats = {{{".pts", read_pts},
                                              {".landmarkAscii", read_amira}}};
 
 }  // namespace
+
+bool is_missing_value(std::string_view field) {
+  constexpr std::array<std::string_view, 5> kWords = {"", "na", "nan", "n/a", "null"};
+  return std::ranges::find(kWords, lower_case(field)) != kWords.end();
+}
 
 const std::vector<std::string>& morphometric_extensions() {
   static const std::vector<std::string> extensions = [] {

@@ -17,6 +17,9 @@ struct ListedLandmark {
   std::size_t line;             ///< line of the file, from 1
 };
 
+/// Whether a field of a list stands for a missing value, such as NA or an empty field.
+bool is_missing_value(std::string_view field);
+
 /// Throws an exception that names the file, a line (from 1) and what is wrong there.
 using FailAtLine = std::function<void(std::size_t line, const std::string& what)>;
 

@@ -47,8 +47,8 @@ std::vector<Root> roots_on_scalp(const HairCut& cut) {
     const Vector3d& p = skin.position;
     const bool at_nape = cut.layers > 1 && p.y() < 0;  // keep curls off the neck
     if (skin.relief_weight < 0.5) continue;
-    if (distance_inside_hair(cut, p) < (at_nape ? 2 : least)) continue;
     const double inside = distance_inside_hair(cut, p), from_parting = p.x() - cut.parting_x;
+    if (inside < (at_nape ? 2 : least)) continue;
     const bool at_parting = cut.has_parting() && std::abs(from_parting) < 0.5 && p.z() > -4;
     const double hidden = cut.is_long() ? smooth_step(0.5, 3, inside) : 0;
     const double spacing = kRootSpacing * (1 + (at_parting ? 0 : kSparseRoots * hidden));
