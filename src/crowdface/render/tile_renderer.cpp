@@ -28,6 +28,8 @@ constexpr float kShadowRayOffset = 0.012F;
 constexpr float kScattered = 0.2F;
 constexpr float kThrough = 0.8F;  // fraction of light that a thin surface transmits
 
+constexpr std::size_t kHitsPerShadowRay = 2;  // in pixels whose hits differ
+
 constexpr float kSameNormal = 0.985F;  // cosine of 10 degrees
 constexpr float kReliefNormal = 0.9F;  // cosine of 26 degrees
 constexpr float kSameAlbedo = 0.03F;
@@ -283,7 +285,9 @@ class Tile {
   /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, where `disc` is a point of
   /// the unit disc. Consecutive rays have the same `disc`, so that their directions are similar.
   /// A pixel with PixelVariation::kNone gets `directions.rays_per_pixel()` rays, spread over the
-  /// hits of the pixel. Any other pixel gets at least one ray per hit.
+  /// hits of the pixel. Any other pixel gets at least as many, and at least one ray per
+  /// kHitsPerShadowRay hits; the other hits use the rays of similar hits in the pixel and its
+  /// neighbours.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
@@ -304,7 +308,7 @@ class Tile {
               const std::size_t first = k % camera_hits.size();
               const std::size_t end =
                   at.change != PixelVariation::kNone ? camera_hits.size() : first + 1;
-              for (std::size_t m = first; m < end; m += rays)
+              for (std::size_t m = first; m < end; m += kHitsPerShadowRay * rays)
                 body(camera_hits[m], disc, opacity_seed);
             }
           }
