@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <csetjmp>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <new>
+#include <vector>
 
 #include <png.h>
+#include <zlib.h>
 
 #include "crowdface/core/interrupt.h"
 
@@ -115,74 +118,102 @@ void close_png(void* picture) {
   delete static_cast<OpenPng*>(picture);
 }
 
-struct MadePng {
-  explicit MadePng(std::string& written)
-      : bytes(written),
-        png(png_create_write_struct(PNG_LIBPNG_VER_STRING, &error, give_up, ignore_warning)),
-        info(png != nullptr ? png_create_info_struct(png) : nullptr) {}
-  ~MadePng() { png_destroy_write_struct(&png, &info); }
-  MadePng(const MadePng&) = delete;
-  MadePng& operator=(const MadePng&) = delete;
-
-  std::string& bytes;
-  PngError error;
-  png_structp png;
-  png_infop info;
-};
-
-void give_bytes(png_structp png, png_bytep from, std::size_t count) {
-  bool have_room = true;
-  try {
-    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<char*>(from), count);
-  } catch (const std::bad_alloc&) {
-    have_room = false;
+/// Applies the PNG filter Paeth: each byte of a row becomes its difference from the byte to the
+/// left, above, or above left, whichever is nearest to left + above − above left. The filter of
+/// libpng takes several times as long.
+/// \param row, above  `size` bytes each, after `pixel_bytes` bytes that are 0
+void filter_paeth(const std::uint8_t* row, const std::uint8_t* above, std::size_t pixel_bytes,
+                  std::size_t size, std::uint8_t* filtered) {
+  const std::uint8_t *left = row - pixel_bytes, *above_left = above - pixel_bytes;
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::int16_t a = left[i], b = above[i], c = above_left[i];
+    const auto from_a = static_cast<std::int16_t>(std::abs(b - c));
+    const auto from_b = static_cast<std::int16_t>(std::abs(a - c));
+    const auto from_c = static_cast<std::int16_t>(std::abs(a + b - 2 * c));
+    const std::int16_t b_or_c = from_b <= from_c ? b : c;
+    const std::int16_t nearest = from_a <= from_b && from_a <= from_c ? a : b_or_c;
+    filtered[i] = static_cast<std::uint8_t>(row[i] - nearest);
   }
-  if (!have_room) png_error(png, "out of memory");
 }
 
-void flush_nothing(png_structp /*png*/) {}
+std::string big_endian(std::size_t number) {
+  std::string bytes;
+  for (const int shift : {24, 16, 8, 0}) bytes.push_back(static_cast<char>(number >> shift));
+  return bytes;
+}
 
-/// Sets the compression. Files of face images are at most 7 % larger than with the highest
-/// compression levels of zlib, and encoding takes a quarter of the time.
-void set_compression(png_structp png, ImageToEncode::Form form) {
-  if (form == ImageToEncode::Form::kUncompressedPng) {
-    png_set_compression_level(png, 0);
-    return png_set_filter(png, 0, PNG_FILTER_NONE);
+void append_chunk(std::string_view type, std::string_view data, std::string& file) {
+  uLong checksum = crc32(0, reinterpret_cast<const Bytef*>(type.data()), 4);
+  checksum = crc32_z(checksum, reinterpret_cast<const Bytef*>(data.data()), data.size());
+  file.append(big_endian(data.size())).append(type).append(data).append(big_endian(checksum));
+}
+
+/// Filters and compresses the rows of an image, and appends the chunks IDAT to `file`. Files of face
+/// images are at most 7 % larger than with the highest compression levels of zlib, and encoding
+/// takes a quarter of the time.
+/// \return false if the process was interrupted
+bool append_rows(const ImageToEncode& picture, std::string& file) {
+  using Form = ImageToEncode::Form;
+  const bool is_filtered = picture.form != Form::kUncompressedPng;
+  const bool has_words = picture.form == Form::kPng16;
+  const std::size_t pixel_bytes = static_cast<std::size_t>(picture.channels) * (has_words ? 2 : 1);
+  const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(picture.width);
+  const auto* pixels = static_cast<const std::uint8_t*>(picture.pixels);
+  // Rows after `pixel_bytes` zeros, and a coded row after the number of its filter
+  std::vector<std::uint8_t> row(pixel_bytes + row_bytes), above(row.size()), coded(1 + row_bytes);
+  coded[0] = is_filtered ? PNG_FILTER_VALUE_PAETH : PNG_FILTER_VALUE_NONE;
+  std::vector<char> chunk(std::size_t{1} << 18);
+  z_stream zlib = {};
+  // Z_RLE matches only runs of equal bytes
+  if (deflateInit2(&zlib, is_filtered ? 1 : 0, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_RLE) != Z_OK)
+    throw std::bad_alloc();
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&zlib, deflateEnd);
+  const auto start_chunk = [&] {
+    zlib.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    zlib.avail_out = static_cast<uInt>(chunk.size());
+  };
+  start_chunk();
+  for (int y = 0; y < picture.height; ++y, pixels += row_bytes) {
+    if (is_interrupted()) return false;
+    std::swap(row, above);
+    std::copy_n(pixels, row_bytes, row.data() + pixel_bytes);
+    if (has_words) {  // big-endian in the file
+      for (std::size_t i = pixel_bytes; i < row.size(); i += 2) std::swap(row[i], row[i + 1]);
+    }
+    if (is_filtered) {
+      filter_paeth(row.data() + pixel_bytes, above.data() + pixel_bytes, pixel_bytes, row_bytes,
+                   coded.data() + 1);
+    } else {
+      std::copy_n(row.data() + pixel_bytes, row_bytes, coded.data() + 1);
+    }
+    zlib.next_in = coded.data();
+    zlib.avail_in = static_cast<uInt>(coded.size());
+    const bool is_last = y + 1 == picture.height;
+    while (deflate(&zlib, is_last ? Z_FINISH : Z_NO_FLUSH) == Z_OK && zlib.avail_out == 0) {
+      append_chunk("IDAT", {chunk.data(), chunk.size()}, file);
+      start_chunk();
+    }
   }
-  constexpr int kRuns = 3;  // Z_RLE: matches only runs of equal bytes
-  png_set_compression_strategy(png, kRuns);
-  png_set_compression_level(png, 1);
-  png_set_filter(png, 0, PNG_FILTER_PAETH);  // by default libpng tries all five filters per row
+  append_chunk("IDAT", {chunk.data(), chunk.size() - zlib.avail_out}, file);
+  return true;
 }
 
 bool write_png(const ImageToEncode& picture, std::string& bytes, std::string& error) {
-  constexpr int kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
-                                  PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
-  const int bits = picture.form == ImageToEncode::Form::kPng16 ? 16 : 8;
-  const std::size_t row = static_cast<std::size_t>(picture.width) *
-                          static_cast<std::size_t>(picture.channels * bits / 8);
-  MadePng made(bytes);
-  const png_structp png = made.png;
-  const png_infop info = made.info;
-  const bool written = info != nullptr && succeeds(png, [&] {
-                         png_set_write_fn(png, &made.bytes, give_bytes, flush_nothing);
-                         set_compression(png, picture.form);
-                         png_set_IHDR(png, info, static_cast<png_uint_32>(picture.width),
-                                      static_cast<png_uint_32>(picture.height), bits,
-                                      kColourTypes[picture.channels - 1], PNG_INTERLACE_NONE,
-                                      PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-                         png_set_oFFs(png, info, 0, 0, PNG_OFFSET_PIXEL);
-                         png_write_info(png, info);
-                         if (bits == 16) png_set_swap(png);
-                         for (int y = 0; y < picture.height; ++y) {
-                           fail_if_interrupted(png);
-                           png_write_row(png, static_cast<png_const_bytep>(picture.pixels) +
-                                                  static_cast<std::size_t>(y) * row);
-                         }
-                         png_write_end(png, info);
-                       });
-  if (!written) error = made.error.text;
-  return written;
+  constexpr char kColourTypes[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
+                                   PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
+  std::string header = big_endian(static_cast<std::size_t>(picture.width)) +
+                       big_endian(static_cast<std::size_t>(picture.height));
+  header.push_back(picture.form == ImageToEncode::Form::kPng16 ? 16 : 8);
+  header.push_back(kColourTypes[picture.channels - 1]);
+  header.append(3, '\0');  // the only methods of compression and filtering; no interlacing
+  bytes = "\x89PNG\r\n\x1a\n";
+  append_chunk("IHDR", header, bytes);
+  if (!append_rows(picture, bytes)) {
+    error = "interrupted by a signal";
+    return false;
+  }
+  append_chunk("IEND", {}, bytes);
+  return true;
 }
 
 }  // namespace
