@@ -11,6 +11,24 @@
 #include "crowdface/texture/optical_density.h"
 
 namespace crowdface {
+namespace {
+
+/// The values of an image as bytes: 0 … 1 becomes 0 … 255.
+std::vector<std::uint8_t> eight_bit_values_of(const Image& image) {
+  if (const auto* bytes = std::get_if<std::vector<std::uint8_t>>(&image.pixels)) return *bytes;
+  std::vector<std::uint8_t> values;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (int c = 0; c < image.channels; ++c) {
+        values.push_back(static_cast<std::uint8_t>(
+            std::lround(255 * std::clamp(image.at(x, y, c), 0.0F, 1.0F))));
+      }
+    }
+  }
+  return values;
+}
+
+}  // namespace
 
 std::vector<AttachmentFile> files_of(const ColouredAttachment& look) {
   std::set<std::filesystem::path> colours;
@@ -38,23 +56,14 @@ std::string coloured_texture(const std::filesystem::path& neutral, const HairCol
       dyed[c][v] = srgb8_by_density()[density_of_light(factors[c] * light)];
     }
   }
+  const std::vector<std::uint8_t> values = eight_bit_values_of(image);
   const bool is_grey = image.channels < 3, has_alpha = image.alpha_channel >= 0;
-  const auto byte_at = [&](int x, int y, int channel) {
-    return static_cast<std::size_t>(
-        std::lround(255 * std::clamp(image.at(x, y, channel), 0.0F, 1.0F)));
-  };
+  const auto channels = static_cast<std::size_t>(image.channels);
   std::vector<std::uint8_t> pixels;
-  pixels.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
-                 4);
-  for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) {
-      for (int c = 0; c < 3; ++c) {
-        pixels.push_back(dyed[static_cast<std::size_t>(c)][byte_at(x, y, is_grey ? 0 : c)]);
-      }
-      if (has_alpha) {
-        pixels.push_back(static_cast<std::uint8_t>(byte_at(x, y, image.alpha_channel)));
-      }
-    }
+  pixels.reserve(values.size() / channels * 4);
+  for (std::size_t i = 0; i < values.size(); i += channels) {
+    for (std::size_t c = 0; c < 3; ++c) pixels.push_back(dyed[c][values[i + (is_grey ? 0 : c)]]);
+    if (has_alpha) pixels.push_back(values[i + static_cast<std::size_t>(image.alpha_channel)]);
   }
   return encode_png(image.width, image.height, has_alpha ? 4 : 3, pixels);
 }

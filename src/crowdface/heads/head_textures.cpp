@@ -53,7 +53,7 @@ int shading_map_texels(int max_px) {
   return std::max(1, max_px / 2);
 }
 
-/// A normal or roughness map as a texture for renders; normals are converted to slopes.
+/// A normal or roughness map as a texture for renders; the mean normals become slopes.
 Texture shading_map_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const auto row = [&](int y, std::span<LinearRgb> texels) {
@@ -61,25 +61,31 @@ Texture shading_map_of(const BlendedPicture& picture, bool normals, int max_px) 
         picture.values_16_bit.data() +
         channels * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(y);
     for (LinearRgb& texel : texels) {
-      texel = LinearRgb::Zero();
-      for (std::size_t c = 0; c < channels; ++c) {
-        texel[static_cast<Index>(c)] = picture.low + picture.step * static_cast<float>(*at++);
-      }
-      if (!normals) continue;
-      texel = 2 * texel - 1;
-      texel /= std::max(texel[2], 1e-3F);
+      texel = {static_cast<float>(at[0]), static_cast<float>(at[channels / 2]),
+               static_cast<float>(at[channels - 1])};
+      at += channels;
     }
   };
-  return shrunk_texture(picture.width, picture.height, max_px, row);
+  Texture shrunk = shrunk_texture(picture.width, picture.height, max_px, row);
+  for (LinearRgb& texel : shrunk.texels) {
+    texel = picture.low + picture.step * texel;
+    if (!normals) continue;
+    texel = 2 * texel - 1;
+    texel /= std::max(texel[2], 1e-3F);
+  }
+  return shrunk;
 }
 
 Texture shading_map_of(const TextureMap& map, int max_px) {
-  return shrunk_texture(map.width, map.height, max_px, [&](int y, std::span<LinearRgb> texels) {
-    for (std::size_t x = 0; x < texels.size(); ++x) {
-      texels[x] = LinearRgb::Zero();
-      for (int c = 0; c < map.coding.channels; ++c) texels[x][c] = map.decode(map.row(c, y)[x]);
-    }
-  });
+  Texture shrunk =
+      shrunk_texture(map.width, map.height, max_px, [&](int y, std::span<LinearRgb> texels) {
+        const StoredValue *first = map.row(0, y), *last = map.row(map.coding.channels - 1, y);
+        for (std::size_t x = 0; x < texels.size(); ++x) {
+          texels[x] = {static_cast<float>(first[x]), static_cast<float>(last[x]), 0};
+        }
+      });
+  for (LinearRgb& texel : shrunk.texels) texel = map.coding.low + map.coding.step * texel;
+  return shrunk;
 }
 
 /// The layer of a texture set for a rendered kind of texture.

@@ -96,13 +96,14 @@ void spread_colours(Texture& texture, std::vector<bool> painted, int steps) {
 }
 
 LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
-  const Eigen::Vector2f tile(std::floor(uv.x()), std::floor(uv.y()));
+  // The fraction of a coordinate; std::floor is called only for repeated textures
+  const auto within_tile = [](float at) { return at >= 0 && at < 1 ? at : at - std::floor(at); };
   const auto between = [](float place, int count) {
     return std::clamp(place * static_cast<float>(count) - 0.5F, 0.0F,
                       static_cast<float>(count - 1));
   };
-  const float x = between(uv.x() - tile.x(), texture.width);
-  const float y = between(1 - (uv.y() - tile.y()), texture.height);
+  const float x = between(within_tile(uv.x()), texture.width);
+  const float y = between(1 - within_tile(uv.y()), texture.height);
   const int left = static_cast<int>(x);
   const int top = static_cast<int>(y);
   const int right = std::min(left + 1, texture.width - 1);
