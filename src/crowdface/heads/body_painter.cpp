@@ -127,9 +127,11 @@ BlendedPicture BodyPainter::paint(const OpticalDensities& ring_densities) const 
   }
   VertexFactorsOfImage fields;
   fields.heads = {0};
+  fields.resize(texels_->vertices().size());
+  float* out = fields.values.data();
   for (const std::uint32_t vertex : texels_->vertices()) {
-    for (Index c = 0; c < 3; ++c) fields.values.push_back(static_cast<float>(added(vertex, c)));
-    fields.values.push_back(1);
+    for (Index c = 0; c < 3; ++c) *out++ = static_cast<float>(added(vertex, c));
+    *out++ = 1;
   }
   return paint_picture(*texels_, map_->coding, {map_}, fields);
 }

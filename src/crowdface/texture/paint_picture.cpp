@@ -19,48 +19,52 @@ constexpr int kPictureRowsPerBlock = 16;
 /// For each channel, the sum of the values of the covered texels of a row.
 using RowSums = std::array<std::uint64_t, 3>;
 
-/// Working memory for one row of texels: a float for each texel and each field.
-class RowBuffer {
- public:
-  RowBuffer(int width, std::size_t fields)
-      : stride_(static_cast<std::size_t>(width) + kRowSlack), values_(stride_ * fields) {
-    for (std::size_t f = 0; f < fields; ++f) rows_.push_back(values_.data() + f * stride_);
+/// Working memory for blending rows of texels.
+struct RowBuffer {
+  RowBuffer(int width, const VertexFactorsOfImage& fields)
+      : stride(static_cast<std::size_t>(width) + kRowSlack),
+        values(stride * fields.channels),
+        ramps(2 * (fields.values_per_vertex() + kRowSlack)),
+        heads(fields.heads.size()) {
+    for (std::size_t c = 0; c < fields.channels; ++c) sums.push_back(values.data() + c * stride);
   }
-  std::span<float* const> rows() const { return rows_; }
+  RowBuffer(const RowBuffer&) = delete;
+  RowBuffer& operator=(const RowBuffer&) = delete;
 
- private:
-  std::size_t stride_;
-  std::vector<float> values_;
-  std::vector<float*> rows_;
+  std::size_t stride;
+  std::vector<float> values, ramps;
+  std::vector<StoredRow> heads;
+  std::vector<float*> sums;  ///< the blended values of the row, in `values`, one row per channel
 };
 
-/// Interpolates the fields at a row's covered texels, span by span from left to right. Writing a
-/// span may also change up to kRowSlack values beyond the end of the span. The next span is written
-/// later, so its values are correct.
-void interpolate(const SurfaceTexels& texels, int y, const VertexFactorsOfImage& fields,
-                 const RowBuffer& buffer) {
+/// Blends the covered texels of row y, span by span from left to right. Blending a span may also
+/// change up to kRowSlack values beyond the end of the span. The next span is blended later, so its
+/// values are correct.
+void blend_row(const SurfaceTexels& texels, int y, const VertexFactorsOfImage& fields,
+               const std::vector<std::shared_ptr<const TextureMap>>& maps, RowBuffer& buffer) {
+  for (std::size_t h = 0; h < fields.heads.size(); ++h) {
+    for (std::size_t c = 0; c < fields.channels; ++c) {
+      buffer.heads[h][c] = maps[fields.heads[h]]->row(static_cast<int>(c), y);
+    }
+  }
+  // All rows but the last are followed by further texels
+  const auto width = static_cast<std::size_t>(texels.width());
+  const std::size_t readable = y + 1 < texels.height() ? width + kRowSlack : width;
   const auto row = static_cast<float>(y);
-  const std::size_t width = fields.values_per_vertex();
-  std::vector<Ramp> ramps(width);
-  std::vector<float*> out(width);
+  const std::size_t fields_per_vertex = fields.values_per_vertex();
   for (const SurfaceTexels::Span& span : texels.row(y)) {
     const SurfaceTexels::Triangle& triangle = texels.triangle(span.triangle);
-    const float* first = fields.values.data() + width * triangle.corners[0];
-    const float* second = fields.values.data() + width * triangle.corners[1];
-    const float* third = fields.values.data() + width * triangle.corners[2];
+    const auto& [b, b_step, b_per_row] = triangle.second_barycentric;
+    const auto& [c, c_step, c_per_row] = triangle.third_barycentric;
     const auto begin = static_cast<float>(span.begin);
-    const float b = triangle.second_barycentric[0] + row * triangle.second_barycentric[2] +
-                    begin * triangle.second_barycentric[1];
-    const float c = triangle.third_barycentric[0] + row * triangle.third_barycentric[2] +
-                    begin * triangle.third_barycentric[1];
-    for (std::size_t f = 0; f < width; ++f) {
-      const float to_second = second[f] - first[f], to_third = third[f] - first[f];
-      ramps[f] = {
-          first[f] + b * to_second + c * to_third,
-          triangle.second_barycentric[1] * to_second + triangle.third_barycentric[1] * to_third};
-      out[f] = buffer.rows()[f] + span.begin;
-    }
-    write_ramps(ramps, static_cast<std::size_t>(span.end - span.begin), out.data());
+    const auto corner = [&](std::size_t k) {
+      return fields.values.data() + fields_per_vertex * triangle.corners[k];
+    };
+    blend_texels({{corner(0), corner(1), corner(2)},
+                  fields_per_vertex,
+                  {b + row * b_per_row + begin * b_step, c + row * c_per_row + begin * c_step},
+                  {b_step, c_step}},
+                 buffer.heads, span.begin, span.end, readable, buffer.ramps, buffer.sums);
   }
 }
 
@@ -161,20 +165,12 @@ BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& codin
   const auto channels = static_cast<std::size_t>(result.channels);
   std::vector<RowSums> row_sums(static_cast<std::size_t>(texels.height()));
   parallel_blocks(texels.height(), kPictureRowsPerBlock, [&](int begin, int end) {
-    const RowBuffer buffer(texels.width(), fields.values_per_vertex());
-    const std::span<float* const> sums = buffer.rows().first(fields.channels);
-    std::vector<HeadTextureRow> head_rows(fields.heads.size());
+    RowBuffer buffer(texels.width(), fields);
+    const std::span<float* const> sums = buffer.sums;
     for (int y = begin; y < end; ++y) {
       const auto spans = texels.row(y);
       if (spans.empty()) continue;
-      interpolate(texels, y, fields, buffer);
-      for (std::size_t s = 0; s < head_rows.size(); ++s) {
-        head_rows[s].factors = buffer.rows()[fields.channels + s];
-        for (std::size_t c = 0; c < fields.channels; ++c) {
-          head_rows[s].stored[c] = maps[fields.heads[s]]->row(static_cast<int>(c), y);
-        }
-      }
-      add_products(head_rows, spans.front().begin, spans.back().end, sums);
+      blend_row(texels, y, fields, maps, buffer);
       const std::size_t row =
           channels * static_cast<std::size_t>(texels.width()) * static_cast<std::size_t>(y);
       RowSums& total = row_sums[static_cast<std::size_t>(y)];

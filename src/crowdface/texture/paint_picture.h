@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "crowdface/texture/crowd_textures.h"
+#include "crowdface/texture/row_kernels.h"
 
 namespace crowdface {
 
@@ -14,8 +15,13 @@ namespace crowdface {
 struct VertexFactorsOfImage {
   std::size_t channels = 3;
   std::vector<std::size_t> heads;  ///< heads whose maps contribute to the image, ascending
-  /// for each vertex: a base value per channel, then a factor per head
+  /// for each vertex: a base value per channel, then a factor per head; see `resize`
   std::vector<float> values;
+  /// Allocates `values`, and kRowSlack more floats that kernels may read. Call after setting
+  /// `channels` and `heads`.
+  void resize(std::size_t vertex_count) {
+    values.resize(vertex_count * values_per_vertex() + kRowSlack);
+  }
   std::size_t values_per_vertex() const { return channels + heads.size(); }
 };
 

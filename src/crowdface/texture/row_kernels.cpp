@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/texture/row_kernels.cpp"
@@ -16,19 +17,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 using Lanes = hn::CappedTag<float, kRowSlack>;
 
-void write_ramps(const Ramp* ramps, std::size_t fields, std::size_t count, float* const* rows) {
-  const Lanes lanes;
-  const std::size_t width = hn::Lanes(lanes);
-  const auto numbers = hn::Iota(lanes, 0);
-  for (std::size_t f = 0; f < fields; ++f) {
-    const auto first = hn::Set(lanes, ramps[f].first), step = hn::Set(lanes, ramps[f].step);
-    for (std::size_t i = 0; i < count; i += width) {
-      const auto at = hn::Add(numbers, hn::Set(lanes, static_cast<float>(i)));
-      hn::StoreU(hn::Add(first, hn::Mul(at, step)), lanes, rows[f] + i);
-    }
-  }
-}
-
 /// Loads 16-bit numbers and converts them to floats.
 template <class D>
 HWY_INLINE hn::Vec<D> floats_of(D lanes, const std::uint16_t* stored) {
@@ -37,43 +25,75 @@ HWY_INLINE hn::Vec<D> floats_of(D lanes, const std::uint16_t* stored) {
   return hn::ConvertTo(lanes, hn::PromoteTo(integers, hn::LoadU(words, stored)));
 }
 
+/// Writes the value of each field at the first texel, and its increase from texel to texel.
+void write_ramps(const InterpolatedFields& fields, float* first, float* step) {
+  const Lanes lanes;
+  const auto [b, c] = fields.barycentrics;
+  const auto [b_step, c_step] = fields.barycentric_steps;
+  for (std::size_t f = 0; f < fields.count; f += hn::Lanes(lanes)) {
+    const auto corner = hn::LoadU(lanes, fields.corners[0] + f);
+    const auto to_second = hn::Sub(hn::LoadU(lanes, fields.corners[1] + f), corner);
+    const auto to_third = hn::Sub(hn::LoadU(lanes, fields.corners[2] + f), corner);
+    const auto weighted = [&](float second, float third) HWY_ATTR {
+      return std::pair(hn::Mul(hn::Set(lanes, second), to_second),
+                       hn::Mul(hn::Set(lanes, third), to_third));
+    };
+    const auto [second, third] = weighted(b, c);
+    hn::StoreU(hn::Add(hn::Add(corner, second), third), lanes, first + f);
+    const auto [second_step, third_step] = weighted(b_step, c_step);
+    hn::StoreU(hn::Add(second_step, third_step), lanes, step + f);
+  }
+}
+
 template <std::size_t kChannels>
-HWY_INLINE void add_products_of(const HeadTextureRow* heads, std::size_t count, std::size_t begin,
-                                std::size_t end, float* const* sums) {
+HWY_INLINE void blend_channels(const float* first, const float* step, const StoredRow* heads,
+                               std::size_t head_count, std::size_t begin, std::size_t end,
+                               std::size_t readable, float* const* sums) {
   const Lanes lanes;
   const std::size_t width = hn::Lanes(lanes);
+  const auto numbers = hn::Iota(lanes, 0);
   std::size_t x = begin;
-  for (; x + width <= end; x += width) {
-    auto first = hn::LoadU(lanes, sums[0] + x);
-    auto second = kChannels > 1 ? hn::LoadU(lanes, sums[kChannels > 1 ? 1 : 0] + x) : first;
-    auto third = kChannels > 2 ? hn::LoadU(lanes, sums[kChannels > 2 ? 2 : 0] + x) : first;
-    for (std::size_t h = 0; h < count; ++h) {
-      const auto factor = hn::LoadU(lanes, heads[h].factors + x);
-      const auto product = [&](std::size_t c) {
-        return hn::Mul(factor, floats_of(lanes, heads[h].stored[c] + x));
+  for (; x < end && x + width <= readable; x += width) {
+    const auto at = hn::Add(numbers, hn::Set(lanes, static_cast<float>(x - begin)));
+    const auto field = [&](std::size_t f) HWY_ATTR {
+      return hn::Add(hn::Set(lanes, first[f]), hn::Mul(at, hn::Set(lanes, step[f])));
+    };
+    auto red = field(0), green = kChannels > 1 ? field(1) : red;
+    auto blue = kChannels > 2 ? field(2) : red;
+    for (std::size_t h = 0; h < head_count; ++h) {
+      const auto factor = field(kChannels + h);
+      const auto product = [&](std::size_t c) HWY_ATTR {
+        return hn::Mul(factor, floats_of(lanes, heads[h][c] + x));
       };
-      first = hn::Add(first, product(0));
-      if (kChannels > 1) second = hn::Add(second, product(1));
-      if (kChannels > 2) third = hn::Add(third, product(2));
+      red = hn::Add(red, product(0));
+      if (kChannels > 1) green = hn::Add(green, product(1));
+      if (kChannels > 2) blue = hn::Add(blue, product(2));
     }
-    hn::StoreU(first, lanes, sums[0] + x);
-    if (kChannels > 1) hn::StoreU(second, lanes, sums[1] + x);
-    if (kChannels > 2) hn::StoreU(third, lanes, sums[2] + x);
+    hn::StoreU(red, lanes, sums[0] + x);
+    if (kChannels > 1) hn::StoreU(green, lanes, sums[1] + x);
+    if (kChannels > 2) hn::StoreU(blue, lanes, sums[2] + x);
   }
   for (; x < end; ++x) {
+    const auto at = static_cast<float>(x - begin);
     for (std::size_t c = 0; c < kChannels; ++c) {
-      for (std::size_t h = 0; h < count; ++h) {
-        sums[c][x] += heads[h].factors[x] * static_cast<float>(heads[h].stored[c][x]);
+      sums[c][x] = first[c] + at * step[c];
+      for (std::size_t h = 0; h < head_count; ++h) {
+        const float factor = first[kChannels + h] + at * step[kChannels + h];
+        sums[c][x] += factor * static_cast<float>(heads[h][c][x]);
       }
     }
   }
 }
 
-void add_products(const HeadTextureRow* heads, std::size_t count, std::size_t begin,
-                  std::size_t end, float* const* sums, std::size_t channels) {
-  if (channels == 1) add_products_of<1>(heads, count, begin, end, sums);
-  if (channels == 2) add_products_of<2>(heads, count, begin, end, sums);
-  if (channels == 3) add_products_of<3>(heads, count, begin, end, sums);
+void blend_texels(const InterpolatedFields& fields, const StoredRow* heads, std::size_t head_count,
+                  std::size_t begin, std::size_t end, std::size_t readable, float* ramps,
+                  float* const* sums, std::size_t channels) {
+  float* const step = ramps + fields.count + kRowSlack;
+  write_ramps(fields, ramps, step);
+  const auto blend = channels == 1   ? blend_channels<1>
+                     : channels == 2 ? blend_channels<2>
+                                     : blend_channels<3>;
+  blend(ramps, step, heads, head_count, begin, end, readable, sums);
 }
 
 void write_unit_normals(const float* u, const float* v, std::size_t count, std::uint16_t* out,
@@ -126,18 +146,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace crowdface {
 
-HWY_EXPORT(write_ramps);
-HWY_EXPORT(add_products);
+HWY_EXPORT(blend_texels);
 HWY_EXPORT(write_unit_normals);
 
-void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows) {
-  HWY_DYNAMIC_DISPATCH(write_ramps)(ramps.data(), ramps.size(), count, rows);
-}
-
-void add_products(std::span<const HeadTextureRow> heads, std::size_t begin, std::size_t end,
+void blend_texels(const InterpolatedFields& fields, std::span<const StoredRow> heads,
+                  std::size_t begin, std::size_t end, std::size_t readable, std::span<float> ramps,
                   std::span<float* const> sums) {
-  HWY_DYNAMIC_DISPATCH(add_products)
-  (heads.data(), heads.size(), begin, end, sums.data(), sums.size());
+  HWY_DYNAMIC_DISPATCH(blend_texels)
+  (fields, heads.data(), heads.size(), begin, end, readable, ramps.data(), sums.data(),
+   sums.size());
 }
 
 std::array<std::uint64_t, 3> write_unit_normals(std::array<const float*, 2> slopes,

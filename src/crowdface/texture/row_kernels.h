@@ -11,29 +11,30 @@ namespace crowdface {
 // Kernels do not fuse multiply and add, so that the results of all instruction sets are
 // bit-identical to plain loops.
 
-/// Largest number of floats that a kernel may write beyond the end of a row.
+/// Largest number of floats that a kernel may read or write beyond the end of a row.
 inline constexpr std::size_t kRowSlack = 16;
 
-/// The arithmetic sequence first, first + step, …
-struct Ramp {
-  float first = 0, step = 0;
+/// A number for each field at the corners of a triangle, interpolated along texels of a row.
+struct InterpolatedFields {
+  /// for each corner: `count` numbers, and kRowSlack further floats that may be read
+  std::array<const float*, 3> corners;
+  std::size_t count;
+  /// barycentric coordinates of the second and the third corner at the first texel
+  std::array<float, 2> barycentrics;
+  std::array<float, 2> barycentric_steps;  ///< increase from texel to texel
 };
 
-/// Writes the first `count` values of each arithmetic sequence to one row. May overwrite up to
-/// kRowSlack further values in the row.
-/// \param rows  the start of each sequence's row.
-void write_ramps(std::span<const Ramp> ramps, std::size_t count, float* const* rows);
+/// A row of stored values of a head's texture map, one pointer per channel.
+using StoredRow = std::array<const std::uint16_t*, 3>;
 
-/// One row of a head's texture map, and the factor by which each texel is multiplied.
-struct HeadTextureRow {
-  /// one per texel
-  const float* factors;
-  std::array<const std::uint16_t*, 3> stored;  ///< stored values of each channel
-};
-
-/// sums[c][x] += factors[x]·stored[c][x] for x in [begin, end), head by head.
-/// \param sums  one row for each of the one to three channels.
-void add_products(std::span<const HeadTextureRow> heads, std::size_t begin, std::size_t end,
+/// Computes sums[c][x] = base_c + Σ_h factor_h · heads[h][c][x] for texels x from `begin` to `end`.
+/// The fields are the bases of the channels, and then the factors of the heads.
+/// \param readable  end of the texels that may be read from the heads' rows, at least `end`
+/// \param ramps     working memory: 2 · (fields.count + kRowSlack) floats
+/// \param sums      one row for each of the one to three channels. Up to kRowSlack values after
+///                  `end` may be overwritten.
+void blend_texels(const InterpolatedFields& fields, std::span<const StoredRow> heads,
+                  std::size_t begin, std::size_t end, std::size_t readable, std::span<float> ramps,
                   std::span<float* const> sums);
 
 /// Converts slopes to unit normals, (slope, slope, 1) normalized, with components from −1 to 1

@@ -223,7 +223,7 @@ VertexFactorsOfImage TextureBlender::vertex_factors_of_image(std::size_t picture
   }
   const std::vector<std::uint32_t>& vertices = (*texels_)[picture].vertices();
   const std::size_t width = fields.values_per_vertex();
-  fields.values.resize(vertices.size() * width);
+  fields.resize(vertices.size());
   parallel_blocks(
       static_cast<Index>(vertices.size()), kVerticesPerBlock, [&](Index begin, Index end) {
         std::vector<double> detail_weights(fields.heads.size());
