@@ -70,7 +70,7 @@ class PythonJob {
     std::vector<std::string> lines;
     const CrowdPlan plan = plan_crowd(
         job_.config, job_.inputs, prepared(), [this]() -> const FaceBuilder& { return builder(); },
-        cache_);
+        attachments_, cache_);
     std::string text;
     annotated_plan_text(plan.crowd, job_.names, job_.settings,
                         head_tags_and_attachment_kinds(job_.config))(
@@ -102,8 +102,9 @@ class PythonJob {
 
   std::vector<PlacedAttachment> attachments(const std::string& recipe,
                                             const Eigen::Ref<const Positions>& positions) {
-    if (!attachments_) attachments_.emplace(job_.config, job_.inputs);
-    return attachments_->attachments_of(face_of(recipe), round_to_single(positions));
+    const FacePlan face = face_of(recipe);
+    attachments_.bind({&face, 1});
+    return attachments_.attachments_of(face, round_to_single(positions));
   }
 
  private:
@@ -124,7 +125,7 @@ class PythonJob {
   std::optional<PreparedHeads> prepared_;
   std::optional<FaceBuilder> builder_;
   std::optional<FaceShapes> shapes_;
-  std::optional<FaceAttachments> attachments_;
+  FaceAttachments attachments_{job_.config, job_.inputs};
 };
 
 py::dict dict_of(const CrowdCheck& check) {

@@ -74,7 +74,9 @@ class IrisCoverTest : public ::testing::Test {
     const PreparedHeads prepared =
         prepare(job.config, job.inputs, job.smoothing, folder_ / "cache");
     const FaceBuilder builder(job.config, job.inputs, prepared);
-    IrisCover cover(job.config, job.inputs, [&]() -> const FaceBuilder& { return builder; });
+    FaceAttachments attachments(job.config, job.inputs);
+    IrisCover cover(job.config, job.inputs, attachments,
+                    [&]() -> const FaceBuilder& { return builder; });
     FacePlan face;
     face.recipe.target = 0;
     face.recipe.regions.emplace_back().weights = {{0, 1.0}};

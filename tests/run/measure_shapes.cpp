@@ -187,9 +187,10 @@ int main(int argc, char** argv) try {
   const Job job = load_job(argv[1], {}, cache_directory());
   const PreparedHeads prepared = prepare(job.config, job.inputs, job.smoothing, cache_directory());
   const FaceBuilder builder(job.config, job.inputs, prepared);
+  FaceAttachments attachments(job.config, job.inputs);
   const CrowdPlan crowd_plan = crowdface::plan_crowd(
       job.config, job.inputs, prepared, [&]() -> const FaceBuilder& { return builder; },
-      cache_directory());
+      attachments, cache_directory());
   const FaceShapes shapes(job.config, job.inputs);
   const Crossings crossings(job.inputs);
   const ShapeSet& set = job.inputs.shapes;

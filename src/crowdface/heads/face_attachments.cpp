@@ -24,44 +24,43 @@ bool equal_meshes(const Attachment& a, const Attachment& b) {
 
 }  // namespace
 
-FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs) : inputs_(inputs) {
-  bind_meshes(config, std::vector<bool>(inputs.attachments.items.size(), true));
-}
+FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs)
+    : config_(config), inputs_(inputs), mesh_of_item_(inputs.attachments.items.size()) {}
 
 FaceAttachments::FaceAttachments(const Config& config, const Inputs& inputs,
                                  std::span<const FacePlan> faces)
-    : inputs_(inputs) {
-  std::vector<bool> is_wanted(inputs.attachments.items.size());
-  for (const FacePlan& face : faces) {
-    for (const std::string& name : face.attachments) {
-      is_wanted[inputs.attachments.index(name)] = true;
-    }
-  }
-  bind_meshes(config, is_wanted);
+    : FaceAttachments(config, inputs) {
+  bind(faces);
 }
 
-void FaceAttachments::bind_meshes(const Config& config, const std::vector<bool>& is_wanted) {
+void FaceAttachments::bind(std::span<const FacePlan> faces) {
   const AttachmentSet& set = inputs_.attachments;
-  std::vector<const Attachment*> meshes;
-  mesh_of_item_.resize(set.items.size());
-  for (std::size_t i = 0; i < set.items.size(); ++i) {
-    if (!is_wanted[i]) continue;
-    const auto known = std::ranges::find_if(
-        meshes, [&](const Attachment* mesh) { return equal_meshes(*mesh, set.items[i]); });
-    mesh_of_item_[i] = static_cast<std::size_t>(known - meshes.begin());
-    if (known == meshes.end()) meshes.push_back(&set.items[i]);
+  std::vector<bool> is_wanted(set.items.size());
+  for (const FacePlan& face : faces) {
+    for (const std::string& name : face.attachments) is_wanted[set.index(name)] = true;
   }
-  if (meshes.empty()) return;
-  skin_ =
-      std::make_unique<const FittedSkin>(inputs_.head_set.topology, set.fitted_head_positions,
-                                         skin_vertices(inputs_), 1 / mm_per(config.faces.units));
-  bound_meshes_.resize(meshes.size());
-  parallel_for_each(meshes.size(), [&](std::size_t m) {
-    const ObjFile& file = meshes[m]->file;
-    bound_meshes_[m].carrier = std::make_unique<const AttachmentCarrier>(
-        *skin_, file.topology, file.positions, meshes[m]->moves);
-    if (inputs_.shapes.shapes.empty() || meshes[m]->moves != AttachmentMove::kBend) return;
-    bound_meshes_[m].bend =
+  const std::size_t first_new = bound_meshes_.size();
+  for (std::size_t i = 0; i < set.items.size(); ++i) {
+    if (!is_wanted[i] || mesh_of_item_[i]) continue;
+    const auto known = std::ranges::find_if(bound_meshes_, [&](const BoundMesh& mesh) {
+      return equal_meshes(*mesh.item, set.items[i]);
+    });
+    mesh_of_item_[i] = static_cast<std::size_t>(known - bound_meshes_.begin());
+    if (known == bound_meshes_.end()) bound_meshes_.push_back({&set.items[i], nullptr, nullptr});
+  }
+  if (bound_meshes_.size() == first_new) return;
+  if (skin_ == nullptr) {
+    skin_ =
+        std::make_unique<const FittedSkin>(inputs_.head_set.topology, set.fitted_head_positions,
+                                           skin_vertices(inputs_), 1 / mm_per(config_.faces.units));
+  }
+  parallel_for_each(bound_meshes_.size() - first_new, [&](std::size_t m) {
+    BoundMesh& mesh = bound_meshes_[first_new + m];
+    const ObjFile& file = mesh.item->file;
+    mesh.carrier = std::make_unique<const AttachmentCarrier>(*skin_, file.topology, file.positions,
+                                                             mesh.item->moves);
+    if (inputs_.shapes.shapes.empty() || mesh.item->moves != AttachmentMove::kBend) return;
+    mesh.bend =
         std::make_unique<const ShapeBend>(*skin_, inputs_.adjacency, file.topology, file.positions);
   });
 }
@@ -73,7 +72,7 @@ std::vector<PlacedAttachment> FaceAttachments::attachments_of(
   const Positions normals = skin_->normals(positions);
   for (const ColouredAttachment& coloured : inputs_.attachments.attachments_of(face)) {
     const BoundMesh& bound =
-        bound_meshes_[mesh_of_item_[inputs_.attachments.index(coloured.item->name)]];
+        bound_meshes_[mesh_of_item_[inputs_.attachments.index(coloured.item->name)].value()];
     placed.push_back(
         {coloured.item, coloured.colour, bound.carrier->move_to_face(positions, normals)});
     PlacedAttachment& one = placed.back();

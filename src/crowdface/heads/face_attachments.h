@@ -35,12 +35,16 @@ struct PlacedAttachment {
 /// attachments share it with different colours.
 class FaceAttachments {
  public:
-  /// Binds all attachments. \param inputs  must outlive this object.
+  /// Binds nothing yet. \param config, inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs);
-  /// Binds only the attachments that these faces wear. \param inputs  must outlive this object.
+  /// Binds the attachments that these faces wear. \param config, inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs, std::span<const FacePlan> faces);
 
-  /// The attachments of a face, in the order of its recipe. The result refers to the inputs.
+  /// Binds the attachments that these faces wear, unless they are already bound.
+  void bind(std::span<const FacePlan> faces);
+
+  /// The attachments of a face, in the order of its recipe. They must be bound. The result
+  /// refers to the inputs.
   /// \param positions  the face's vertices, #V by 3
   /// \param moves      displacements of the face's vertices, one item for each shape (expression)
   ///                   of the inputs; empty: the face at rest
@@ -55,19 +59,18 @@ class FaceAttachments {
  private:
   /// An attachment mesh bound to the fitted head.
   struct BoundMesh {
+    const Attachment* item;  ///< the first attachment with this mesh
     std::unique_ptr<const AttachmentCarrier> carrier;
     /// null unless the attachment bends with the skin and there are shapes (expressions)
     std::unique_ptr<const ShapeBend> bend;
   };
-  /// Binds the meshes of the wanted attachments to the fitted head.
-  /// \param is_wanted  for each attachment of the inputs: whether to bind it
-  void bind_meshes(const Config& config, const std::vector<bool>& is_wanted);
 
+  const Config& config_;
   const Inputs& inputs_;
-  std::unique_ptr<const FittedSkin> skin_;  ///< null if there are no attachments
+  std::unique_ptr<const FittedSkin> skin_;  ///< null if no attachment is bound
   std::vector<BoundMesh> bound_meshes_;
-  /// for each attachment of the inputs: an index into `bound_meshes_`
-  std::vector<std::size_t> mesh_of_item_;
+  /// for each attachment of the inputs: an index into `bound_meshes_`; nothing if it is not bound
+  std::vector<std::optional<std::size_t>> mesh_of_item_;
 };
 
 }  // namespace crowdface

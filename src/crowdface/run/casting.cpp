@@ -240,7 +240,7 @@ AttachmentOptions attachment_options(const Config& config) {
 
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                      const std::function<const FaceBuilder&()>& builder,
-                     const std::filesystem::path& cache) {
+                     FaceAttachments& bound_attachments, const std::filesystem::path& cache) {
   const CastingSpace judged_in = casting_space(config, inputs, prepared, cache);
   const FaceSpace& space = judged_in.face_space;
   const Eigen::MatrixXd head_distances = space.head_distances();
@@ -295,7 +295,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
     choose_colours(colour_options(config), result.crowd);
   }
   AttachmentOptions attachments = attachment_options(config);
-  IrisCover iris_cover(config, inputs, builder);
+  IrisCover iris_cover(config, inputs, bound_attachments, builder);
   attachments.covers_eyes = [&](const std::string& item, const FacePlan& face) {
     return iris_cover.covered_fraction(item, face) > IrisCover::kMaxCoveredFraction;
   };

@@ -9,6 +9,7 @@
 #include "crowdface/cast/attachment_sampling.h"
 #include "crowdface/cast/cast_crowd.h"
 #include "crowdface/cast/crowd_statistics.h"
+#include "crowdface/heads/face_attachments.h"
 #include "crowdface/run/face_builder.h"
 #include "crowdface/run/job.h"
 #include "crowdface/run/trait_reports.h"
@@ -80,12 +81,13 @@ struct CrowdPlan {
 AttachmentOptions attachment_options(const Config& config);
 
 /// Chooses the recipes of all faces ("casts" the crowd).
-/// \param builder  returns the builder of the job's faces; called only if casting builds meshes
-/// \param cache    see casting_space
+/// \param builder      returns the builder of the job's faces; called only if casting builds meshes
+/// \param attachments  binds the haircuts whose cover of the eyes is measured
+/// \param cache        see casting_space
 /// \throws Unsatisfiable if the constraints cannot be met; the message names the constraint that
 ///     prevented more faces, the number of faces that were cast, and a change that would help.
 CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedHeads& prepared,
                      const std::function<const FaceBuilder&()>& builder,
-                     const std::filesystem::path& cache);
+                     FaceAttachments& attachments, const std::filesystem::path& cache);
 
 }  // namespace crowdface

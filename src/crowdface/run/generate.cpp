@@ -73,15 +73,13 @@ struct PlannedJob {
           return std::make_unique<FaceBuilder>(job.config, job.inputs, prepared);
         }),
         textures([&job] { return std::make_unique<FaceTextures>(job.config, job.inputs); }),
-        attachments([&job, this] {
-          return std::make_unique<FaceAttachments>(job.config, job.inputs, crowd_plan.crowd);
-        }),
+        attachments(job.config, job.inputs),
         shapes([&job] { return std::make_unique<FaceShapes>(job.config, job.inputs); }) {}
 
   PreparedHeads prepared;
   Lazy<FaceBuilder> builder;
   Lazy<FaceTextures> textures;
-  Lazy<FaceAttachments> attachments;
+  FaceAttachments attachments;
   Lazy<FaceShapes> shapes;
   CrowdPlan crowd_plan;
   std::vector<std::string> warnings;  ///< warnings about the cast crowd; empty for a shard's faces
@@ -160,7 +158,8 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
   crowd->crowd_plan = timed(stages, "cast", [&] {
     return plan_crowd(
         job.config, job.inputs, crowd->prepared,
-        [&]() -> const FaceBuilder& { return crowd->builder.get(); }, options.cache);
+        [&]() -> const FaceBuilder& { return crowd->builder.get(); }, crowd->attachments,
+        options.cache);
   });
   log_casting(crowd->crowd_plan);
   crowd->warnings = casting_warnings(job, crowd->crowd_plan);
@@ -332,10 +331,10 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   if (options.replace == Replace::kRefuse) crowd = planned_job(job, options, stages);
   if (!crowd) crowd = cast_job(job, options, stages);
   Lazy<FaceStages> face_stages([&] {
-    return std::make_unique<FaceStages>(job.config, job.inputs, crowd->prepared,
-                                        crowd->builder.get(), crowd->textures.get(),
-                                        crowd->attachments.get(), crowd->shapes.get(),
-                                        crowd->crowd_plan.crowd, memory_for(options));
+    crowd->attachments.bind(crowd->crowd_plan.crowd);
+    return std::make_unique<FaceStages>(
+        job.config, job.inputs, crowd->prepared, crowd->builder.get(), crowd->textures.get(),
+        crowd->attachments, crowd->shapes.get(), crowd->crowd_plan.crowd, memory_for(options));
   });
   if (is_new && !crowd->crowd_plan.crowd.empty())
     timed(stages, "setup", [&] { return &face_stages.get(); });

@@ -34,11 +34,11 @@ std::vector<Eigen::Vector2d> disc_points() {
 
 }  // namespace
 
-IrisCover::IrisCover(const Config& config, const Inputs& inputs,
+IrisCover::IrisCover(const Config& config, const Inputs& inputs, FaceAttachments& attachments,
                      std::function<const FaceBuilder&()> builder)
-    : config_(config),
-      inputs_(inputs),
+    : inputs_(inputs),
       axes_(head_axes(config)),
+      attachments_(attachments),
       builder_(std::move(builder)),
       surfaces_(kTexturePx, false) {
   if (inputs.attachments.empty()) return;
@@ -72,13 +72,11 @@ std::vector<IrisCover::Eye> IrisCover::eyes_of(const Positions& positions) const
 double IrisCover::covered_fraction(const std::string& item, const FacePlan& face) {
   if (!contains(items_near_eyes_, item)) return 0;
   FacePlan wearer = face;
-  if (!attachments_) {
-    wearer.attachments = items_near_eyes_;
-    attachments_ = std::make_unique<const FaceAttachments>(config_, inputs_, std::span(&wearer, 1));
-  }
+  wearer.attachments = items_near_eyes_;  // in parallel at the first call
+  attachments_.bind({&wearer, 1});
   wearer.attachments = {item};
   const Positions positions = builder_().rebuild(face.recipe, previous_face_);
-  const auto placed = attachments_->attachments_of(wearer, positions);
+  const auto placed = attachments_.attachments_of(wearer, positions);
   double most = 0;
   for (const Eye& eye : eyes_of(positions)) {
     most = std::max(most, covered_fraction(eye, placed.front()));

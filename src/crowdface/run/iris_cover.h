@@ -25,9 +25,10 @@ class IrisCover {
   /// Casting lets no face wear a haircut that covers a larger fraction of an iris.
   static constexpr double kMaxCoveredFraction = 0.1;
 
-  /// \param builder  called once, when the first item has to be measured
-  /// \param config, inputs  must outlive this object.
-  IrisCover(const Config& config, const Inputs& inputs,
+  /// \param builder      called once, when the first item has to be measured
+  /// \param attachments  the items to measure are bound here
+  /// \param config, inputs, attachments  must outlive this object.
+  IrisCover(const Config& config, const Inputs& inputs, FaceAttachments& attachments,
             std::function<const FaceBuilder&()> builder);
 
   /// Returns the fraction, 0 … 1, of an iris that the item covers on the finished face; the larger
@@ -43,12 +44,11 @@ class IrisCover {
   std::vector<Eye> eyes_of(const Positions& positions) const;
   double covered_fraction(const Eye& eye, const PlacedAttachment& hair) const;
 
-  const Config& config_;
   const Inputs& inputs_;
   HeadAxes axes_;
+  FaceAttachments& attachments_;
   std::function<const FaceBuilder&()> builder_;
   std::vector<std::string> items_near_eyes_;
-  std::unique_ptr<const FaceAttachments> attachments_;  ///< set by the first measurement
   AttachmentSurfaces surfaces_;
   FaceBuilder::PreviousFace previous_face_;
 };
