@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <future>
 #include <memory>
 #include <utility>
 
@@ -247,7 +248,13 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     warnings.insert(warnings.end(), more.begin(), more.end());
   };
   warn(planned.warnings);
-  if (has_whole_crowd) warn(copy_materials(job.config, job.inputs, directory, crowd, ledger));
+  // Material files are copied while faces are built, because most of the copying waits for the disk
+  std::future<std::vector<std::string>> copying;
+  if (has_whole_crowd) {
+    copying = std::async(std::launch::async, [&] {
+      return copy_materials(job.config, job.inputs, directory, crowd, ledger);
+    });
+  }
   if (has_whole_crowd && contains(job.config.output.meshes, MeshFormat::kUsd)) {
     ledger.write(directory.relative(directory.stage()),
                  make_usd_stage_text(job.config, job.inputs, crowd));
@@ -275,6 +282,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     beside.wait();
     return built;
   });
+  if (copying.valid()) warn(copying.get());
   face_stages.release();
   if (!options.shard.is_whole_crowd()) {
     ledger.require_files();
