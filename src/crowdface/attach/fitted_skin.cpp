@@ -137,7 +137,7 @@ double FittedSkin::patch_radius_at(const Eigen::Vector3d& point, double min_radi
   const double reach = kRadiusGrowth * nearest + min_radius;
   const std::size_t fewest = std::min(kMinVertices, finest.vertices.size());
   std::vector<double> distances;
-  for (double around = reach;; around *= 2) {
+  for (double around = reach / kRadiusFactor;; around *= 2) {
     distances.clear();
     for (const std::uint32_t v : finest.grid.vertices_near(point, around)) {
       const double distance = (row3(positions_, v) - point).norm();

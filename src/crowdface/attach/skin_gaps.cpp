@@ -32,11 +32,12 @@ SkinGaps::SkinGaps(const FittedSkin& skin, const Topology& topology, const Posit
       start_vertices_(heights_.size(), 0),
       neighbours_(build_adjacency(topology)) {
   const Positions normals = skin.normals(skin.mesh_positions());
+  const double far = kFarMm * skin.units_per_mm() + 2 * skin.vertex_spacing();
   parallel_for_each(heights_.size(), kGapsPerBlock, [&](std::size_t p) {
     const Eigen::Vector3d point = row3(points, static_cast<Index>(p));
-    const PointGrid::NearestVertex nearest = skin.grid().nearest(point);
+    const PointGrid::NearestVertex nearest = skin.grid().nearest(point, far);
+    if (nearest.vertex == kNoIndex) return;
     start_vertices_[p] = nearest.vertex;
-    if (nearest.distance > kFarMm * skin.units_per_mm() + 2 * skin.vertex_spacing()) return;
     heights_[p] = skin.nearest_skin(skin.mesh_positions(), normals, nearest.vertex, point).height;
   });
 }
