@@ -126,20 +126,6 @@ TEST(MappedFile, UnwatchedRefusesAFileThatEndsTooSoon) {
 }
 
 // The process died of SIGBUS.
-TEST(MappedFile, ScratchBytesLieInAFileOfNoName) {
-  const TemporaryFolder folder;
-  const std::filesystem::path scratch = folder.path() / "new" / "scratch";
-  std::string bytes(70'000, 'a');
-  bytes[69'999] = 'z';
-  const MappedFile file = MappedFile::from_temporary_copy(bytes, scratch);
-  EXPECT_EQ(file.bytes(), bytes);
-  EXPECT_TRUE(std::filesystem::is_empty(scratch));
-  EXPECT_TRUE(MappedFile::from_temporary_copy("", scratch).bytes().empty());
-  folder.write("file", "x");
-  expect_error(ExitCode::kCannotCreate, {"file"},
-               [&] { MappedFile::from_temporary_copy("x", folder.path() / "file"); });
-}
-
 TEST(MappedFile, CutWhileItIsMappedItReadsAsZerosAndTellsOrEndsWithAWord) {
   const testing::TemporaryFolder folder;
   const std::string bytes(20'000, 'x');

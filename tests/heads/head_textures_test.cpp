@@ -146,6 +146,55 @@ Digest digest_of(const TemporaryFolder& folder, const std::string& first,
   return load(both, 8).digest;
 }
 
+/// The stored values of all maps, and how many maps lie in files of the cache.
+std::pair<std::vector<std::vector<StoredValue>>, std::size_t> maps_of(const Read& read,
+                                                                      const CacheFolder& cache) {
+  const HeadTextures textures =
+      load_blended_textures(read.faces, polygon_materials(read.files[0].materials, 2),
+                            find_texture_files(read.faces, read.files).front(), 8, cache);
+  std::vector<std::vector<StoredValue>> values;
+  std::size_t mapped = 0;
+  for (const auto& of_picture : textures.blended.maps) {
+    for (const auto& map : of_picture) {
+      values.emplace_back(map->stored().begin(), map->stored().end());
+      if (map->mapped_file != nullptr) ++mapped;
+    }
+  }
+  return {values, mapped};
+}
+
+TEST(HeadTextures, TheCacheHoldsTheMapsOfTheFiles) {
+  const TemporaryFolder folder;
+  write_png(folder, "one.png", 8, {200, 100, 50});
+  write_png(folder, "left.png", 4, {10, 20, 30});
+  write_png(folder, "right.png", 8, {60, 70, 80});
+  Read heads = read(folder, "newmtl skin left\nmap_Kd one.png\nnewmtl right\nmap_Kd one.png\n");
+  folder.write("other.mtl", "newmtl skin left\nmap_Kd left.png\nnewmtl right\nmap_Kd right.png\n");
+  std::string text = kHead;
+  heads.files.push_back(
+      read_obj(folder.write("other.obj", text.replace(text.find("head.mtl"), 8, "other.mtl"))));
+  heads.faces.heads.resize(2);
+  const auto [expected, none] = maps_of(heads, {});
+  EXPECT_EQ(none, 0U);
+  ASSERT_GE(expected.size(), 2U);
+  EXPECT_NE(expected[0], expected[1]);
+  const TemporaryFolder cache;
+  for (const char* when : {"written", "read"}) {
+    const auto [values, mapped] = maps_of(heads, cache.path());
+    EXPECT_EQ(values, expected) << when;
+    EXPECT_EQ(mapped, values.size()) << when;
+  }
+  // Another picture of the same name and size
+  write_png(folder, "right.png", 8, {90, 70, 80});
+  EXPECT_EQ(maps_of(heads, cache.path()).first, maps_of(heads, {}).first);
+  EXPECT_NE(maps_of(heads, cache.path()).first, expected);
+  // Damaged entries are replaced
+  for (const auto& entry : std::filesystem::directory_iterator(cache.path())) {
+    std::filesystem::resize_file(entry.path(), 100);
+  }
+  EXPECT_EQ(maps_of(heads, cache.path()).first, maps_of(heads, {}).first);
+}
+
 // It held the files' names and contents in the order in which they were met, and nothing else.
 TEST(HeadTextures, DigestKnowsWhichFaceOfWhichHeadWearsWhich) {
   const TemporaryFolder folder;

@@ -52,15 +52,5 @@ TEST(TextureMap, OfHalfTheSizeHasTheMeanLight) {
   for (int x = 1; x < 31; ++x) EXPECT_NEAR(light_of_density(map.row(1, 7)[x]), 0.5F, 1e-3F);
 }
 
-TEST(TextureMap, OnTheDiskItHoldsTheSameAndNoMemory) {
-  const testing::TemporaryFolder folder;
-  const TextureMap map = make_texture_map(32, 4, ramp(16, 9));
-  TextureMap moved = map;
-  move_to_disk(moved, folder.path());
-  EXPECT_EQ(moved.planes.capacity(), 0U);
-  EXPECT_TRUE(std::ranges::equal(moved.stored(), map.stored()));
-  EXPECT_EQ(std::as_const(moved).row(1, 2)[7], map.row(1, 2)[7]);
-}
-
 }  // namespace
 }  // namespace crowdface

@@ -63,13 +63,6 @@ class MappedFile {
   /// error, or if the file is truncated while it is copied.
   explicit MappedFile(const std::filesystem::path& path,
                       OnTruncation on_truncation = OnTruncation::kEnd);
-  /// Writes the bytes to an unnamed temporary file and maps that file. The bytes then lie on disk,
-  /// and the kernel caches them in free memory. The file disappears when the process ends, even if
-  /// the process is killed.
-  /// \param folder  folder of the temporary file; created if missing. \throws CannotCreate,
-  ///                IoError.
-  static MappedFile from_temporary_copy(std::string_view bytes,
-                                        const std::filesystem::path& folder);
   /// Makes a MappedFile from a text in memory, for code that expects a file.
   static MappedFile from_text(std::string text);
   std::string_view bytes() const;

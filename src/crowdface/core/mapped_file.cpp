@@ -13,6 +13,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -86,25 +87,16 @@ int begin_watch(char* begin, std::size_t size, OnTruncation on_truncation, const
   return -1;
 }
 
-/// Opens a new file without a name, for reading and writing.
-/// \throws CannotCreate.
-FileDescriptor nameless_file(const fs::path& folder) {
-  make_directories(folder);
-  FileDescriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600));
-  if (file.valid()) return file;
-  // For file systems that do not support O_TMPFILE: create a file with a name, then remove the
-  // name.
-  std::string name = (folder / ".crowdface-XXXXXX.tmp").string();
-  file = FileDescriptor(::mkostemps(name.data(), 4, O_CLOEXEC));
-  if (!file.valid()) throw_with_errno<CannotCreate>(folder, "no file can be created there");
-  ::unlink(name.c_str());
-  return file;
-}
-
 }  // namespace
 
 void watch_mapped_files() {
   watching = true;
+  // A mapping that fills missing pages keeps its file open: allow as many open files as possible
+  struct rlimit open_files {};
+  if (::getrlimit(RLIMIT_NOFILE, &open_files) == 0) {
+    open_files.rlim_cur = open_files.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &open_files);
+  }
   struct sigaction before {};
   if (::sigaction(SIGBUS, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
   struct sigaction action {};
@@ -151,20 +143,6 @@ MappedFile::MappedFile(const fs::path& path, OnTruncation on_truncation) {
   if (read_up_to(file, static_cast<char*>(mapping_->data), size, path) < size) {
     throw IoError(concat(path.string(), kWasTruncated));
   }
-}
-
-MappedFile MappedFile::from_temporary_copy(std::string_view bytes, const fs::path& folder) {
-  FileDescriptor file = nameless_file(folder);
-  if (!write_all(file.get(), bytes)) {
-    throw_with_errno<IoError>(
-        folder, concat("a temporary file of ", format_bytes(bytes.size()), " cannot be written"));
-  }
-  MappedFile mapped;
-  if (!bytes.empty()) {
-    mapped.mapping_ = std::make_shared<const Mapping>(
-        std::move(file), bytes.size(), OnTruncation::kEnd, folder / "a temporary file");
-  }
-  return mapped;
 }
 
 MappedFile MappedFile::from_text(std::string text) {

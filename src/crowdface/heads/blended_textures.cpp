@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <set>
 #include <tuple>
@@ -10,7 +11,9 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "crowdface/core/result_versions.h"
 #include "crowdface/core/text.h"
+#include "crowdface/heads/cached.h"
 #include "crowdface/heads/head_textures.h"
 #include "crowdface/heads/image_values.h"
 #include "crowdface/heads/picture_layout.h"
@@ -52,8 +55,19 @@ struct NeededMap {
   int width = 0, height = 0;
   MapContent content = MapContent::kColours;
   int channels = 3;
+  Digest file_digest = {};  ///< hash of the file
   auto key() const { return std::tie(path, width, height, content, channels); }
   bool operator<(const NeededMap& other) const { return key() < other.key(); }
+  Digest digest() const {
+    return Hasher()
+        .add(kTextureVersion)
+        .add(file_digest)
+        .add(width)
+        .add(height)
+        .add(static_cast<int>(content))
+        .add(channels)
+        .digest();
+  }
 };
 using LoadedMaps = std::map<NeededMap, std::shared_ptr<const TextureMap>>;
 
@@ -104,37 +118,86 @@ std::uint64_t map_bytes(const NeededMap& needed) {
          static_cast<std::uint64_t>(needed.height) * static_cast<std::uint64_t>(needed.channels);
 }
 
-/// \param scratch  folder for the file of the map; empty: the map stays in memory
-std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, const fs::path& scratch) {
+/// A map as a cache entry stores it.
+struct StoredMap {
+  float low = 0, step = 1;
+  std::span<const StoredValue> planes;
+};
+
+constexpr auto kMapArrays = [](auto& arrays, auto& map) {
+  arrays("low", map.low);
+  arrays("step", map.step);
+  arrays("planes", map.planes);
+};
+
+/// Keeps converted maps in the cache. The kernel can drop and reload the pages of these files, so
+/// the maps do not count as memory of this process.
+class MapCache {
+ public:
+  explicit MapCache(const CacheFolder& cache) : cache_(cache), works_(!cache.path.empty()) {}
+
+  /// Finds a map.
+  /// \param blank  the map without its values
+  std::shared_ptr<const TextureMap> find(const Digest& key, TextureMap blank) const {
+    const auto is_sound = [&](const StoredMap& stored, const CacheEntry& entry) {
+      blank.mapped_file = entry.file();
+      const auto channels = static_cast<std::size_t>(blank.coding.channels);
+      return stored.planes.size() == channels * blank.texel_count() && stored.step > 0;
+    };
+    const auto stored = find_cached<StoredMap>(cache_, {"map", key}, kMapArrays, is_sound);
+    if (!stored) return nullptr;
+    blank.coding.low = stored->low;
+    blank.coding.step = stored->step;
+    blank.mapped_planes = stored->planes;
+    return std::make_shared<const TextureMap>(std::move(blank));
+  }
+
+  /// Stores a map. \return the stored map; null if it cannot be stored
+  std::shared_ptr<const TextureMap> store(const Digest& key, const TextureMap& map) {
+    const StoredMap stored{map.coding.low, map.coding.step, map.stored()};
+    works_ = works_ && crowdface::store(cache_, {"map", key}, arrays_of(stored, kMapArrays),
+                                        "converted textures");
+    return works_ ? find(key, {map.width, map.height, {}, map.coding}) : nullptr;
+  }
+
+ private:
+  const CacheFolder& cache_;
+  std::atomic<bool> works_;  ///< false after an entry could not be written
+};
+
+std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, MapCache& cache) {
   struct Kept {
     ImageMemory memory;
     TextureMap map;
   };
   throw_if_interrupted();
+  const Digest key = needed.digest();
+  if (auto found =
+          cache.find(key, {needed.width, needed.height, {}, {needed.content, needed.channels}})) {
+    return found;
+  }
   Kept read{reserve_image_memory(needed.path, map_bytes(needed)),
             map_of(read_image(needed.path, {.allows_jpeg = true}), needed)};
-  if (!scratch.empty()) {
-    move_to_disk(read.map, scratch);
-    read.memory.reset();
-  }
+  if (auto stored = cache.store(key, read.map)) return stored;
   const auto kept = std::make_shared<const Kept>(std::move(read));
   return {kept, &kept->map};
 }
 
-void read_maps(LoadedMaps& maps, const fs::path& scratch) {
+void read_maps(LoadedMaps& maps, MapCache& cache) {
   std::vector<LoadedMaps::value_type*> all;
   for (auto& map : maps) all.push_back(&map);
   parallel_for_each(all.size(),
-                    [&](std::size_t i) { all[i]->second = read_map(all[i]->first, scratch); });
+                    [&](std::size_t i) { all[i]->second = read_map(all[i]->first, cache); });
 }
 
 /// Merges several maps, each of which covers some of the polygons that use the image.
 std::shared_ptr<const TextureMap> compose(
     const HeadSet& heads, const TextureLayout& layout, std::uint32_t picture,
     const std::vector<std::uint32_t>& file_of_polygon,
-    const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps,
-    const fs::path& scratch) {
+    const std::map<std::uint32_t, std::shared_ptr<const TextureMap>>& maps, const Digest& key,
+    MapCache& cache) {
   const TextureMap& first = *maps.begin()->second;
+  if (auto found = cache.find(key, {first.width, first.height, {}, first.coding})) return found;
   const std::span<const StoredValue> stored = first.stored();
   auto composed = std::make_shared<TextureMap>(
       TextureMap{first.width, first.height, {stored.begin(), stored.end()}, first.coding});
@@ -158,7 +221,7 @@ std::shared_ptr<const TextureMap> compose(
       }
     }
   }
-  if (!scratch.empty()) move_to_disk(*composed, scratch);
+  if (auto kept = cache.store(key, *composed)) return kept;
   return composed;
 }
 
@@ -213,7 +276,7 @@ NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
 
 HeadTextures load_blended_textures(const HeadSet& heads, const PolygonMaterials& materials,
                                    FoundTextureFiles found, std::optional<std::uint64_t> size,
-                                   const fs::path& scratch) {
+                                   const CacheFolder& cache) {
   HeadTextures result;
   TextureLayout& layout = result.blended.layout;
   const std::vector<PictureSource> pictures = lay_out_pictures(found, layout);
@@ -256,6 +319,7 @@ HeadTextures load_blended_textures(const HeadSet& heads, const PolygonMaterials&
   const auto needed = [&](std::size_t h, std::uint32_t row, std::size_t p) {
     NeededMap map = held[p];
     map.path = found.heads[h].files[row].path;
+    map.file_digest = contents.at(map.path);
     map.width = layout.pictures[p].width;
     map.height = layout.pictures[p].height;
     return map;
@@ -266,10 +330,8 @@ HeadTextures load_blended_textures(const HeadSet& heads, const PolygonMaterials&
       for (const std::uint32_t row : rows[h][p]) maps[needed(h, row, p)];
     }
   }
-  std::uint64_t bytes = 0;
-  for (const auto& [map, unread] : maps) bytes += map_bytes(map);
-  const fs::path out_of_memory = bytes > available_image_memory() / 2 ? scratch : fs::path();
-  read_maps(maps, out_of_memory);
+  MapCache kept_maps(cache);
+  read_maps(maps, kept_maps);
 
   result.blended.maps.resize(pictures.size());
   for (std::size_t p = 0; p < pictures.size(); ++p) {
@@ -277,11 +339,21 @@ HeadTextures load_blended_textures(const HeadSet& heads, const PolygonMaterials&
     for (std::size_t h = 0; h < rows.size(); ++h) {
       auto& map = result.blended.maps[p].emplace_back();
       std::map<std::uint32_t, std::shared_ptr<const TextureMap>> of_row;
-      for (const std::uint32_t row : rows[h][p]) of_row[row] = maps.at(needed(h, row, p));
+      Hasher composed;  // of everything that a composed map depends on
+      for (const std::uint32_t row : rows[h][p]) {
+        const NeededMap source = needed(h, row, p);
+        of_row[row] = maps.at(source);
+        composed.add(row).add(source.digest());
+      }
       if (of_row.size() == 1) map = of_row.begin()->second;
       if (of_row.size() > 1) {
+        composed.add(p).add_array(std::span<const std::uint32_t>(found.heads[h].file_of_polygon));
+        composed.add_array(std::span<const std::uint32_t>(layout.picture_of_polygon));
+        for (const auto& tile : layout.tile_of_polygon) composed.add(tile[0]).add(tile[1]);
+        composed.add_array(std::span<const std::uint32_t>(heads.topology.corner_uvs));
+        composed.add_array(std::span(heads.uvs.data(), static_cast<std::size_t>(heads.uvs.size())));
         map = compose(heads, layout, static_cast<std::uint32_t>(p), found.heads[h].file_of_polygon,
-                      of_row, out_of_memory);
+                      of_row, composed.digest(), kept_maps);
       }
       if (map) continue;
       const PictureName& name = result.names[p];

@@ -10,6 +10,7 @@
 
 #include "crowdface/config/config.h"
 #include "crowdface/core/hash.h"
+#include "crowdface/heads/cache_folder.h"
 #include "crowdface/heads/head_texture_files.h"
 #include "crowdface/render/texture.h"
 #include "crowdface/texture/crowd_textures.h"
@@ -104,12 +105,11 @@ HeadTextures load_render_textures(FoundTextureFiles found, int max_px);
 /// side has the length `size`.
 /// \param size     texels of the longer side; nothing: the longer side of the largest file, but at
 ///                 most 4,096
-/// \param scratch  folder for the maps; used if all maps together would need more than half of the
-///                 memory that is still free for images
+/// \param cache    stores the converted textures, which are then mapped and not in memory
 /// \throws InvalidInput if a file is damaged, or is not of the kind that its material says, such as
 ///     a grey image as a normal map.
 HeadTextures load_blended_textures(const HeadSet& heads, const PolygonMaterials& materials,
                                    FoundTextureFiles found, std::optional<std::uint64_t> size,
-                                   const std::filesystem::path& scratch);
+                                   const CacheFolder& cache);
 
 }  // namespace crowdface

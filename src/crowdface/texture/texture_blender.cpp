@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "crowdface/core/error.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/texture/paint_picture.h"
@@ -272,8 +273,16 @@ VertexFactorsOfImage TextureBlender::vertex_factors_of_image(std::size_t picture
 }
 
 BlendedPicture TextureBlender::blend(const Recipe& recipe, std::size_t picture) const {
-  return paint_picture((*texels_)[picture], codings_[picture], textures_.maps[picture],
-                       vertex_factors_of_image(picture, recipe));
+  const auto& maps = textures_.maps[picture];
+  BlendedPicture blended = paint_picture((*texels_)[picture], codings_[picture], maps,
+                                         vertex_factors_of_image(picture, recipe));
+  const auto is_truncated = [](const auto& map) {
+    return map && map->mapped_file && map->mapped_file->was_truncated();
+  };
+  if (std::ranges::any_of(maps, is_truncated)) {
+    throw IoError("a texture in the cache was truncated while it was in use; run again");
+  }
+  return blended;
 }
 
 std::size_t TextureBlender::memory_bytes() const {

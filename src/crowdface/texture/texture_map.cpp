@@ -107,12 +107,4 @@ std::vector<std::uint8_t> srgb8_of(const TextureMap& map) {
   return bytes;
 }
 
-void move_to_disk(TextureMap& map, const std::filesystem::path& folder) {
-  const std::string_view bytes(reinterpret_cast<const char*>(map.planes.data()),
-                               map.planes.size() * sizeof(StoredValue));
-  map.disk_file =
-      std::make_shared<const MappedFile>(MappedFile::from_temporary_copy(bytes, folder));
-  map.planes = std::vector<StoredValue>();  // frees the memory, unlike assigning {}
-}
-
 }  // namespace crowdface

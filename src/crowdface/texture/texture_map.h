@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -61,17 +60,17 @@ struct TextureMap {
   int height = 0;
   std::vector<StoredValue> planes;  ///< one plane per channel: height by width, first row at v = 1
   MapCoding coding = {};
-  std::shared_ptr<const MappedFile> disk_file = {};  ///< holds the planes after move_to_disk
+  /// the planes in a mapped file, instead of `planes`
+  std::span<const StoredValue> mapped_planes = {};
+  std::shared_ptr<const MappedFile> mapped_file = {};
 
   float decode(StoredValue stored) const { return coding.decode(stored); }
   std::size_t texel_count() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
-  /// The stored values of all channels, plane by plane, in memory or on disk.
+  /// The stored values of all channels, plane by plane.
   std::span<const StoredValue> stored() const {
-    if (disk_file == nullptr) return planes;
-    const std::string_view bytes = disk_file->bytes();
-    return {reinterpret_cast<const StoredValue*>(bytes.data()), bytes.size() / sizeof(StoredValue)};
+    return mapped_file == nullptr ? std::span(planes) : mapped_planes;
   }
   const StoredValue* row(int channel, int y) const {
     return stored().data() + plane_row_offset(channel, y);
@@ -86,10 +85,6 @@ struct TextureMap {
            static_cast<std::size_t>(width);
   }
 };
-
-/// Moves a map's planes from memory to an unnamed, memory-mapped file in `folder`.
-/// \throws CannotCreate, IoError.
-void move_to_disk(TextureMap& map, const std::filesystem::path& folder);
 
 /// A source image that is read row by row, from any thread. Rows contain linear light, or the
 /// numbers that a MapCoding encodes.
