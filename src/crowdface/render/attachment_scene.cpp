@@ -25,7 +25,9 @@ float area_of(const Quad& quad, const std::vector<float>& points) {
 
 AttachmentScene::AttachmentScene(const RayDevice& device,
                                  std::span<const AttachmentMesh> attachments, const Camera& camera,
-                                 int size_px) {
+                                 int size_px)
+    : size_px_(size_px),
+      may_cover_(static_cast<std::size_t>(size_px) * static_cast<std::size_t>(size_px)) {
   std::vector<float> points;
   for (const AttachmentMesh& mesh : attachments) {
     const AttachmentSurface& surface = *mesh.surface;
@@ -48,12 +50,39 @@ AttachmentScene::AttachmentScene(const RayDevice& device,
       quads_.push_back(quad);
     }
   }
+  mark_pixels(points, static_cast<float>(1 / camera.tan_half_fov));
   scene_ = std::make_unique<const RayScene>(
       device, std::move(points), quads_, [this](std::uint32_t quad, float u, float v) {
         const Part& part = part_of(quad);
         return part.surface->opacity(quad - part.first_quad, bilinear_weights(quads_[quad], u, v),
                                      mip_levels_[quad]);
       });
+}
+
+void AttachmentScene::mark_pixels(const std::vector<float>& points, float distance) {
+  using Box = Eigen::AlignedBox2f;
+  const float half_side = 0.5F * static_cast<float>(size_px_);
+  const Box image(Eigen::Vector2f::Zero(), Eigen::Vector2f::Constant(2 * half_side - 1));
+  for (const Quad& quad : quads_) {
+    Box box;
+    for (const std::uint32_t vertex : quad) {
+      const float* p = points.data() + std::size_t{3} * vertex;
+      const float depth = distance - p[2];
+      if (depth <= 0) {  // a vertex behind the viewer: the quad may be anywhere on the image
+        box = image;
+        break;
+      }
+      box.extend(half_side *
+                 Eigen::Vector2f(1 + p[0] * distance / depth, 1 - p[1] * distance / depth));
+    }
+    const Box inside = box.intersection(image);
+    if (box.max().minCoeff() < 0 || inside.isEmpty()) continue;
+    const Eigen::Vector2i low = inside.min().cast<int>(), high = inside.max().cast<int>();
+    for (int y = low.y(); y <= high.y(); ++y) {
+      const auto row = may_cover_.begin() + std::ptrdiff_t{y} * size_px_;
+      std::fill(row + low.x(), row + high.x() + 1, true);
+    }
+  }
 }
 
 const AttachmentScene::Part& AttachmentScene::part_of(std::uint32_t quad) const {

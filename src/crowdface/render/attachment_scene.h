@@ -23,6 +23,10 @@ class AttachmentScene {
   AttachmentScene& operator=(const AttachmentScene&) = delete;
 
   const RayScene& scene() const { return *scene_; }
+  /// Whether an attachment may be in front of some point of a pixel.
+  bool may_cover(int x, int y) const {
+    return may_cover_[static_cast<std::size_t>(y * size_px_ + x)];
+  }
 
   /// The normal and the colour of an attachment at a hit.
   struct HitSurface {
@@ -40,7 +44,13 @@ class AttachmentScene {
   };
   /// Returns the attachment to which a quad of the scene belongs.
   const Part& part_of(std::uint32_t quad) const;
+  /// Sets `may_cover_` in the pixels of the quads' bounding boxes on the image.
+  /// \param points    3 coordinates per vertex, in camera space
+  /// \param distance  from the viewer to the image
+  void mark_pixels(const std::vector<float>& points, float distance);
 
+  int size_px_;
+  std::vector<bool> may_cover_;  ///< one per pixel
   std::vector<Part> parts_;
   std::vector<Quad> quads_;
   std::vector<std::uint8_t> mip_levels_;  ///< #quads; see AttachmentSurface::mip_level

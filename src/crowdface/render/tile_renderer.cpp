@@ -145,19 +145,19 @@ class Tile {
   }
 
   void render(Rgb8Image& image) {
-    // Trace the same small number of samples in every pixel.
-    const PixelSamples& first =
-        scene_.attachments != nullptr ? sampling_.coarse_samples : sampling_.centre_sample;
-    trace_camera_rays([&](const Pixel&) { return &first; });
+    // Trace a few samples in every pixel: where attachments may be, more than one, because
+    // attachments may be transparent.
+    trace_camera_rays([&](int x, int y, const Pixel&) {
+      return may_have_attachments(x, y) ? &sampling_.coarse_samples : &sampling_.centre_sample;
+    });
     // Trace more samples in pixels that differ from their neighbours.
     if (sampling_.fine_samples.count() > 1) {
       for (int y = rim_top_; y < rim_bottom_; ++y) {
         for (int x = rim_left_; x < rim_right_; ++x) pixel(x, y).change = variation_at(x, y);
       }
-      trace_camera_rays([&](const Pixel& pixel) -> const PixelSamples* {
+      trace_camera_rays([&](int x, int y, const Pixel& pixel) -> const PixelSamples* {
         if (pixel.change == PixelVariation::kEdge) return &sampling_.fine_samples;
-        const bool asks =
-            pixel.change == PixelVariation::kRelief && &first != &sampling_.coarse_samples;
+        const bool asks = pixel.change == PixelVariation::kRelief && !may_have_attachments(x, y);
         return asks ? &sampling_.coarse_samples : nullptr;
       });
     }
@@ -180,6 +180,9 @@ class Tile {
   };
 
   Pixel& pixel(int x, int y) { return pixels_[outer_.index(x, y)]; }
+  bool may_have_attachments(int x, int y) const {
+    return scene_.attachments != nullptr && scene_.attachments->may_cover(x, y);
+  }
 
   template <class Body>
   void for_each_pixel(const Body& body) {
@@ -201,12 +204,14 @@ class Tile {
     std::vector<const PixelSamples*> places;
     std::vector<Ray>& rays = memory_.rays;
     rays.clear();
+    std::vector<std::size_t> rays_near_attachments;
     for_each_pixel([&](int x, int y, const Pixel& pixel) {
-      places.push_back(samples_of(pixel));
+      places.push_back(samples_of(x, y, pixel));
       if (places.back() == nullptr) return;
       std::uint32_t number = 0;
       for (const Eigen::Vector2f& place : places.back()->positions()) {
         const Eigen::Vector2f at = on_image(x, y, place);
+        if (may_have_attachments(x, y)) rays_near_attachments.push_back(rays.size());
         rays.push_back({scene_.viewer_position,
                         Vector(2 * at.x() - 1, 1 - 2 * at.y(), 0) - scene_.viewer_position});
         rays.back().opacity_seed = (2 * number++ + 1) * 32768U / places.back()->count();
@@ -216,11 +221,16 @@ class Tile {
     scene_.rasterizer.nearest_hits({left_ / kSquareSide, top_ / kSquareSide}, outer_, places, hits);
     // Find attachments in front of the face.
     std::vector<std::optional<RayHit>> attachments;
-    if (scene_.attachments != nullptr) {
-      for (std::size_t r = 0; r < rays.size(); ++r) {
-        if (hits[r]) rays[r].max_distance = hits[r]->distance;
+    if (!rays_near_attachments.empty()) {
+      std::vector<Ray> limited;
+      for (const std::size_t r : rays_near_attachments) {
+        limited.push_back(rays[r]);
+        if (hits[r]) limited.back().max_distance = hits[r]->distance;
       }
-      attachments = scene_.attachments->scene().nearest_hits(rays);
+      const auto found = scene_.attachments->scene().nearest_hits(limited);
+      attachments.resize(rays.size());
+      for (std::size_t i = 0; i < found.size(); ++i)
+        attachments[rays_near_attachments[i]] = found[i];
     }
     std::size_t ray = 0;
     auto at = places.begin();
@@ -258,7 +268,7 @@ class Tile {
     PixelVariation most = PixelVariation::kNone;
     for (const CameraHit& other : camera_hits)
       most = std::max(most, change(camera_hits.front(), other));
-    if (scene_.attachments != nullptr) return most;  // the pixel's own samples suffice
+    if (may_have_attachments(x, y)) return most;  // the pixel's own samples suffice
     for (const auto& [i, j] : {std::pair(x - 1, y), {x + 1, y}, {x, y - 1}, {x, y + 1}}) {
       if (i < outer_.left || i >= outer_.right || j < outer_.top || j >= outer_.bottom) continue;
       const std::span<const CameraHit> beside = hits_of(pixel(i, j));

@@ -15,8 +15,7 @@ struct Sampling {
   /// One sample in the centre of the pixel.
   PixelSamples centre_sample;
   /// Samples for pixels that contain no edge, but whose normals differ from their neighbours'
-  /// normals. If there are attachments (which may be transparent), samples for all pixels without
-  /// an edge.
+  /// normals, and for pixels without an edge where attachments may be.
   PixelSamples coarse_samples;
   PixelSamples fine_samples;  ///< samples for pixels with edges
   /// directions of each pixel's shadow rays, towards the key light and towards the sky
