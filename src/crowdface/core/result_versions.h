@@ -27,7 +27,7 @@ inline constexpr int kPlanVersion = 5;
 /// their cells, mirror vertices.
 inline constexpr int kSharedCacheVersion = 1;
 /// Version of the images, skin measurements and mesh files made from the positions of a face.
-inline constexpr int kFaceFilesVersion = 25;
+inline constexpr int kFaceFilesVersion = 26;
 /// Version of the blend shapes transferred to a face, and of the rendered images of these shapes.
 inline constexpr int kShapesVersion = 9;
 /// Version of the named points (config section `points`) that move with the surface of a face.
@@ -42,7 +42,7 @@ inline constexpr int kAttachmentsVersion = 6;
 /// Version of the levels of detail of the heads' mesh.
 inline constexpr int kLevelsVersion = 1;
 /// Version of the blended textures of faces.
-inline constexpr int kTextureVersion = 3;
+inline constexpr int kTextureVersion = 4;
 /// Version of the contact sheets and galleries made from rendered images.
 inline constexpr int kSheetVersion = 17;
 
