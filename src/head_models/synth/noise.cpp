@@ -22,14 +22,13 @@ double signed_unit(std::uint64_t bits) {
   return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
 }
 
-std::array<double, 4> spline(double t) {
-  const double u = 1 - t;
-  return {u * u * u / 6, (3 * t * t * t - 6 * t * t + 4) / 6, (3 * u * u * u - 6 * u * u + 4) / 6,
-          t * t * t / 6};
+Eigen::Array4d spline(double t) {
+  const double u = 1 - t, tt = t * t, uu = u * u;
+  return {uu * u / 6, (3 * tt * t - 6 * tt + 4) / 6, (3 * uu * u - 6 * uu + 4) / 6, tt * t / 6};
 }
 
-/// The coefficients of the 4 × 4 × 4 lattice points around a cell, indexed as [z][4 x + y].
-using Coefficients = std::array<std::array<double, 16>, 4>;
+/// The coefficients of the 4 × 4 × 4 lattice points around a cell: row 4 x + y, column z.
+using Coefficients = Eigen::Array<double, 16, 4>;
 
 /// Returns the coefficients around a cell. Each thread caches recently used cells (direct-mapped),
 /// because neighbouring texels are mostly in the same cells.
@@ -56,7 +55,8 @@ const Coefficients& coefficients_of(std::uint64_t key, const std::array<std::int
     const std::uint64_t start = key ^ (x * 0x8CB92BA72F3D8DD7ULL + y * 0xD6E8FEB86659FD93ULL);
     for (std::size_t k = 0; k < 4; ++k) {
       const auto z = static_cast<std::uint64_t>(cell[2]) + k;
-      entry.coefficients[k][line] = signed_unit(scramble(start + z * 0xA0761D6478BD642FULL));
+      entry.coefficients(static_cast<Eigen::Index>(line), static_cast<Eigen::Index>(k)) =
+          signed_unit(scramble(start + z * 0xA0761D6478BD642FULL));
     }
   }
   return entry.coefficients;
@@ -74,23 +74,24 @@ std::uint64_t mix(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
 
 double SmoothNoise::at(const Eigen::Vector3d& point) const {
   std::array<std::int64_t, 3> cell{};
-  std::array<std::array<double, 4>, 3> weights{};
+  std::array<Eigen::Array4d, 3> weights;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double x = point[static_cast<Eigen::Index>(k)] / spacing_, below = std::floor(x);
-    cell[k] = static_cast<std::int64_t>(below);
-    weights[k] = spline(x - below);
+    // Round down without std::floor, which is a function call without SSE4.1
+    const double x = point[static_cast<Eigen::Index>(k)] / spacing_;
+    cell[k] = static_cast<std::int64_t>(x);
+    if (static_cast<double>(cell[k]) > x) --cell[k];
+    weights[k] = spline(x - static_cast<double>(cell[k]));
   }
-  const Coefficients& coefficients = coefficients_of(key_, cell);
-  std::array<double, 16> rows{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    for (std::size_t line = 0; line < 16; ++line) {
-      rows[line] += weights[2][k] * coefficients[k][line];
-    }
-  }
-  double sum = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) sum += weights[0][i] * weights[1][j] * rows[4 * i + j];
-  }
+  const Coefficients& lattice = coefficients_of(key_, cell);
+  // Sum over z, then x, then y, as products of short vectors
+  const auto& [along_x, along_y, along_z] = weights;
+  const Eigen::Array<double, 16, 1> lines =
+      along_z[0] * lattice.col(0) + along_z[1] * lattice.col(1) + along_z[2] * lattice.col(2) +
+      along_z[3] * lattice.col(3);
+  const Eigen::Array4d row = along_x[0] * lines.segment<4>(0) + along_x[1] * lines.segment<4>(4) +
+                             along_x[2] * lines.segment<4>(8) + along_x[3] * lines.segment<4>(12);
+  const double sum =
+      (along_y[0] * row[0] + along_y[1] * row[1]) + (along_y[2] * row[2] + along_y[3] * row[3]);
   return 2.5 * sum;  // the spline's averaging reduces the range to about two fifths
 }
 
