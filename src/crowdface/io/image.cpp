@@ -320,11 +320,6 @@ std::string encode_png(int width, int height, int channels, std::span<const std:
                 pixels.size());
 }
 
-std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels) {
-  return encode("png", {ImageToEncode::Form::kUncompressedPng, width, height, 3, pixels.data()},
-                pixels.size());
-}
-
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {
   return encode("jpeg", {ImageToEncode::Form::kJpeg, width, height, 3, pixels.data()},
                 pixels.size());

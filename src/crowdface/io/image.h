@@ -104,10 +104,6 @@ ImageSize read_image_size(const std::filesystem::path& path, const ImageLimits& 
 /// \throws BrokenPrecondition if the sizes do not match.
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels);
 
-/// Encodes an 8-bit RGB PNG with deflate's uncompressed ("stored") blocks, so that the bytes do not
-/// depend on the installed zlib.
-std::string encode_stored_png(int width, int height, std::span<const std::uint8_t> pixels);
-
 /// Encodes a PNG with 16 bits per value.
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels);

@@ -25,7 +25,7 @@ struct ImageHeader {
 
 /// Pixels to be encoded as a file.
 struct ImageToEncode {
-  enum class Form { kPng, kUncompressedPng, kPng16, kJpeg, kExr };
+  enum class Form { kPng, kPng16, kJpeg, kExr };
   Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
   /// row-major; floats for OpenEXR, 16-bit numbers for kPng16, otherwise bytes

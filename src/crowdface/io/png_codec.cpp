@@ -6,13 +6,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <vector>
 
 #include <png.h>
 #include <zlib.h>
 
 #include "crowdface/core/interrupt.h"
+#include "crowdface/io/run_deflate.h"
 
 namespace crowdface {
 namespace {
@@ -148,31 +148,18 @@ void append_chunk(std::string_view type, std::string_view data, std::string& fil
   file.append(big_endian(data.size())).append(type).append(data).append(big_endian(checksum));
 }
 
-/// Filters and compresses the rows of an image, and appends the chunks IDAT to `file`. Files of face
-/// images are at most 7 % larger than with the highest compression levels of zlib, and encoding
-/// takes a quarter of the time.
+/// Filters and compresses the rows of an image.
 /// \return false if the process was interrupted
-bool append_rows(const ImageToEncode& picture, std::string& file) {
-  using Form = ImageToEncode::Form;
-  const bool is_filtered = picture.form != Form::kUncompressedPng;
-  const bool has_words = picture.form == Form::kPng16;
+bool compress_rows(const ImageToEncode& picture, std::string& compressed) {
+  const bool has_words = picture.form == ImageToEncode::Form::kPng16;
   const std::size_t pixel_bytes = static_cast<std::size_t>(picture.channels) * (has_words ? 2 : 1);
   const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(picture.width);
   const auto* pixels = static_cast<const std::uint8_t*>(picture.pixels);
-  // Rows after `pixel_bytes` zeros, and a coded row after the number of its filter
-  std::vector<std::uint8_t> row(pixel_bytes + row_bytes), above(row.size()), coded(1 + row_bytes);
-  coded[0] = is_filtered ? PNG_FILTER_VALUE_PAETH : PNG_FILTER_VALUE_NONE;
-  std::vector<char> chunk(std::size_t{1} << 18);
-  z_stream zlib = {};
-  // Z_RLE matches only runs of equal bytes
-  if (deflateInit2(&zlib, is_filtered ? 1 : 0, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_RLE) != Z_OK)
-    throw std::bad_alloc();
-  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&zlib, deflateEnd);
-  const auto start_chunk = [&] {
-    zlib.next_out = reinterpret_cast<Bytef*>(chunk.data());
-    zlib.avail_out = static_cast<uInt>(chunk.size());
-  };
-  start_chunk();
+  // Rows after `pixel_bytes` zeros, and a filtered row after the number of its filter
+  std::vector<std::uint8_t> row(pixel_bytes + row_bytes), above(row.size()),
+      filtered(1 + row_bytes);
+  filtered[0] = PNG_FILTER_VALUE_PAETH;
+  RunDeflater deflater(compressed);
   for (int y = 0; y < picture.height; ++y, pixels += row_bytes) {
     if (is_interrupted()) return false;
     std::swap(row, above);
@@ -180,21 +167,11 @@ bool append_rows(const ImageToEncode& picture, std::string& file) {
     if (has_words) {  // big-endian in the file
       for (std::size_t i = pixel_bytes; i < row.size(); i += 2) std::swap(row[i], row[i + 1]);
     }
-    if (is_filtered) {
-      filter_paeth(row.data() + pixel_bytes, above.data() + pixel_bytes, pixel_bytes, row_bytes,
-                   coded.data() + 1);
-    } else {
-      std::copy_n(row.data() + pixel_bytes, row_bytes, coded.data() + 1);
-    }
-    zlib.next_in = coded.data();
-    zlib.avail_in = static_cast<uInt>(coded.size());
-    const bool is_last = y + 1 == picture.height;
-    while (deflate(&zlib, is_last ? Z_FINISH : Z_NO_FLUSH) == Z_OK && zlib.avail_out == 0) {
-      append_chunk("IDAT", {chunk.data(), chunk.size()}, file);
-      start_chunk();
-    }
+    filter_paeth(row.data() + pixel_bytes, above.data() + pixel_bytes, pixel_bytes, row_bytes,
+                 filtered.data() + 1);
+    deflater.add(filtered);
   }
-  append_chunk("IDAT", {chunk.data(), chunk.size() - zlib.avail_out}, file);
+  deflater.finish();
   return true;
 }
 
@@ -206,11 +183,16 @@ bool write_png(const ImageToEncode& picture, std::string& bytes, std::string& er
   header.push_back(picture.form == ImageToEncode::Form::kPng16 ? 16 : 8);
   header.push_back(kColourTypes[picture.channels - 1]);
   header.append(3, '\0');  // the only methods of compression and filtering; no interlacing
-  bytes = "\x89PNG\r\n\x1a\n";
-  append_chunk("IHDR", header, bytes);
-  if (!append_rows(picture, bytes)) {
+  std::string rows;
+  if (!compress_rows(picture, rows)) {
     error = "interrupted by a signal";
     return false;
+  }
+  bytes = "\x89PNG\r\n\x1a\n";
+  append_chunk("IHDR", header, bytes);
+  constexpr std::size_t kMaxChunk = std::size_t{1} << 30;
+  for (std::size_t at = 0; at < rows.size(); at += kMaxChunk) {
+    append_chunk("IDAT", std::string_view(rows).substr(at, kMaxChunk), bytes);
   }
   append_chunk("IEND", {}, bytes);
   return true;

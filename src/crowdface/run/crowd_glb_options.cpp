@@ -44,7 +44,7 @@ std::string iris_png() {
       std::copy(colour.begin(), colour.end(), picture.at(x, y));
     }
   }
-  return encode_stored_png(kSide, kSide, picture.pixels);
+  return encode_png(kSide, kSide, 3, picture.pixels);
 }
 
 /// Eyes with irises that look the same as in renders. The texture coordinates are computed on the

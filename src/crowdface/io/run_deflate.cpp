@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "crowdface/io/run_deflate.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include <zlib.h>
+
+namespace crowdface {
+namespace {
+
+constexpr std::size_t kBlockBytes = 1 << 16;
+constexpr std::size_t kMinRun = 3, kMaxRun = 258;
+// Symbols of the first code: bytes, the end of the block, and classes of run lengths.
+constexpr std::size_t kEndOfBlock = 256, kSymbols = 286;
+constexpr int kMaxCodeBits = 15, kMaxCodeBitsOfLengths = 7;
+
+/// A symbol and the number of bits that follow it.
+struct RunClass {
+  std::uint16_t symbol;
+  std::uint8_t extra_bits;
+  std::uint16_t first_length;  ///< the shortest run of this class
+};
+
+/// The class of each run length (RFC 1951, 3.2.5).
+const std::array<RunClass, kMaxRun + 1>& run_classes() {
+  static const std::array<RunClass, kMaxRun + 1> classes = [] {
+    std::array<RunClass, kMaxRun + 1> all{};
+    std::size_t length = kMinRun;
+    for (std::uint16_t symbol = 257; symbol < kSymbols; ++symbol) {
+      const int extra_bits = symbol < 265 || symbol == 285 ? 0 : (symbol - 261) / 4;
+      if (symbol == 285) length = kMaxRun;
+      const auto first = static_cast<std::uint16_t>(length);
+      for (int i = 0; i < 1 << extra_bits && length <= kMaxRun; ++i, ++length) {
+        all[length] = {symbol, static_cast<std::uint8_t>(extra_bits), first};
+      }
+    }
+    return all;
+  }();
+  return classes;
+}
+
+/// Number of bits of each symbol's Huffman code, at most `limit`; 0 for symbols that do not occur.
+/// \param counts  how often each symbol occurs; at least two symbols occur
+std::vector<int> huffman_lengths(std::vector<std::uint32_t> counts, int limit) {
+  const std::size_t symbols = counts.size();
+  std::vector<std::size_t> used;
+  for (std::size_t s = 0; s < symbols; ++s) {
+    if (counts[s] > 0) used.push_back(s);
+  }
+  for (;;) {
+    std::ranges::stable_sort(used, {}, [&](std::size_t s) { return counts[s]; });
+    // Nodes: the used symbols in ascending order, then the sums of pairs, also ascending
+    std::vector<std::uint64_t> weights;
+    for (const std::size_t s : used) weights.push_back(counts[s]);
+    std::vector<std::size_t> parents(2 * used.size() - 1);
+    std::size_t next_symbol = 0, next_sum = used.size();
+    const auto take_lightest = [&] {
+      const bool is_symbol =
+          next_symbol < used.size() &&
+          (next_sum >= weights.size() || weights[next_symbol] <= weights[next_sum]);
+      const std::size_t node = is_symbol ? next_symbol++ : next_sum++;
+      parents[node] = weights.size();
+      return weights[node];
+    };
+    while (weights.size() < parents.size()) {
+      const std::uint64_t one = take_lightest(), other = take_lightest();
+      weights.push_back(one + other);
+    }
+    std::vector<int> depths(parents.size(), 0);
+    for (std::size_t node = parents.size() - 1; node-- > 0;) {
+      depths[node] = depths[parents[node]] + 1;
+    }
+    if (depths.front() <= limit) {
+      std::vector<int> lengths(symbols, 0);
+      for (std::size_t i = 0; i < used.size(); ++i) lengths[used[i]] = depths[i];
+      return lengths;
+    }
+    for (const std::size_t s : used) counts[s] = counts[s] / 2 + 1;  // makes the tree flatter
+  }
+}
+
+struct Code {
+  std::uint16_t bits = 0;  ///< in the order of the stream: the first bit is the lowest
+  std::uint8_t length = 0;
+};
+
+/// The canonical Huffman code with these lengths (RFC 1951, 3.2.2).
+std::vector<Code> codes_of(const std::vector<int>& lengths) {
+  std::vector<Code> codes(lengths.size());
+  std::uint32_t next = 0;
+  for (int length = 1; length <= kMaxCodeBits; ++length, next <<= 1) {
+    for (std::size_t s = 0; s < lengths.size(); ++s) {
+      if (lengths[s] != length) continue;
+      std::uint16_t reversed = 0;
+      for (int bit = 0; bit < length; ++bit) {
+        if ((next >> bit & 1U) != 0)
+          reversed |= static_cast<std::uint16_t>(1U << (length - 1 - bit));
+      }
+      codes[s] = {reversed, static_cast<std::uint8_t>(length)};
+      ++next;
+    }
+  }
+  return codes;
+}
+
+/// Calls `literal(byte)` and `run(length)` for the bytes of a block from index `first` on; a run
+/// repeats the byte before it.
+template <class Literal, class Run>
+void visit_tokens(const std::vector<std::uint8_t>& block, std::size_t first, const Literal& literal,
+                  const Run& run) {
+  const std::uint8_t* const bytes = block.data();
+  const std::size_t size = block.size();
+  const auto begins_run = [&](std::size_t i) {  // one condition, which is easy to predict
+    std::uint32_t four = 0;
+    static_assert(sizeof four == 1 + kMinRun);
+    if (i == 0 || i + kMinRun > size) return false;
+    std::memcpy(&four, bytes + i - 1, sizeof four);
+    return four == std::rotl(four, 8);
+  };
+  for (std::size_t i = first; i < size;) {
+    if (!begins_run(i)) {
+      literal(bytes[i++]);
+      continue;
+    }
+    const std::size_t most = std::min(size - i, kMaxRun);
+    std::size_t length = kMinRun;
+    while (length < most && bytes[i + length] == bytes[i]) ++length;
+    run(length);
+    i += length;
+  }
+}
+
+/// Writes bits to memory.
+struct BitWriter {
+  /// \param bits  at most 56; the bits from `count` on are 0
+  void put(std::uint64_t bits, int count) {
+    static_assert(std::endian::native == std::endian::little);
+    pending |= bits << pending_count;
+    pending_count += count;
+    std::memcpy(at, &pending, sizeof pending);  // the whole bytes stay, the rest is written again
+    at += pending_count / 8;
+    pending >>= pending_count / 8 * 8;
+    pending_count %= 8;
+  }
+  char* at;
+  std::uint64_t pending;
+  int pending_count;
+};
+
+/// A symbol of the code for code lengths, and bits that follow it.
+struct LengthToken {
+  std::uint8_t symbol, extra, extra_bits;
+};
+
+/// The lengths of the codes, where one token stands for up to 138 lengths 0 (RFC 1951, 3.2.7).
+std::vector<LengthToken> length_tokens(const std::vector<int>& lengths) {
+  constexpr std::size_t kMinZeros = 3, kMaxFewZeros = 10, kMaxZeros = 138;
+  std::vector<LengthToken> tokens;
+  for (std::size_t i = 0; i < lengths.size();) {
+    std::size_t zeros = 0;
+    while (zeros < kMaxZeros && i + zeros < lengths.size() && lengths[i + zeros] == 0) ++zeros;
+    if (zeros > kMaxFewZeros) {
+      tokens.push_back({18, static_cast<std::uint8_t>(zeros - kMaxFewZeros - 1), 7});
+    } else if (zeros >= kMinZeros) {
+      tokens.push_back({17, static_cast<std::uint8_t>(zeros - kMinZeros), 3});
+    } else {
+      tokens.push_back({static_cast<std::uint8_t>(lengths[i]), 0, 0});
+      zeros = 1;
+    }
+    i += zeros;
+  }
+  return tokens;
+}
+
+}  // namespace
+
+RunDeflater::RunDeflater(std::string& out)
+    : out_(out), checksum_(static_cast<std::uint32_t>(adler32(0, nullptr, 0))) {
+  out_.append("\x78\x01");  // deflate with a window of 32 KiB, fastest
+}
+
+void RunDeflater::add(std::span<const std::uint8_t> bytes) {
+  checksum_ = static_cast<std::uint32_t>(adler32_z(checksum_, bytes.data(), bytes.size()));
+  while (!bytes.empty()) {
+    const std::size_t count = std::min(bytes.size(), kBlockBytes + written_ - block_.size());
+    block_.insert(block_.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count));
+    bytes = bytes.subspan(count);
+    if (block_.size() == kBlockBytes + written_) write_block(false);
+  }
+}
+
+void RunDeflater::finish() {
+  write_block(true);
+  if (pending_count_ > 0) out_.push_back(static_cast<char>(pending_));
+  for (const int shift : {24, 16, 8, 0}) out_.push_back(static_cast<char>(checksum_ >> shift));
+}
+
+void RunDeflater::write_block(bool is_last) {
+  const std::array<RunClass, kMaxRun + 1>& classes = run_classes();
+  // Count the symbols, and choose their codes
+  std::vector<std::uint32_t> counts(kSymbols, 0);
+  ++counts[kEndOfBlock];
+  visit_tokens(
+      block_, written_, [&](std::uint8_t byte) { ++counts[byte]; },
+      [&](std::size_t length) { ++counts[classes[length].symbol]; });
+  if (block_.size() == written_) ++counts[0];  // a code needs two symbols
+  std::vector<int> lengths = huffman_lengths(std::move(counts), kMaxCodeBits);
+  const std::vector<Code> codes = codes_of(lengths);
+  while (lengths.back() == 0) lengths.pop_back();
+  const std::size_t symbols = lengths.size();
+  lengths.push_back(1);  // the code of the distance 1, one bit
+  // Write the codes. No code is longer than 15 bits.
+  const std::size_t before = out_.size();
+  constexpr std::size_t kMaxHeader = 1024;
+  out_.resize(before + kMaxHeader + 2 * block_.size());
+  BitWriter writer{out_.data() + before, pending_, pending_count_};
+  const auto put = [&](std::uint64_t bits, int count) { writer.put(bits, count); };
+  const std::vector<LengthToken> tokens = length_tokens(lengths);
+  std::vector<std::uint32_t> token_counts(19, 0);
+  for (const LengthToken& token : tokens) ++token_counts[token.symbol];
+  const std::vector<int> token_lengths = huffman_lengths(token_counts, kMaxCodeBitsOfLengths);
+  const std::vector<Code> token_codes = codes_of(token_lengths);
+  constexpr std::array<std::size_t, 19> kOrder = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
+                                                  11, 4,  12, 3, 13, 2, 14, 1, 15};
+  put(is_last ? 1 : 0, 1);
+  put(2, 2);  // a block with its own codes
+  put(symbols - 257, 5);
+  put(0, 5);  // one distance
+  put(kOrder.size() - 4, 4);
+  for (const std::size_t symbol : kOrder) put(static_cast<std::uint64_t>(token_lengths[symbol]), 3);
+  for (const LengthToken& token : tokens) {
+    const Code& code = token_codes[token.symbol];
+    put(code.bits | std::uint64_t{token.extra} << code.length, code.length + token.extra_bits);
+  }
+  // Write the bytes
+  visit_tokens(
+      block_, written_, [&](std::uint8_t byte) { put(codes[byte].bits, codes[byte].length); },
+      [&](std::size_t length) {
+        const RunClass& run = classes[length];
+        const Code& code = codes[run.symbol];
+        const std::uint64_t extra = length - run.first_length;
+        put(code.bits | extra << code.length, code.length + run.extra_bits + 1);
+      });
+  put(codes[kEndOfBlock].bits, codes[kEndOfBlock].length);
+  out_.resize(static_cast<std::size_t>(writer.at - out_.data()));
+  pending_ = writer.pending;
+  pending_count_ = writer.pending_count;
+  if (!block_.empty()) block_ = {block_.back()};
+  written_ = block_.size();
+}
+
+}  // namespace crowdface
