@@ -42,7 +42,6 @@ blend 4
 morph 4
 cast 5
 wrap 5
-multiscale_faces 6
 texture 5
 neck 6
 config 6
@@ -60,7 +59,7 @@ crowdface 11'
 # crowdface/crowdface.h, counts as a module `crowdface`.
 includes() {
   find src -name '*.h' -o -name '*.cpp' -o -name '*.in' | sort |
-    xargs grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<]((crowdface|head_models)/[a-z_]+|cli|multiscale_faces)[/.][^">]*' |
+    xargs grep -HnoE '^[[:space:]]*#[[:space:]]*include[[:space:]]*["<]((crowdface|head_models)/[a-z_]+|cli)[/.][^">]*' |
     awk '{
       split($0, at, ":")
       from = at[1]; sub(/^src\//, "", from); sub(/^(crowdface|head_models)\//, "", from); sub(/[\/.].*/, "", from)

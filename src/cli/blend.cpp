@@ -58,20 +58,13 @@ void declare_blend(CLI::App& command, BlendOptions& options) {
   add_option(command, "--recipe", options.recipe, "PLAN.jsonl#ID",
              "The plan file and the id of the face, joined by #")
       .required();
-  add_option(
-      command, "-o,--output", options.out, "FILE",
-      concat("The mesh to write; the file extension sets the format: ", list_of_extensions()))
-      .required();
+  add_mesh_output(command, options.out);
   add_flag(command, "--any-settings", options.any_settings,
            "Blend even if the heads, masks or smoothing differ from those of the plan");
 }
 
 void blend(const BlendOptions& options) {
-  const auto format = mesh_format_of(options.out);
-  if (!format) {
-    throw UsageError(concat("--output: expected a file name that ends in ", list_of_extensions(),
-                            ", found ", quoted(options.out)));
-  }
+  const MeshFormat format = parse_mesh_output(options.out);
   const std::filesystem::path file = checked_output_path(options.out);
   const Job job =
       load_job(options.config.config_file, options.config.overrides, options.config.cache_path());
@@ -93,7 +86,7 @@ void blend(const BlendOptions& options) {
     prepared = prepare(job.config, job.inputs, job.smoothing, options.config.cache_path());
   }
   const Positions positions = FaceBuilder(job.config, job.inputs, prepared).build(line.face.recipe);
-  write_face(job, FaceTextures(job.config, job.inputs), line.face, *format, positions, file);
+  write_face(job, FaceTextures(job.config, job.inputs), line.face, format, positions, file);
   log_info(concat(line.face.id, " written to ", options.out));
 }
 

@@ -18,7 +18,6 @@
 #include "crowdface/core/output_file.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cache_folder.h"
-#include "crowdface/io/mesh_format.h"
 
 namespace crowdface::cli {
 namespace {
@@ -151,6 +150,19 @@ std::uint64_t parse_byte_size(std::string_view option, const std::string& text) 
         concat(option, ": expected a size with its unit, such as \"4 GiB\", found ", quoted(text)));
   }
   return *given;
+}
+
+void add_mesh_output(CLI::App& command, std::string& out) {
+  add_option(
+      command, "-o,--output", out, "FILE",
+      concat("The mesh to write; the file extension sets the format: ", list_of_extensions()))
+      .required();
+}
+
+MeshFormat parse_mesh_output(const std::string& out) {
+  if (const auto format = mesh_format_of(out)) return *format;
+  throw UsageError(concat("--output: expected a file name that ends in ", list_of_extensions(),
+                          ", found ", quoted(out)));
 }
 
 void require_obj_output(const std::string& out) {

@@ -9,6 +9,7 @@
 
 #include "crowdface/config/config_reader.h"
 #include "crowdface/core/parallel.h"
+#include "crowdface/io/mesh_format.h"
 #include "crowdface/run/generate.h"
 
 #include "cli/commands.h"
@@ -74,6 +75,10 @@ Shard parse_shard_option(const std::string& text);
 /// \param option  name of the option, for messages. \throws UsageError.
 std::uint64_t parse_byte_size(std::string_view option, const std::string& text);
 
+/// Adds the option `--output` for a mesh of any format.
+void add_mesh_output(CLI::App& command, std::string& out);
+/// The format of the mesh file given with `--output`. \throws UsageError if unknown.
+MeshFormat parse_mesh_output(const std::string& out);
 /// Checks that the file name given with `--output` ends in .obj. \throws UsageError if not.
 void require_obj_output(const std::string& out);
 

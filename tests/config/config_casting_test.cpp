@@ -2,6 +2,10 @@
 // The sections that say how a crowd is cast, and reviews.
 #include <gmock/gmock.h>
 
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/review.h"
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config_reader.h"
 #include "crowdface/core/text.h"
 
@@ -26,13 +30,13 @@ TEST_F(ConfigTest, CastingIsRead) {
            "  - {name: jones, members: 3, parents: {mother: ann, father: smith_02}, "
            "max_distance: 2 mm, min_distance: 0.5 mm}\n");
   ASSERT_TRUE(config) << told();
-  EXPECT_EQ(config->diversity.mode, DiversityOptions::Mode::kSpread);
-  EXPECT_EQ(config->diversity.min_distance_mm, 1.5);
-  EXPECT_EQ(config->diversity.min_distance_to_heads_mm, 1);
-  EXPECT_EQ(config->diversity.max_weight, 0.7);
+  EXPECT_EQ(config->diversity->mode, DiversityOptions::Mode::kSpread);
+  EXPECT_EQ(config->diversity->min_distance_mm, 1.5);
+  EXPECT_EQ(config->diversity->min_distance_to_heads_mm, 1);
+  EXPECT_EQ(config->diversity->max_weight, 0.7);
   EXPECT_EQ(config->distance.area, ComparedArea::kSkin);
-  EXPECT_EQ(config->believability.max_stretch, 4);
-  EXPECT_EQ(config->believability.meshes, BelievabilityOptions::MeshChecks::kNone);
+  EXPECT_EQ(config->believability->max_stretch, 4);
+  EXPECT_EQ(config->believability->meshes, BelievabilityOptions::MeshChecks::kNone);
   ASSERT_EQ(config->families.size(), 2U);
   EXPECT_EQ(config->families[0].target, 1);
   EXPECT_EQ(config->families[1].parents[0].head, 0);
@@ -288,16 +292,16 @@ TEST_F(ConfigTest, AgesMayBeInYears) {
                            "sampling: {age: [30 years, 60 years]}\n"
                            "changes: {mob_0001: {age: 70years}}\n");
   ASSERT_TRUE(config) << told();
-  EXPECT_EQ(config->sampling.age, (AgeRange{{30, 60}, AgeUnit::kYears}));
+  EXPECT_EQ(config->sampling->age, (AgeRange{{30, 60}, AgeUnit::kYears}));
   EXPECT_EQ(config->changes.at(0).age, (Age{70, AgeUnit::kYears}));
   EXPECT_THAT(config->faces.tags,
               ElementsAre(ElementsAre("young"), ElementsAre("old"), ElementsAre("adult")));
-  EXPECT_THAT(config->sampling.heads_tagged_old, ElementsAre(1));
+  EXPECT_THAT(config->sampling->heads_tagged_old, ElementsAre(1));
   const std::string written = effective_config(*config, folder_);
   const auto again = read(written);
   ASSERT_TRUE(again) << told() << written;
   EXPECT_EQ(effective_config(*again, folder_), written);
-  EXPECT_EQ(again->sampling.age, config->sampling.age);
+  EXPECT_EQ(again->sampling->age, config->sampling->age);
   EXPECT_EQ(again->faces.ages_years, config->faces.ages_years);
 
   const auto refused = [&](const std::string& text, const std::string& phrase) {
@@ -422,7 +426,7 @@ TEST_F(ConfigTest, BandsAreReadAndWritten) {
       "families: [{name: kin, members: 1, parents: {mother: ann, father: bob}, inherit: {build: "
       "mother, low: father, low/skin: mother}}]\nreview: review.yaml\n");
   ASSERT_TRUE(config) << told();
-  const SamplingOptions& sampling = config->sampling;
+  const SamplingOptions& sampling = *config->sampling;
   ASSERT_EQ(band_count(sampling), 3U);
   EXPECT_EQ(sampling.bands[0].name, "build");
   EXPECT_EQ(smoothness_of(sampling, 1, 0).range, (Range{240, 240}));
@@ -489,8 +493,8 @@ TEST_F(ConfigTest, MirroringIsReadAndWritten) {
            "groups: [{name: even, asymmetry: 0}, {name: as_scanned, asymmetry: 1, mirror: none}]\n"
            "recipes: [{id: mine, asymmetry: 0.3, mirrored: true}, {id: open}]\n");
   ASSERT_TRUE(config) << told();
-  EXPECT_EQ(config->sampling.asymmetry, (Range{0.5, 1.2}));
-  EXPECT_EQ(config->sampling.mirror, Mirroring::kRandom);
+  EXPECT_EQ(config->sampling->asymmetry, (Range{0.5, 1.2}));
+  EXPECT_EQ(config->sampling->mirror, Mirroring::kRandom);
   EXPECT_EQ(config->groups[0].sampling.asymmetry, (Range{0, 0}));
   EXPECT_EQ(config->groups[0].sampling.mirror, Mirroring::kRandom) << "as in sampling";
   EXPECT_FALSE(may_mirror(config->groups[1].sampling));
@@ -608,7 +612,7 @@ TEST_F(ConfigTest, LimitsOnMeasurementsAreReadAndWritten) {
   const TraitLimits crowd = {{trait("face_height")},
                              {trait("nose_width"), TraitBound{36, false}},
                              {trait("eye_slope"), TraitBound{-2, false}, TraitBound{0.7, true}}};
-  EXPECT_EQ(config->sampling.traits, crowd);
+  EXPECT_EQ(config->sampling->traits, crowd);
   const TraitLimits group = {
       {trait("face_height")},
       {trait("nose_width"), TraitBound{0.1, true}, TraitBound{0.3, true}},

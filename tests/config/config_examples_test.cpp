@@ -2,6 +2,7 @@
 // The configs that users start from: the examples in configs/ and what `crowdface init` writes.
 #include <gmock/gmock.h>
 
+#include "crowdface/cast/diversity.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/core/text.h"
 
@@ -151,7 +152,7 @@ TEST_F(ExampleConfigs, TheStarterKeepsPeopleApart) {
     facts.head_names.clear();
     for (std::size_t h = 0; h < heads; ++h) facts.head_names.push_back(concat("head_", h));
     const auto config = read(starter_config(facts));
-    return config ? config->diversity.min_distance_mm : -1;
+    return config ? config->diversity->min_distance_mm : -1;
   };
   EXPECT_EQ(proposed(2), 0);
   EXPECT_EQ(proposed(3), 0.5);

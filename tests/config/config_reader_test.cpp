@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/input_files.h"
 
 #include "config/config_test_folder.h"
@@ -33,12 +34,12 @@ TEST_F(ReadConfig, DefaultsAreThoseOfTheReference) {
   EXPECT_EQ(config->smoothing.levels, LevelRepresentation::kBasis);
   EXPECT_EQ(config->smoothing.tolerance_mm, 0.05);
   EXPECT_EQ(config->plane.layout, Layout::kCircle);
-  ASSERT_EQ(config->sampling.regions.size(), 1u);
-  EXPECT_EQ(config->sampling.regions[0].smoothness.range, (Range{0.2, 0.9}));
-  EXPECT_EQ(config->sampling.regions[0].extrapolation, (Range{1, 1}));
-  EXPECT_EQ(config->sampling.targets.size(), 3u);
-  EXPECT_THAT(config->sampling.sources, ElementsAre(0, 1, 2));
-  EXPECT_FALSE(config->sampling.max_sources);
+  ASSERT_EQ(config->sampling->regions.size(), 1u);
+  EXPECT_EQ(config->sampling->regions[0].smoothness.range, (Range{0.2, 0.9}));
+  EXPECT_EQ(config->sampling->regions[0].extrapolation, (Range{1, 1}));
+  EXPECT_EQ(config->sampling->targets.size(), 3u);
+  EXPECT_THAT(config->sampling->sources, ElementsAre(0, 1, 2));
+  EXPECT_FALSE(config->sampling->max_sources);
   EXPECT_EQ(config->output.directory, folder_ / "out/mob");
   EXPECT_THAT(config->output.meshes, ElementsAre(MeshFormat::kObj));
   ASSERT_TRUE(config->output.contact_sheet);
@@ -118,7 +119,7 @@ TEST_F(ReadConfig, RegionsTakeTheirOwnValuesOrTheDefault) {
            "  extrapolation: [0.9, 1.2]\n"
            "  max_sources: 2\n");
   ASSERT_TRUE(config) << told();
-  const auto& regions = config->sampling.regions;
+  const auto& regions = config->sampling->regions;
   ASSERT_EQ(regions.size(), 3u);
   EXPECT_EQ(regions[0].position.kind, PositionDistribution::Kind::kAround);
   EXPECT_EQ(regions[1].position.head, 1);
@@ -130,7 +131,7 @@ TEST_F(ReadConfig, RegionsTakeTheirOwnValuesOrTheDefault) {
   EXPECT_EQ(regions[2].smoothness.unit, SmoothnessDistribution::Unit::kIterations);
   EXPECT_EQ(regions[2].smoothness.range, (Range{2, 9}));
   EXPECT_EQ(regions[2].extrapolation, (Range{0.9, 1.2}));
-  EXPECT_EQ(config->sampling.max_sources, 2);
+  EXPECT_EQ(config->sampling->max_sources, 2);
 }
 
 // The word `face` is a key of a position; a region may bear it, its values being mappings.
@@ -141,8 +142,8 @@ TEST_F(ReadConfig, ARegionMayBeCalledFace) {
            "sampling:\n"
            "  position: {distribution: around, radius: 1, face: {distribution: uniform}}\n");
   ASSERT_TRUE(config) << told();
-  EXPECT_EQ(config->sampling.regions[0].position.kind, PositionDistribution::Kind::kUniform);
-  EXPECT_EQ(config->sampling.regions[1].position.kind, PositionDistribution::Kind::kAround);
+  EXPECT_EQ(config->sampling->regions[0].position.kind, PositionDistribution::Kind::kUniform);
+  EXPECT_EQ(config->sampling->regions[1].position.kind, PositionDistribution::Kind::kAround);
 }
 
 TEST_F(ReadConfig, TargetsAndSourcesByNameTagAndWeight) {
@@ -151,14 +152,14 @@ TEST_F(ReadConfig, TargetsAndSourcesByNameTagAndWeight) {
       "faces: {directory: heads/, units: m, tags: {ann: [old, thin], cyd: [old]}}\n";
   auto config = read(faces + "sampling: {targets: [old], sources: [bob, thin]}\n");
   ASSERT_TRUE(config) << told();
-  ASSERT_EQ(config->sampling.targets.size(), 2u);
-  EXPECT_EQ(config->sampling.targets[1].head, 2);
-  EXPECT_THAT(config->sampling.sources, ElementsAre(0, 1));
+  ASSERT_EQ(config->sampling->targets.size(), 2u);
+  EXPECT_EQ(config->sampling->targets[1].head, 2);
+  EXPECT_THAT(config->sampling->sources, ElementsAre(0, 1));
   config = read(faces + "sampling: {targets: {old: 2, thin: 1, cyd: 0.5}}\n");
   ASSERT_TRUE(config) << told();
-  ASSERT_EQ(config->sampling.targets.size(), 2u);
-  EXPECT_EQ(config->sampling.targets[0].weight, 3) << "tags add up";
-  EXPECT_EQ(config->sampling.targets[1].weight, 0.5) << "a head's own weight counts alone";
+  ASSERT_EQ(config->sampling->targets.size(), 2u);
+  EXPECT_EQ(config->sampling->targets[0].weight, 3) << "tags add up";
+  EXPECT_EQ(config->sampling->targets[1].weight, 0.5) << "a head's own weight counts alone";
 }
 
 TEST_F(ReadConfig, RecipesByRegionAndForAll) {
@@ -314,7 +315,7 @@ TEST_F(ReadConfig, TagsLieBesideTheHeads) {
   ASSERT_TRUE(config) << told();
   using Tags = std::vector<std::vector<std::string>>;
   EXPECT_EQ(config->faces.tags, (Tags{{"old"}, {"young"}, {}}));
-  EXPECT_EQ(config->sampling.heads_tagged_old, (std::vector<Eigen::Index>{0}));
+  EXPECT_EQ(config->sampling->heads_tagged_old, (std::vector<Eigen::Index>{0}));
   const auto own = read(
       "schema: 1\ncrowd: {name: mob, count: 3}\n"
       "faces: {directory: heads, units: cm, tags: {cyd: [old]}}\n");
@@ -406,7 +407,7 @@ TEST_F(ReadConfig, SetAndOptionsOverrideTheFile) {
   ASSERT_TRUE(config) << told();
   EXPECT_EQ(config->crowd.count, 6u);
   EXPECT_EQ(config->crowd.seed, UINT64_MAX);
-  EXPECT_EQ(config->sampling.max_sources, 2);
+  EXPECT_EQ(config->sampling->max_sources, 2);
   EXPECT_EQ(config->output.contact_sheet->columns, 2);
   EXPECT_EQ(config->output.directory, "elsewhere") << "relative to the working directory";
 }

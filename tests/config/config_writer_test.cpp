@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
 
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config.h"
 
 #include "config/config_test_folder.h"
@@ -67,24 +70,24 @@ void expect_equal(const Config& a, const Config& b) {
   EXPECT_EQ(a.parts.together, b.parts.together);
   EXPECT_EQ(a.plane.layout, b.plane.layout);
   EXPECT_EQ(a.plane.anchors, b.plane.anchors);
-  EXPECT_TRUE(same(a.sampling.targets, b.sampling.targets));
-  EXPECT_EQ(a.sampling.sources, b.sampling.sources);
-  EXPECT_EQ(a.sampling.max_sources, b.sampling.max_sources);
-  ASSERT_EQ(a.sampling.regions.size(), b.sampling.regions.size());
-  for (std::size_t i = 0; i < a.sampling.regions.size(); ++i) {
-    EXPECT_TRUE(same(a.sampling.regions[i], b.sampling.regions[i])) << i;
+  EXPECT_TRUE(same(a.sampling->targets, b.sampling->targets));
+  EXPECT_EQ(a.sampling->sources, b.sampling->sources);
+  EXPECT_EQ(a.sampling->max_sources, b.sampling->max_sources);
+  ASSERT_EQ(a.sampling->regions.size(), b.sampling->regions.size());
+  for (std::size_t i = 0; i < a.sampling->regions.size(); ++i) {
+    EXPECT_TRUE(same(a.sampling->regions[i], b.sampling->regions[i])) << i;
   }
-  EXPECT_EQ(a.sampling.age, b.sampling.age);
+  EXPECT_EQ(a.sampling->age, b.sampling->age);
   EXPECT_EQ(a.distance.area, b.distance.area);
   EXPECT_EQ(a.distance.mask, b.distance.mask);
-  EXPECT_EQ(a.diversity.mode, b.diversity.mode);
-  EXPECT_EQ(a.diversity.min_distance_mm, b.diversity.min_distance_mm);
-  EXPECT_EQ(a.diversity.min_distance_to_heads_mm, b.diversity.min_distance_to_heads_mm);
-  EXPECT_EQ(a.diversity.max_weight, b.diversity.max_weight);
-  EXPECT_EQ(a.believability.check, b.believability.check);
-  EXPECT_EQ(a.believability.max_deviation, b.believability.max_deviation);
-  EXPECT_EQ(a.believability.max_flipped, b.believability.max_flipped);
-  EXPECT_EQ(a.believability.meshes, b.believability.meshes);
+  EXPECT_EQ(a.diversity->mode, b.diversity->mode);
+  EXPECT_EQ(a.diversity->min_distance_mm, b.diversity->min_distance_mm);
+  EXPECT_EQ(a.diversity->min_distance_to_heads_mm, b.diversity->min_distance_to_heads_mm);
+  EXPECT_EQ(a.diversity->max_weight, b.diversity->max_weight);
+  EXPECT_EQ(a.believability->check, b.believability->check);
+  EXPECT_EQ(a.believability->max_deviation, b.believability->max_deviation);
+  EXPECT_EQ(a.believability->max_flipped, b.believability->max_flipped);
+  EXPECT_EQ(a.believability->meshes, b.believability->meshes);
   ASSERT_EQ(a.families.size(), b.families.size());
   for (std::size_t i = 0; i < a.families.size(); ++i) {
     EXPECT_EQ(a.families[i].name, b.families[i].name);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config_reader.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"

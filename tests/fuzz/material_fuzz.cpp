@@ -4,7 +4,6 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/io/material_files.h"
-#include "crowdface/io/surface_materials.h"
 
 #include "fuzz/input_file.h"
 #include "fuzz/job_folder.h"
@@ -21,7 +20,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       if (file.destination.is_absolute() || *file.destination.begin() == "..") std::abort();
     }
     crowdface::find_textures(mesh, {"skin.mtl"});
-    for (const auto& material : crowdface::read_surface_materials(files)) {
+    for (const auto& material : files.surface_materials) {
       if (!(material.opacity >= 0 && material.opacity <= 1)) std::abort();
       for (const float part : material.colour.value_or(std::array<float, 3>{})) {
         if (!(part >= 0 && part <= 1)) std::abort();

@@ -23,7 +23,7 @@ TEST(GlbPart, StandsBelowTheFaceWithMaterialsOfItsOwn) {
   uvs << 0.25, 0.25;
   card.corner_uvs.assign(8, 0);
   const std::vector<std::uint8_t> pixels = {9, 8, 7, 255, 1, 2, 3, 0};
-  using Alpha = GlbPartMaterial::Alpha;
+  using Alpha = GlbMaterial::Alpha;
   const GlbPart part(
       "bob", card, uvs,
       {{"cards", {1, 1, 1, 1}, 0, Alpha::kMask}, {"lens", {1, 0, 0, 0.5F}, {}, Alpha::kBlend}},

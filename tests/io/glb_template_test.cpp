@@ -152,7 +152,8 @@ TEST(GlbTemplate, HasTangentsWhereItHasANormalMap) {
 // Eyeballs of one material were blank.
 TEST(GlbTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
   SmallMesh mesh;
-  mesh.options.materials[1] = {"eye", {0.7F, 0.7F, 0.6F, 1}, std::nullopt, true};
+  mesh.options.materials[1] = {
+      .name = "eye", .colour = {0.7F, 0.7F, 0.6F, 1}, .uses_overlay = true};
   const std::string png = encode_png(1, 1, 3, std::vector<std::uint8_t>{200, 100, 50});
   mesh.options.overlay.emplace(GlbOverlay{png, {}});
   for (std::uint16_t v = 0; v < 8; ++v) {

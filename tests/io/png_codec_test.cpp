@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/io/png_codec.h"
+#include "crowdface/io/image_codec.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -107,7 +107,8 @@ TEST(UsdaTemplate, BindsEachFaceToItsMaterial) {
 // Eyeballs of one material were blank.
 TEST(UsdaTemplate, LaysAnOverlayOverTheMaterialsThatWantIt) {
   Scene scene;
-  scene.options.materials[1] = {"eye", {0.7F, 0.7F, 0.6F, 1}, std::nullopt, true};
+  scene.options.materials[1] = {
+      .name = "eye", .colour = {0.7F, 0.7F, 0.6F, 1}, .uses_overlay = true};
   scene.options.overlay.emplace();
   for (std::uint16_t v = 0; v < 8; ++v) scene.options.overlay->uvs.push_back({v, 65535});
   scene.options.overlay->uvs[3] = {65535, 0};

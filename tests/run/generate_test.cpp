@@ -430,7 +430,7 @@ TEST(Generate, TakesAConfigAtHandAsItTakesAFile) {
   std::optional<Config> config = read_config(folder.config(), {}, problems);
   ASSERT_TRUE(config);
   config->crowd.count = 3;
-  config->sampling.max_sources = 2;
+  config->sampling->max_sources = 2;
   generate(*config, {.cache = folder.cache()});
   EXPECT_THAT(testing::differing_files(expected, testing::crowd_files(folder.out())),
               ::testing::IsEmpty());
@@ -440,7 +440,7 @@ TEST(Generate, TakesAConfigAtHandAsItTakesAFile) {
   plan(*config, {.cache = folder.cache()});
   EXPECT_EQ(testing::read_text(folder / "planned/plan.jsonl"), expected.at("plan.jsonl"));
 
-  config->sampling.max_sources = -2;
+  config->sampling->max_sources = -2;
   testing::expect_error(ExitCode::kUsage, {"sampling.max_sources"},
                         [&] { generate(*config, {.cache = folder.cache()}); });
 }

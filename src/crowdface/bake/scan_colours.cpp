@@ -11,10 +11,10 @@
 #include "crowdface/core/scratch_folder.h"
 #include "crowdface/heads/image_values.h"
 #include "crowdface/io/image.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/obj_colours.h"
 #include "crowdface/io/srgb.h"
-#include "crowdface/io/surface_materials.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/texture/triangle_texels.h"
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <iterator>
 
+#include "crowdface/cast/diversity.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/core/contains.h"
@@ -65,7 +66,7 @@ Items select_by_head(Items items, const std::vector<Eigen::Index>& listed, bool 
 /// `diversity.quotas`. If `quota` is null, returns an entry for the faces that no quota covers.
 std::string group_text(const std::vector<Quota>& quotas, const Quota* quota,
                        const WriteContext& context) {
-  const SamplingOptions& sampling = context.config.sampling;
+  const SamplingOptions& sampling = *context.config.sampling;
   std::vector<std::string> entries = {
       yaml_entry("name", quota ? write_scalar(quota->name) : "others")};
   if (quota) entries.push_back(yaml_entry("share", format_number(quota->share)));
@@ -96,7 +97,7 @@ std::optional<Quota> read_quota(const YamlNode& node, const YamlEntry& entry, Co
   const auto value = share ? number(0, 1).read(share->value, draft) : std::nullopt;
   Quota quota{entry.key, value.value_or(0), {}, {}};
   quota.heads = find_heads(entry.key, entry.key_place, node.path, draft);
-  const auto& bands = draft.config.sampling.bands;
+  const auto& bands = draft.config.sampling->bands;
   if (band) {
     quota.band = static_cast<std::size_t>(
         std::ranges::find(bands, band->value.text, &BandSampling::name) - bands.begin());
@@ -257,15 +258,15 @@ const Keys<DiversityOptions>& diversity_keys() {
 namespace {
 
 void read_believability(const YamlNode& node, Config& config, ConfigDraft& draft) {
-  config.believability.check = !is_word(node, "none");
-  if (config.believability.check) {
-    read_keys(node, believability_keys(), config.believability, draft);
+  config.believability->check = !is_word(node, "none");
+  if (config.believability->check) {
+    read_keys(node, believability_keys(), *config.believability, draft);
   }
 }
 
 std::string write_believability(const Config& config, const WriteContext& context) {
-  if (!config.believability.check) return "none";
-  return yaml_block_map(write_keys(believability_keys(), config.believability, context));
+  if (!config.believability->check) return "none";
+  return yaml_block_map(write_keys(believability_keys(), *config.believability, context));
 }
 
 }  // namespace

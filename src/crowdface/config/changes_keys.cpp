@@ -2,6 +2,7 @@
 // The key `changes` of configs and reviews, which changes single faces.
 #include <algorithm>
 
+#include "crowdface/cast/review.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"
@@ -18,7 +19,7 @@ void read_change_of_age(const YamlNode& node, FaceChange& change, ConfigDraft& d
     if (!is_word(node, word.text)) continue;
     change.age_step = word.value;
     const bool is_older = word.value == AgeStep::kOlder;
-    const SamplingOptions& sampling = draft.config.sampling;
+    const SamplingOptions& sampling = *draft.config.sampling;
     if ((is_older ? sampling.heads_tagged_old : sampling.heads_tagged_young).empty() &&
         draft.are_tags_known && draft.are_heads_known) {
       draft.complaints.add_at(

@@ -165,7 +165,7 @@ Codec<double> age_fraction() {
       draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
       return false;
     };
-    const SamplingOptions& sampling = draft.config.sampling;
+    const SamplingOptions& sampling = *draft.config.sampling;
     const bool is_there = *age == 0 || (*age > 0 ? has(sampling.heads_tagged_old, "old")
                                                  : has(sampling.heads_tagged_young, "young"));
     return is_there ? read(node, draft) : std::nullopt;

@@ -13,11 +13,8 @@
 #include "crowdface/blend/normalization.h"
 #include "crowdface/cast/attachment_item.h"
 #include "crowdface/cast/compared_area.h"
-#include "crowdface/cast/diversity.h"
-#include "crowdface/cast/family.h"
 #include "crowdface/cast/plan_names.h"
-#include "crowdface/cast/review.h"
-#include "crowdface/cast/sampling.h"
+#include "crowdface/core/indirect.h"
 #include "crowdface/core/units.h"
 #include "crowdface/io/mesh_format.h"
 #include "crowdface/io/usd_subdivision.h"
@@ -30,6 +27,18 @@
 namespace crowdface {
 
 struct CellSize;  // render/contact_sheet.h
+
+// The headers of cast/ define the sections about casting. Only code that uses one of these sections
+// includes the section's header, so that a new field recompiles only this code.
+struct BelievabilityOptions;
+struct DiversityOptions;
+struct FaceChange;
+struct FamilyOptions;
+struct Group;
+struct ManualRecipe;
+struct Review;
+struct SamplingOptions;
+struct TraitTarget;
 
 /// What to do if the heads are not aligned with each other.
 enum class Align {
@@ -98,6 +107,13 @@ enum class SheetFormat { kPng, kExr, kPdf };
 /// indices. Most members have the names of the YAML keys, which docs/config.md explains. Paths are
 /// absolute or relative to the working directory.
 struct Config {
+  Config();
+  Config(const Config&);
+  Config(Config&&) noexcept;
+  Config& operator=(const Config&);
+  Config& operator=(Config&&) noexcept;
+  ~Config();
+
   std::filesystem::path file;  ///< path of the config file
 
   struct Crowd {
@@ -245,7 +261,7 @@ struct Config {
     std::map<Eigen::Index, PlanePoint> anchors;
   } plane;
 
-  SamplingOptions sampling;
+  Indirect<SamplingOptions> sampling;
 
   /// Which vertices count when the distance between two faces is measured.
   struct Distance {
@@ -254,8 +270,8 @@ struct Config {
     /// the first channel gives the weight of each vertex
     std::optional<std::string> mask;
   } distance;
-  DiversityOptions diversity;
-  BelievabilityOptions believability;
+  Indirect<DiversityOptions> diversity;
+  Indirect<BelievabilityOptions> believability;
   std::vector<ManualRecipe> recipes;
   std::vector<FamilyOptions> families;
   std::vector<Group> groups;

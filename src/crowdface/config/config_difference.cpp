@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "crowdface/cast/diversity.h"
 #include "crowdface/config/config.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/words.h"

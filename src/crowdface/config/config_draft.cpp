@@ -4,12 +4,17 @@
 #include <algorithm>
 #include <set>
 
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config_values.h"
 #include "crowdface/config/input_files.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/file.h"
 
 namespace crowdface {
+
+ConfigDraft::ConfigDraft(Complaints& out) : complaints(out) {
+  config.sampling->regions.resize(1);
+}
 
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path) {
   std::filesystem::path resolved = (folder / path).lexically_normal();

@@ -14,7 +14,7 @@ namespace crowdface {
 /// A config of which some sections have been read. Sections are read in the order of root_keys, and
 /// each section may use the values of earlier sections.
 struct ConfigDraft {
-  explicit ConfigDraft(Complaints& out) : complaints(out) { config.sampling.regions.resize(1); }
+  explicit ConfigDraft(Complaints& out);
 
   Config config;
   Complaints& complaints;

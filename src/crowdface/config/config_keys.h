@@ -6,8 +6,12 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/family.h"
+#include "crowdface/cast/review.h"
 #include "crowdface/config/codec.h"
 
 namespace crowdface {
@@ -257,23 +261,34 @@ Key<Section> key(std::string_view name, Member Section::*member, const Codec<Val
 using SectionCheck = void (*)(const YamlNode& node, bool is_valid, ConfigDraft& draft);
 
 /// Makes a key whose value is a mapping with the given keys.
-template <class Section, class Member>
-Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Member>& keys,
+///
+/// \param member  the mapping's value, or an Indirect that holds the value.
+template <class Section, class Member, class Value>
+Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Value>& keys,
                          std::string_view required_example = {}, SectionCheck check = nullptr) {
-  return {
-      name,
-      [=, &keys](const YamlNode& node, Section& section, ConfigDraft& draft) {
-        const std::size_t complaints_before = draft.complaints.size();
-        read_keys(node, keys, section.*member, draft);
-        if (check) check(node, draft.complaints.size() == complaints_before, draft);
-      },
-      [=, &keys](const Section& section, const WriteContext& context) {
-        return yaml_block_map(write_keys(keys, section.*member, context));
-      },
-      required_example,
-      starter_section(keys),
-      {},
-      [&keys, member](const std::string& path) { return key_rows(path, keys, Section{}.*member); }};
+  const auto value_in = [member](auto& section) -> auto& {
+    if constexpr (std::is_same_v<Member, Value>) {
+      return section.*member;
+    } else {
+      return *(section.*member);
+    }
+  };
+  return {name,
+          [=, &keys](const YamlNode& node, Section& section, ConfigDraft& draft) {
+            const std::size_t complaints_before = draft.complaints.size();
+            read_keys(node, keys, value_in(section), draft);
+            if (check) check(node, draft.complaints.size() == complaints_before, draft);
+          },
+          [=, &keys](const Section& section, const WriteContext& context) {
+            return yaml_block_map(write_keys(keys, value_in(section), context));
+          },
+          required_example,
+          starter_section(keys),
+          {},
+          [=, &keys](const std::string& path) {
+            const Section initial;
+            return key_rows(path, keys, value_in(initial));
+          }};
 }
 
 template <class Section, class Value>

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "crowdface/cast/review.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/edits.h"
 #include "crowdface/config/overridden_keys.h"

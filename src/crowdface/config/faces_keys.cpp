@@ -275,11 +275,11 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
                                    name_of(faces.up), " and front ", name_of(faces.front)));
   }
   for (std::size_t h = 0; h < faces.names.size(); ++h) {
-    config.sampling.targets.push_back({static_cast<Eigen::Index>(h), 1});
-    config.sampling.sources.push_back(static_cast<Eigen::Index>(h));
+    config.sampling->targets.push_back({static_cast<Eigen::Index>(h), 1});
+    config.sampling->sources.push_back(static_cast<Eigen::Index>(h));
   }
-  config.sampling.heads_tagged_old = heads_with_tags({"old"}, faces);
-  config.sampling.heads_tagged_young = heads_with_tags({"young"}, faces);
+  config.sampling->heads_tagged_old = heads_with_tags({"old"}, faces);
+  config.sampling->heads_tagged_young = heads_with_tags({"young"}, faces);
 }
 
 std::optional<StarterLines> faces_starter(const StarterFacts& facts) {

@@ -135,7 +135,7 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
   std::vector<std::string> names = draft.config.region_names();
   for (const std::string& more : draft.config.plan_names().bands) names.push_back(more);
   for (const std::string& part : draft.config.region_band_names()) {
-    if (!draft.config.sampling.bands.empty()) names.push_back(part);
+    if (!draft.config.sampling->bands.empty()) names.push_back(part);
   }
   const MapReader map(node, names, draft.complaints);
   for (const std::string& name : names) {

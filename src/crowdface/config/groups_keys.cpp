@@ -217,7 +217,7 @@ void read_groups(const YamlNode& node, Config& config, ConfigDraft& draft) {
   for (const YamlNode& item : node.items) {
     Group group;
     group.share = kUnsetShare;
-    group.sampling = config.sampling;
+    group.sampling = *config.sampling;
     if (!read_keys(item, group_keys(), group, draft)) continue;
     restrict_targets_to_tags(item, group, draft);
     if (group.count) group.share = 0;

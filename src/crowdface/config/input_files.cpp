@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "crowdface/cast/review.h"
 #include "crowdface/config/config_values.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"

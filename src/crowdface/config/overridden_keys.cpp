@@ -109,7 +109,7 @@ class OverriddenKeys {
   /// heads.
   void find_heads_without_group_tags(const YamlNode& node, std::size_t g,
                                      const std::vector<std::string>& tags) {
-    const SamplingOptions &own = config_.groups[g].sampling, &all = config_.sampling;
+    const SamplingOptions &own = config_.groups[g].sampling, &all = *config_.sampling;
     const auto take = [&](const std::string& key, const Heads& heads, const char* what,
                           const std::vector<std::string>& wanted) {
       const Heads tagged = heads_with_tags(wanted, config_.faces);
@@ -185,9 +185,9 @@ class OverriddenKeys {
       const Parent& parent = family.parents[p];
       const char *role = p == 0 ? "mother" : "father", *sex = p == 0 ? "female" : "male";
       if (!parent.is_new || parent.group || with_any({"female", "male"}).empty()) continue;
-      const bool has_target =
-          std::ranges::any_of(parent.possible_target_heads,
-                              [&](Eigen::Index head) { return is_target(config_.sampling, head); });
+      const bool has_target = std::ranges::any_of(
+          parent.possible_target_heads,
+          [&](Eigen::Index head) { return is_target(*config_.sampling, head); });
       if (has_target) continue;
       add_message(node.path, ".parents.", role, ": no target of sampling.targets is tagged ", sex,
                   ", so 1 face is built on any target");
@@ -199,7 +199,7 @@ class OverriddenKeys {
     const bool has_any = std::ranges::any_of(recipe.regions, [&](const auto& region) {
       return has_weights(region) || std::ranges::any_of(region.bands, has_weights);
     });
-    if (!has_any || recipe.age || config_.sampling.age == AgeRange{}) return;
+    if (!has_any || recipe.age || config_.sampling->age == AgeRange{}) return;
     add_message(node.path, ": sampling.age moves the weights of ", recipe.id,
                 " to other heads (1 face); write age: 0 to keep its weights");
   }

@@ -75,7 +75,7 @@ std::string write_recipe_bands(const HandRegion& region, const WriteContext& con
         write_keys(recipe_band_keys(), region.bands[b], context);
     if (values.empty()) continue;
     entries.push_back(
-        yaml_entry(write_scalar(context.config.sampling.bands[b].name), yaml_flow_map(values)));
+        yaml_entry(write_scalar(context.config.sampling->bands[b].name), yaml_flow_map(values)));
   }
   return entries.empty() ? "" : yaml_flow_map(entries);
 }

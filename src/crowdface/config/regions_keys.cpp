@@ -90,7 +90,7 @@ void read_regions(const YamlNode& node, Config& config, ConfigDraft& draft) {
   draft.are_regions_known = false;
   if (!draft.complaints.expect_map(node, "none or a mapping with the keys names, mask")) return;
   read_keys(node, regions_keys(), config.regions, draft);
-  config.sampling.regions.resize(config.region_names().size());
+  config.sampling->regions.resize(config.region_names().size());
 }
 
 std::optional<StarterLines> regions_starter(const StarterFacts& facts) {

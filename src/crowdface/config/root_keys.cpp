@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/blend/recipe_bounds.h"
+#include "crowdface/cast/diversity.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/starter_config.h"
 #include "crowdface/config/traits_keys.h"
@@ -198,10 +199,10 @@ Key<Config> traits_key() {
   const Codec<TraitLimits> codec = trait_limits();
   return Key<Config>{"traits",
                      [=](const YamlNode& node, Config& config, ConfigDraft& draft) {
-                       if (auto limits = codec.read(node, draft)) config.sampling.traits = *limits;
+                       if (auto limits = codec.read(node, draft)) config.sampling->traits = *limits;
                      },
                      [=](const Config& config, const WriteContext& context) {
-                       return codec.write(config.sampling.traits, context);
+                       return codec.write(config.sampling->traits, context);
                      }};
 }
 
@@ -212,7 +213,7 @@ Key<Config> trait_table_key(const char* name, Config::TraitTable Config::*table)
                            path("a table of measurements, means and deviations").read(node, draft);
                        if (!file || !expect_file(node, *file, draft)) return;
                        if (table == &Config::population &&
-                           config.diversity.mode != DiversityOptions::Mode::kFirstFit) {
+                           config.diversity->mode != DiversityOptions::Mode::kFirstFit) {
                          draft.complaints.add_at(node, "requires diversity.mode: first_fit");
                        }
                        config.*table = {*file, read_trait_table(node, *file, draft)};

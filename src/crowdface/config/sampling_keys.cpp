@@ -237,7 +237,7 @@ void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, Co
 void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& draft) {
   draft.complaints.expect_map(
       node, "a mapping from bands to sizes, coarse to fine, {build: 240 mm, skin: 8 mm}");
-  const bool of_crowd = &sampling == &draft.config.sampling;
+  const bool of_crowd = &sampling == &*draft.config.sampling;
   for (const YamlEntry& entry : node.entries) {
     auto band = std::ranges::find(sampling.bands, entry.key, &BandSampling::name);
     if (band == sampling.bands.end()) {
@@ -271,7 +271,7 @@ std::string write_bands(const SamplingOptions& sampling, const WriteContext& con
 }
 
 bool is_mirrored(const SamplingOptions& sampling, const WriteContext& context) {
-  return may_mirror(sampling) || may_mirror(context.config.sampling);
+  return may_mirror(sampling) || may_mirror(*context.config.sampling);
 }
 
 }  // namespace

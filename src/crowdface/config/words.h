@@ -6,6 +6,9 @@
 #include <tuple>
 #include <vector>
 
+#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/review.h"
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config.h"
 #include "crowdface/core/units.h"
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <utility>
 
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config_reader.h"
 #include "crowdface/config/config_values.h"
 #include "crowdface/config/edited_entries.h"

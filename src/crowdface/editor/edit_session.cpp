@@ -37,7 +37,7 @@ std::string with_spaces(std::string_view name) {
 }
 
 std::string sentence(RejectionReason reason, const Config& config) {
-  return describe_violation(reason, config.diversity, config.believability);
+  return describe_violation(reason, *config.diversity, *config.believability);
 }
 
 /// Measures a face, and adds a warning for each limit that a measurement violates.
@@ -137,7 +137,7 @@ EditSession::JudgingData EditSession::make_judging_data() const {
                       [&](std::size_t i) { points[i] = space.point((*crowd_)[i].recipe); });
     for (const FaceSpace::Point& point : points) crowd.add(point);
   }
-  FaceJudge judge(space, job_.config.diversity, job_.config.believability,
+  FaceJudge judge(space, *job_.config.diversity, *job_.config.believability,
                   &searched_space->proxy_skin);
   auto traits = available_face_traits(job_.config, job_.inputs, prepared_);
   std::unique_ptr<const TraitRules> rules;
@@ -221,8 +221,8 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
 FaceMeasures EditSession::measure(const FacePlan& recipe, const Positions& face,
                                   const std::string& opened_id) const {
   FaceMeasures measures = measure(recipe, opened_id);
-  if (job_.config.believability.check &&
-      builder_.gap_excess_mm(recipe.recipe, face) > job_.config.believability.max_gap_mm) {
+  if (job_.config.believability->check &&
+      builder_.gap_excess_mm(recipe.recipe, face) > job_.config.believability->max_gap_mm) {
     measures.warnings.push_back(sentence(RejectionReason::kGap, job_.config));
   }
   return measures;

@@ -23,7 +23,7 @@ std::shared_ptr<const MeshFaults::TargetFaults> MeshFaults::target_faults(Index 
 
 std::vector<std::string> MeshFaults::faults_of(const Recipe& recipe, const Positions& face) const {
   if (!skin_is_judged(job_.config, job_.inputs)) return {};
-  const BelievabilityOptions& limits = job_.config.believability;
+  const BelievabilityOptions& limits = *job_.config.believability;
   const std::shared_ptr<const TargetFaults> target = this->target_faults(recipe.target);
   const SkinDefects defects = builder_.defects(target->skin_check, recipe, face);
   std::vector<std::string> faults;
@@ -32,11 +32,11 @@ std::vector<std::string> MeshFaults::faults_of(const Recipe& recipe, const Posit
     faults.emplace_back("gums, teeth or other parts stand out of the skin");
   }
   if (defects.exposed_back_face_mm2 > limits.max_exposed_mm2) {
-    faults.push_back(describe_violation(RejectionReason::kExposed, job_.config.diversity, limits));
+    faults.push_back(describe_violation(RejectionReason::kExposed, *job_.config.diversity, limits));
   }
   const auto why = exceeded_limit(limits, defects);
   if (why && *why != RejectionReason::kExposed) {
-    faults.push_back(describe_violation(*why, job_.config.diversity, limits));
+    faults.push_back(describe_violation(*why, *job_.config.diversity, limits));
   }
   return faults;
 }

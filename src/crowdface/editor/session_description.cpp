@@ -122,15 +122,15 @@ Json EditSession::description() const {
   json["edge_mm"] = casting_.level_scale.edge_length_mm;
   json["vertices"] = job_.inputs.head_set.topology.vertex_count;
   json["regions"] = regions_json();
-  for (std::size_t b = 0; b < config.sampling.bands.size(); ++b) {
+  for (std::size_t b = 0; b < config.sampling->bands.size(); ++b) {
     Json begins = Json::array();  // initial value for each region
     for (std::size_t k = 0; k < casting_.region_names.size(); ++k) {
-      const Range range = fractions_of(smoothness_of(config.sampling, k, b), casting_.level_scale);
+      const Range range = fractions_of(smoothness_of(*config.sampling, k, b), casting_.level_scale);
       begins.push_back((range.low + range.high) / 2);
     }
-    json["bands"].push_back({{"name", config.sampling.bands[b].name},
+    json["bands"].push_back({{"name", config.sampling->bands[b].name},
                              {"smoothness", std::move(begins)},
-                             {"sources", sources_of(config.sampling, b)}});
+                             {"sources", sources_of(*config.sampling, b)}});
   }
   json["heads"] = Json::array();
   for (std::size_t h = 0; h < config.faces.names.size(); ++h) {
@@ -142,12 +142,12 @@ Json EditSession::description() const {
   json["normalization"] =
       config.blending.normalization == Normalization::kPartition ? "partition" : "printed";
   json["falloff"] = 2;
-  json["sources"] = config.sampling.sources;
+  json["sources"] = config.sampling->sources;
   json["max_sources"] =
-      config.sampling.max_sources ? Json(*config.sampling.max_sources) : Json(nullptr);
+      config.sampling->max_sources ? Json(*config.sampling->max_sources) : Json(nullptr);
   json["formats"] = EditedFolder::formats();
-  json["limits"] = {{"head_mm", config.diversity.min_distance_to_heads_mm},
-                    {"face_mm", config.diversity.min_distance_mm}};
+  json["limits"] = {{"head_mm", config.diversity->min_distance_to_heads_mm},
+                    {"face_mm", config.diversity->min_distance_mm}};
   for (int step = 0; step <= kSliderSteps; ++step) {
     const std::uint64_t level = iterations_of(smoothness_at(step), casting_.level_scale);
     json["levels"]["smoothness"].push_back(smoothness_at(step));

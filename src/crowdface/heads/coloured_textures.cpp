@@ -7,7 +7,7 @@
 #include <set>
 
 #include "crowdface/io/image.h"
-#include "crowdface/io/surface_materials.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/texture/optical_density.h"
 
 namespace crowdface {
@@ -33,7 +33,7 @@ std::vector<std::uint8_t> eight_bit_values_of(const Image& image) {
 std::vector<AttachmentFile> files_of(const ColouredAttachment& look) {
   std::set<std::filesystem::path> colours;
   if (look.colour) {
-    for (const SurfaceMaterial& material : read_surface_materials(look.item->materials)) {
+    for (const SurfaceMaterial& material : look.item->materials.surface_materials) {
       colours.insert(material.colour_map);
     }
   }

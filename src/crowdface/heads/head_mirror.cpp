@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/heads/head_mirror.h"
 
+#include "crowdface/cast/sampling.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/named_parts.h"
@@ -21,7 +22,7 @@ std::string key_of(const SamplingOptions& sampling, const std::string& section) 
 }  // namespace
 
 std::string mirroring_key(const Config& config) {
-  std::string key = key_of(config.sampling, "sampling");
+  std::string key = key_of(*config.sampling, "sampling");
   for (const Group& group : config.groups) {
     if (key.empty()) key = key_of(group.sampling, concat("groups.", group.name));
   }

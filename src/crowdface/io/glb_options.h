@@ -19,6 +19,14 @@ struct GlbMaterial {
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
   /// Index of the base colour image. Viewers multiply the image's colours by `colour`.
   std::optional<std::size_t> image = {};
+  /// How the alpha channel of the base colour image acts (glTF's alphaMode).
+  enum class Alpha {
+    kOpaque,
+    kMask,   ///< each texel is visible or invisible
+    kBlend,  ///< alpha is the opacity
+  };
+  /// Nothing: kBlend if the opacity in `colour` is below 1, otherwise kOpaque.
+  std::optional<Alpha> alpha = {};
   /// Whether the base colour comes from `GlbOptions::overlay`. The material is then opaque.
   bool uses_overlay = false;
   std::optional<std::size_t> normal_image = {};  ///< index of the tangent-space normal map

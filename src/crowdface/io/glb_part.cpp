@@ -17,27 +17,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace gltf;
 
-Json material_json_of(const GlbPartMaterial& material, std::size_t first_texture) {
-  GlbMaterial plain;
-  plain.name = material.name;
-  plain.colour = material.colour;
-  if (material.image) plain.image = first_texture + *material.image;
-  Json json = material_json(plain, 0);
-  json.erase("alphaMode");
-  if (material.alpha == GlbPartMaterial::Alpha::kMask) json["alphaMode"] = "MASK";
-  if (material.alpha == GlbPartMaterial::Alpha::kBlend) json["alphaMode"] = "BLEND";
-  return json;
-}
-
 /// \param moves  for each target, displacements of the part's vertices.
 void add_targets(std::span<const Displacements> moves, std::span<const std::uint32_t> split,
                  Index vertex_count, Json& scene, GlbBuffer& buffer) {
   for (const Displacements& target : moves) {
     const GlbMorphRows moved = morph_target_rows(target.vertices, split, vertex_count);
-    const auto [least, most] = displacement_bounds(target, moved.moves_all_vertices);
     buffer.add_zeros(split.size());
-    scene["accessors"].back()["min"] = vector_json(least);
-    scene["accessors"].back()["max"] = vector_json(most);
+    set_displacement_bounds(scene["accessors"].back(), target, moved.moves_all_vertices);
     const std::size_t rows = moved.rows.size();
     if (rows == 0) continue;
     const std::size_t indices = buffer.add_view(rows * sizeof(std::uint32_t));
@@ -48,7 +34,7 @@ void add_targets(std::span<const Displacements> moves, std::span<const std::uint
 }  // namespace
 
 GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
-                 const std::vector<GlbPartMaterial>& materials,
+                 const std::vector<GlbMaterial>& materials,
                  const std::vector<std::uint32_t>& polygon_materials,
                  const std::vector<GlbImage>& images, const CompressedRows<Influence>& influences,
                  std::vector<std::string> targets, GivenNormals fixed)
@@ -68,14 +54,10 @@ GlbPart::GlbPart(std::string name, const Topology& topology, const TextureCoordi
   if (influences.group_count() > 0)
     skin_attributes_ = skin_attributes(influences, source_vertices_);
   for (GlbSkinAttribute& one : skin_attributes_) shared_data_ += std::exchange(one.bytes, {});
-  for (std::size_t m = 0; m < materials.size(); ++m) {
-    std::size_t indices = 0;
-    for (std::size_t t = 0; t < split.triangles.size(); ++t) {
-      if (polygon_materials[split.triangle_faces[t]] != m) continue;
-      for (const std::uint32_t vertex : split.triangles[t]) append_number(shared_data_, vertex);
-      indices += 3;
-    }
-    if (indices > 0) primitives_.push_back({m, indices});
+  for (const GlbTriangles& group :
+       triangles_by_material(split, polygon_materials, materials.size())) {
+    append_array(shared_data_, group);
+    index_counts_.push_back(3 * group.size());
   }
   for (const GlbImage& image : images) {
     shared_data_ += image.bytes;
@@ -92,37 +74,19 @@ std::size_t GlbPart::add_to_scene(Json& scene, const Positions& positions,
   const std::size_t vertices = source_vertices_.size();
   GlbBuffer buffer(scene, size);
   Json attributes = Json::object();
-  const auto add_attribute = [&](const std::string& called, const char* type, std::size_t width,
-                                 int component = kFloat) {
-    const std::size_t one = component == kFloat ? sizeof(float) : sizeof(std::uint16_t);
-    buffer.add_view(vertices * width * one, kArrayBuffer);
-    attributes[called] = buffer.add_accessor(component, type, vertices);
-  };
-  add_attribute("POSITION", "VEC3", 3);
-  Json& bounded = scene["accessors"].back();
-  bounded["min"] = vector_json(positions.colwise().minCoeff());
-  bounded["max"] = vector_json(positions.colwise().maxCoeff());
-  add_attribute("NORMAL", "VEC3", 3);
-  if (has_uvs_) add_attribute("TEXCOORD_0", "VEC2", 2);
+  attributes["POSITION"] = buffer.add_attribute(kFloat, "VEC3", vertices);
+  set_bounds(scene["accessors"].back(), positions);
+  attributes["NORMAL"] = buffer.add_attribute(kFloat, "VEC3", vertices);
+  if (has_uvs_) attributes["TEXCOORD_0"] = buffer.add_attribute(kFloat, "VEC2", vertices);
   for (const GlbSkinAttribute& one : skin_attributes_)
-    add_attribute(one.name, "VEC4", 4, one.component_type);
-  std::size_t all = 0;
-  for (const Primitive& primitive : primitives_) all += primitive.index_count;
-  buffer.add_view(all * sizeof(std::uint32_t), kElementArrayBuffer);
+    attributes[one.name] = buffer.add_attribute(one.component_type, "VEC4", vertices);
   const std::size_t first_texture = scene.contains("textures") ? scene["textures"].size() : 0;
-  Json primitives = Json::array();
-  std::size_t offset = 0;
-  for (const Primitive& primitive : primitives_) {
-    const std::size_t material = scene["materials"].size();
-    GlbPartMaterial own = materials_[primitive.material];
-    for (std::size_t c = 0; c < look.tint.size(); ++c) own.colour[c] *= look.tint[c];
-    scene["materials"].push_back(material_json_of(own, first_texture));
-    primitives.push_back(
-        {{"attributes", attributes},
-         {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", primitive.index_count, offset)},
-         {"material", material}});
-    offset += primitive.index_count * sizeof(std::uint32_t);
+  std::vector<GlbMaterial> materials = materials_;
+  for (GlbMaterial& material : materials) {
+    for (std::size_t c = 0; c < look.tint.size(); ++c) material.colour[c] *= look.tint[c];
+    if (material.image) *material.image += first_texture;
   }
+  Json primitives = buffer.add_primitives(index_counts_, attributes, materials);
   for (std::size_t i = 0; i < image_sizes_.size(); ++i) {
     add_image(scene, buffer.add_view(image_sizes_[i]), images_[i].name, images_[i].type);
   }
@@ -154,10 +118,10 @@ void GlbPart::append_data(EncodedFile& file, const Positions& positions,
   given_normals_.copy_to(normals);
   const std::size_t length = 2 * source_vertices_.size() * kVectorSize;
   char* const vectors = file.reserve(length);
-  char* at = vectors;
-  for (const Positions* rows : {&positions, &std::as_const(normals)}) {
-    for (const std::uint32_t vertex : source_vertices_) at = put_row(at, *rows, vertex);
-  }
+  const std::span copied_vertices =
+      std::span(source_vertices_).subspan(static_cast<std::size_t>(topology_.vertex_count));
+  put_vectors(vectors, positions, copied_vertices);
+  put_vectors(vectors + length / 2, normals, copied_vertices);
   file.add_without_copy({vectors, length});
   file.add_without_copy(shared_data_);
   if (!look.image.empty()) {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,29 +10,13 @@
 
 #include "crowdface/io/encoded_file.h"
 #include "crowdface/io/given_normals.h"
-#include "crowdface/io/glb_skin.h"
+#include "crowdface/io/glb_options.h"
 #include "crowdface/io/part_look.h"
 #include "crowdface/mesh/displacements.h"
 #include "crowdface/mesh/normals.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
-
-/// Material of an additional mesh in a GLB file.
-struct GlbPartMaterial {
-  /// How the alpha channel of the base colour image acts (glTF's alphaMode).
-  enum class Alpha {
-    kOpaque,
-    kMask,   ///< each texel is visible or invisible
-    kBlend,  ///< alpha is the opacity
-  };
-  std::string name;
-  std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity
-  /// Index of the base colour image among the part's images. If `image` equals the number of the
-  /// part's images, the material uses `PartLook::image`.
-  std::optional<std::size_t> image = {};
-  Alpha alpha = Alpha::kOpaque;
-};
 
 /// An image embedded in the file.
 struct GlbImage {
@@ -49,14 +31,15 @@ struct GlbImage {
 class GlbPart {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
-  /// \param materials  at least one.
+  /// \param materials  at least one. An `image` is an index of the part's images; if it equals
+  ///                   their number, the material uses `PartLook::image`.
   /// \param polygon_materials  for each polygon, the index of its material in `materials`.
   /// \param influences  for each vertex, the weights of the rig's joints; empty if the mesh is not
   ///                    skinned.
   /// \param targets  names of the morph targets.
   /// \param fixed  vertices whose normals are given and not computed from the mesh.
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
-          const std::vector<GlbPartMaterial>& materials,
+          const std::vector<GlbMaterial>& materials,
           const std::vector<std::uint32_t>& polygon_materials, const std::vector<GlbImage>& images,
           const CompressedRows<Influence>& influences = {}, std::vector<std::string> targets = {},
           GivenNormals fixed = {});
@@ -80,18 +63,13 @@ class GlbPart {
   std::size_t encoding_memory_bytes() const;
 
  private:
-  /// The triangles of one material.
-  struct Primitive {
-    std::size_t material, index_count;  ///< index of the material; number of vertex indices
-  };
-
   std::string name_;
   Topology topology_;
   NormalFans fans_;
   std::vector<std::uint32_t> source_vertices_;  ///< original vertex of each split vertex
   bool has_uvs_;
-  std::vector<Primitive> primitives_;
-  std::vector<GlbPartMaterial> materials_;
+  std::vector<std::size_t> index_counts_;  ///< for each material, its number of vertex indices
+  std::vector<GlbMaterial> materials_;
   std::vector<std::size_t> image_sizes_;
   // The `bytes` of the images and of the skin attributes are empty; `shared_data_` has the data.
   std::vector<GlbImage> images_;

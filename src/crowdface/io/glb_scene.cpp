@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/glb_scene.h"
 
-#include <array>
+#include <numeric>
+#include <string_view>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/io/single_precision.h"
 
@@ -34,6 +37,11 @@ Json vector_json(const Eigen::RowVector3d& vector) {
   return json;
 }
 
+void set_bounds(Json& accessor, const Positions& positions) {
+  accessor["min"] = vector_json(positions.colwise().minCoeff());
+  accessor["max"] = vector_json(positions.colwise().maxCoeff());
+}
+
 Json material_json(const GlbMaterial& material, std::size_t overlay_texture) {
   Json json = Json::object();
   if (!material.name.empty()) json["name"] = material.name;
@@ -55,8 +63,10 @@ Json material_json(const GlbMaterial& material, std::size_t overlay_texture) {
         {"index", *material.roughness_image}};
   }
   if (material.normal_image) json["normalTexture"] = {{"index", *material.normal_image}};
-  if (material.colour[3] < 1) json["alphaMode"] = "BLEND";
+  if (!material.alpha && material.colour[3] < 1) json["alphaMode"] = "BLEND";
   json["doubleSided"] = true;  // heads are open at the neck
+  if (material.alpha == GlbMaterial::Alpha::kMask) json["alphaMode"] = "MASK";
+  if (material.alpha == GlbMaterial::Alpha::kBlend) json["alphaMode"] = "BLEND";
   return json;
 }
 
@@ -74,6 +84,32 @@ Json root_node_json(const GlbOptions& options) {
 void add_image(Json& scene, std::size_t view, const std::string& name, const std::string& type) {
   scene["textures"].push_back(Json::object({{"source", scene["images"].size()}}));
   scene["images"].push_back({{"name", name}, {"bufferView", view}, {"mimeType", type}});
+}
+
+std::vector<GlbTriangles> triangles_by_material(const SplitVertices& split,
+                                                const std::vector<std::uint32_t>& polygon_materials,
+                                                std::size_t material_count) {
+  std::vector<GlbTriangles> groups(material_count);
+  for (std::size_t t = 0; t < split.triangles.size(); ++t) {
+    const std::size_t material =
+        polygon_materials.empty() ? 0 : polygon_materials[split.triangle_faces[t]];
+    groups.at(material).push_back(split.triangles[t]);
+  }
+  return groups;
+}
+
+void put_vectors(char* out, const Positions& rows, std::span<const std::uint32_t> copied_vertices) {
+  const auto copies = static_cast<Index>(copied_vertices.size());
+  parallel_blocks(rows.rows() + copies, kRowsPerBlock, [&](Index begin, Index end) {
+    char* at = out + static_cast<std::size_t>(begin) * kVectorSize;
+    for (Index i = begin; i < end; ++i) {
+      const Index row =
+          i < rows.rows()
+              ? i
+              : static_cast<Index>(copied_vertices[static_cast<std::size_t>(i - rows.rows())]);
+      at = put_row(at, rows, row);
+    }
+  });
 }
 
 void set_morph_targets(Json& mesh, std::size_t first, const std::vector<std::string>& names) {
@@ -108,6 +144,37 @@ std::size_t GlbBuffer::add_accessor(int component, const char* type, std::size_t
   accessor["type"] = type;
   scene_["accessors"].push_back(std::move(accessor));
   return scene_["accessors"].size() - 1;
+}
+
+std::size_t GlbBuffer::add_attribute(int component, const char* type, std::size_t count) {
+  const std::string_view name = type;
+  const std::size_t numbers = name == "SCALAR" ? 1 : static_cast<std::size_t>(name.back() - '0');
+  const std::size_t size = component == kFloat ? sizeof(float) : sizeof(std::uint16_t);
+  add_view(count * numbers * size, kArrayBuffer);
+  return add_accessor(component, type, count);
+}
+
+Json GlbBuffer::add_primitives(std::span<const std::size_t> index_counts, const Json& attributes,
+                               std::span<const GlbMaterial> materials,
+                               std::optional<std::size_t> overlay, std::size_t overlay_texture) {
+  add_view(std::accumulate(index_counts.begin(), index_counts.end(), std::size_t{0}) *
+               sizeof(std::uint32_t),
+           kElementArrayBuffer);
+  Json primitives = Json::array();
+  std::size_t offset = 0;
+  for (std::size_t g = 0; g < index_counts.size(); ++g) {
+    if (index_counts[g] == 0) continue;
+    Json primitive = {{"attributes", attributes},
+                      {"indices", add_accessor(kUnsignedInt, "SCALAR", index_counts[g], offset)}};
+    if (!materials.empty()) {
+      primitive["material"] = scene_["materials"].size();
+      scene_["materials"].push_back(material_json(materials[g], overlay_texture));
+      if (overlay && materials[g].uses_overlay) primitive["attributes"]["TEXCOORD_1"] = *overlay;
+    }
+    primitives.push_back(std::move(primitive));
+    offset += index_counts[g] * sizeof(std::uint32_t);
+  }
+  return primitives;
 }
 
 void GlbBuffer::add_zeros(std::size_t count) {
@@ -150,14 +217,18 @@ GlbMorphRows morph_target_rows(std::span<const std::uint32_t> vertices,
   return rows;
 }
 
-std::pair<Eigen::RowVector3d, Eigen::RowVector3d> displacement_bounds(const Displacements& moves,
-                                                                      bool moves_all_vertices) {
+void set_displacement_bounds(Json& accessor, const Displacements& moves, bool moves_all_vertices) {
   Eigen::RowVector3d least = Eigen::RowVector3d::Zero(), most = least;
-  if (moves.moves.rows() == 0) return {least, most};
-  least = moves.moves.colwise().minCoeff();
-  most = moves.moves.colwise().maxCoeff();
-  if (moves_all_vertices) return {least, most};
-  return {least.cwiseMin(0), most.cwiseMax(0)};
+  if (moves.moves.rows() > 0) {
+    least = moves.moves.colwise().minCoeff();
+    most = moves.moves.colwise().maxCoeff();
+    if (!moves_all_vertices) {
+      least = least.cwiseMin(0);
+      most = most.cwiseMax(0);
+    }
+  }
+  accessor["min"] = vector_json(least);
+  accessor["max"] = vector_json(most);
 }
 
 }  // namespace crowdface

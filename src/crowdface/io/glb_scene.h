@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -19,6 +20,8 @@ namespace crowdface {
 
 /// A JSON array of the vector's components, rounded to single precision.
 nlohmann::ordered_json vector_json(const Eigen::RowVector3d& vector);
+/// Sets the minimum and maximum of positions.
+void set_bounds(nlohmann::ordered_json& accessor, const Positions& positions);
 
 /// The glTF description of a material.
 /// \param overlay_texture  index of the glTF texture that contains the image `GlbOptions::overlay`,
@@ -34,11 +37,23 @@ nlohmann::ordered_json root_node_json(const GlbOptions& options);
 void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::string& name,
                const std::string& type);
 
+/// The triangles of one material, in the order of the polygons.
+using GlbTriangles = std::vector<std::array<std::uint32_t, 3>>;
+/// Groups the triangles by material.
+/// \param polygon_materials  for each polygon, the index of its material; empty: all zero
+std::vector<GlbTriangles> triangles_by_material(const SplitVertices& split,
+                                                const std::vector<std::uint32_t>& polygon_materials,
+                                                std::size_t material_count);
+
 /// Adds morph targets to a mesh.
 /// \param first  accessor of the first target's displacements; the accessors of further targets
 ///               follow.
 void set_morph_targets(nlohmann::ordered_json& mesh, std::size_t first,
                        const std::vector<std::string>& names);
+
+/// Writes one vector per split vertex: first each row, then for each copied vertex the row of its
+/// original vertex.
+void put_vectors(char* out, const Positions& rows, std::span<const std::uint32_t> copied_vertices);
 
 /// Adds the buffer views and accessors of arrays to a glTF scene. The bytes of the arrays are
 /// written elsewhere, in the same order.
@@ -66,6 +81,22 @@ class GlbBuffer {
   /// \return index of the new accessor.
   std::size_t add_accessor(int component, const char* type, std::size_t count,
                            std::size_t offset = 0);
+
+  /// Adds an attribute of `count` vertices in a buffer view of its own.
+  /// \return index of the new accessor.
+  std::size_t add_attribute(int component, const char* type, std::size_t count);
+
+  /// Adds one primitive and one material per group of triangles. Leaves out empty groups.
+  /// \param index_counts  for each group, its number of vertex indices
+  /// \param materials     one per group; empty: primitives without material
+  /// \param overlay       accessor of the overlay's texture coordinates; nothing without an overlay
+  /// \param overlay_texture  see `material_json`
+  /// \return the primitives.
+  nlohmann::ordered_json add_primitives(std::span<const std::size_t> index_counts,
+                                        const nlohmann::ordered_json& attributes,
+                                        std::span<const GlbMaterial> materials,
+                                        std::optional<std::size_t> overlay = {},
+                                        std::size_t overlay_texture = 0);
 
   /// Adds an accessor without data: `count` vectors that are zero.
   void add_zeros(std::size_t count);
@@ -103,9 +134,9 @@ struct GlbMorphRows {
 GlbMorphRows morph_target_rows(std::span<const std::uint32_t> vertices,
                                std::span<const std::uint32_t> split, Index count);
 
-/// Minimum and maximum of a morph target's displacements, for each coordinate. Vertices that the
-/// morph target does not move have displacement zero.
-std::pair<Eigen::RowVector3d, Eigen::RowVector3d> displacement_bounds(const Displacements& moves,
-                                                                      bool moves_all_vertices);
+/// Sets the minimum and maximum of a morph target's displacements. Vertices that the morph target
+/// does not move have displacement zero.
+void set_displacement_bounds(nlohmann::ordered_json& accessor, const Displacements& moves,
+                             bool moves_all_vertices);
 
 }  // namespace crowdface

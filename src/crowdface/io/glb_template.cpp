@@ -12,7 +12,6 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
-#include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
 #include "crowdface/io/glb_container.h"
@@ -28,19 +27,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace gltf;
 using namespace glb;
-
-/// The triangles of one material, in the order of the polygons.
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
-
-std::vector<Triangles> by_material(const SplitVertices& split, const GlbOptions& options) {
-  std::vector<Triangles> groups(std::max<std::size_t>(1, options.materials.size()));
-  for (std::size_t t = 0; t < split.triangles.size(); ++t) {
-    const std::size_t material =
-        options.polygon_materials.empty() ? 0 : options.polygon_materials[split.triangle_faces[t]];
-    groups.at(material).push_back(split.triangles[t]);
-  }
-  return groups;
-}
 
 std::string vertex_ids(const SplitVertices& split, const std::vector<std::uint32_t>& ids) {
   std::string bytes;
@@ -64,58 +50,17 @@ std::string places_on_overlay(const SplitVertices& split, const GlbOverlay& over
 Json attributes_json(GlbBuffer& buffer, std::size_t vertices, bool has_colours, bool has_tangents,
                      bool has_uvs, const std::vector<GlbSkinAttribute>& skin) {
   Json attributes = Json::object();
-  buffer.add_view(vertices * kVectorSize, kArrayBuffer);
-  attributes["POSITION"] = buffer.add_accessor(kFloat, "VEC3", vertices);
-  buffer.add_view(vertices * kVectorSize, kArrayBuffer);
-  attributes["NORMAL"] = buffer.add_accessor(kFloat, "VEC3", vertices);
-  if (has_colours) {
-    buffer.add_view(vertices * kVectorSize, kArrayBuffer);
-    attributes["COLOR_0"] = buffer.add_accessor(kFloat, "VEC3", vertices);
-  }
-  if (has_tangents) {
-    buffer.add_view(vertices * Tangents::kSize, kArrayBuffer);
-    attributes["TANGENT"] = buffer.add_accessor(kFloat, "VEC4", vertices);
-  }
-  if (has_uvs) {
-    buffer.add_view(vertices * 2 * sizeof(float), kArrayBuffer);
-    attributes["TEXCOORD_0"] = buffer.add_accessor(kFloat, "VEC2", vertices);
-  }
-  buffer.add_view(vertices * sizeof(float), kArrayBuffer);
-  attributes["_VERTEX_ID"] = buffer.add_accessor(kFloat, "SCALAR", vertices);
-  for (const GlbSkinAttribute& one : skin) {
-    buffer.add_view(one.bytes.size(), kArrayBuffer);
-    attributes[one.name] = buffer.add_accessor(one.component_type, "VEC4", vertices);
-  }
+  const auto add = [&](const std::string& name, const char* type, int component = kFloat) {
+    attributes[name] = buffer.add_attribute(component, type, vertices);
+  };
+  add("POSITION", "VEC3");
+  add("NORMAL", "VEC3");
+  if (has_colours) add("COLOR_0", "VEC3");
+  if (has_tangents) add("TANGENT", "VEC4");
+  if (has_uvs) add("TEXCOORD_0", "VEC2");
+  add("_VERTEX_ID", "SCALAR");
+  for (const GlbSkinAttribute& one : skin) add(one.name, "VEC4", one.component_type);
   return attributes;
-}
-
-/// Adds one primitive per material; leaves out materials without triangles.
-/// \param overlay  index of the accessor of the overlay's texture coordinates; nothing without an
-///              overlay
-void add_primitives(Json& scene, GlbBuffer& buffer, const std::vector<Triangles>& groups,
-                    const Json& attributes, std::optional<std::size_t> overlay,
-                    const GlbOptions& options) {
-  std::size_t size = 0;
-  for (const Triangles& group : groups) size += group.size() * sizeof(group[0]);
-  buffer.add_view(size, kElementArrayBuffer);
-  Json primitives = Json::array(), materials = Json::array();
-  std::size_t offset = 0;
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    if (groups[g].empty()) continue;
-    Json primitive = {
-        {"attributes", attributes},
-        {"indices", buffer.add_accessor(kUnsignedInt, "SCALAR", 3 * groups[g].size(), offset)}};
-    if (!options.materials.empty()) {
-      primitive["material"] = materials.size();
-      materials.push_back(material_json(options.materials[g], options.images.size()));
-      if (overlay && options.materials[g].uses_overlay)
-        primitive["attributes"]["TEXCOORD_1"] = *overlay;
-    }
-    primitives.push_back(std::move(primitive));
-    offset += groups[g].size() * sizeof(groups[g][0]);
-  }
-  scene["meshes"] = Json::array({Json::object({{"name", ""}, {"primitives", primitives}})});
-  if (!materials.empty()) scene["materials"] = std::move(materials);
 }
 
 /// Adds the images, which come last in the buffer. `place_images` later sets their sizes and
@@ -145,21 +90,6 @@ std::size_t place_images(Json& scene, std::size_t size, std::span<const std::str
   return size;
 }
 
-/// Writes one vector per split vertex: first the row of each original vertex, then for each copy
-/// the row of its original vertex.
-void put_vectors(char* out, const Positions& rows, const std::vector<std::uint32_t>& split) {
-  const auto further = static_cast<Index>(split.size());
-  parallel_blocks(rows.rows() + further, kRowsPerBlock, [&](Index begin, Index end) {
-    char* at = out + static_cast<std::size_t>(begin) * kVectorSize;
-    for (Index i = begin; i < end; ++i) {
-      const Index row = i < rows.rows()
-                            ? i
-                            : static_cast<Index>(split[static_cast<std::size_t>(i - rows.rows())]);
-      at = put_row(at, rows, row);
-    }
-  });
-}
-
 }  // namespace
 
 GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs,
@@ -182,7 +112,10 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
       has_normal_map ? split_at_mirrored_uvs(topology, uvs) : split_vertices(topology);
   if (has_normal_map) tangents_.emplace(split, uvs);
   copied_vertices_.assign(split.vertices.begin() + vertex_count_, split.vertices.end());
-  const std::vector<Triangles> groups = by_material(split, options);
+  const std::vector<GlbTriangles> groups = triangles_by_material(
+      split, options.polygon_materials, std::max<std::size_t>(1, options.materials.size()));
+  std::vector<std::size_t> index_counts;
+  for (const GlbTriangles& group : groups) index_counts.push_back(3 * group.size());
 
   Json scene;
   scene["asset"] = {{"version", "2.0"}, {"generator", "crowdface"}};
@@ -205,11 +138,12 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   if (options.overlay) {
     require(options.overlay->uvs.size() == static_cast<std::size_t>(vertex_count_),
             "GlbTemplate: a place of each vertex on the overlay");
-    buffer.add_view(split.vertices.size() * sizeof(options.overlay->uvs[0]), kArrayBuffer);
-    places = buffer.add_accessor(kUnsignedShort, "VEC2", split.vertices.size());
+    places = buffer.add_attribute(kUnsignedShort, "VEC2", split.vertices.size());
     scene["accessors"][*places]["normalized"] = true;
   }
-  add_primitives(scene, buffer, groups, attributes, places, options);
+  scene["meshes"] = Json::array({Json::object({{"name", ""}})});
+  scene["meshes"][0]["primitives"] = buffer.add_primitives(
+      index_counts, attributes, options.materials, places, options.images.size());
   std::string indices;
   std::vector<std::size_t> views;
   for (const GlbMorphTarget& target : options.targets) {
@@ -249,10 +183,7 @@ GlbTemplate::GlbTemplate(const Topology& topology, const TextureCoordinates& uvs
   shared_data_ = encoded_texture_coordinates(split, uvs) + vertex_ids(split, options.vertex_ids);
   for (const GlbSkinAttribute& one : skin) shared_data_ += one.bytes;
   if (options.overlay) shared_data_ += places_on_overlay(split, *options.overlay);
-  for (const Triangles& group : groups) {
-    shared_data_.append(reinterpret_cast<const char*>(group.data()),
-                        group.size() * sizeof(group[0]));
-  }
+  for (const GlbTriangles& group : groups) append_array(shared_data_, group);
   shared_data_ += indices;
 }
 
@@ -279,14 +210,11 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
   require_finite(normals, vertex_count_, name);
   require(!has_colours_ || colours.rows() == vertex_count_, "GlbTemplate: a colour of each vertex");
   Json scene = Json::parse(json_);
-  scene["accessors"][0]["min"] = vector_json(positions.colwise().minCoeff());
-  scene["accessors"][0]["max"] = vector_json(positions.colwise().maxCoeff());
+  set_bounds(scene["accessors"][0], positions);
   for (std::size_t t = 0; t < targets_.size(); ++t) {
     require_finite(moves[t].moves, moves[t].moves.rows(), name);
-    const auto [least, most] = displacement_bounds(moves[t], targets_[t].moves_all_vertices);
-    Json& accessor = scene["accessors"][first_target_ + t];
-    accessor["min"] = vector_json(least);
-    accessor["max"] = vector_json(most);
+    set_displacement_bounds(scene["accessors"][first_target_ + t], moves[t],
+                            targets_[t].moves_all_vertices);
   }
   require_finite(points, point_count_, name);
   for (Index p = 0; p < point_count_; ++p) {

@@ -16,7 +16,7 @@
 #include "crowdface/io/foreign_file.h"
 #include "crowdface/io/image_codec.h"
 #include "crowdface/io/image_container.h"
-#include "crowdface/io/png_codec.h"
+#include "crowdface/io/project_library.h"
 
 namespace crowdface {
 namespace {
@@ -176,8 +176,11 @@ void check_finite(const path& file, const Image& image) {
 }
 
 /// \param values  number of values in `picture.pixels`; must be width · height · channels.
-std::string encode(const std::string& format, const ImageToEncode& picture, std::size_t values) {
+std::string encode(const ImageToEncode& picture, std::size_t values) {
   const auto [form, width, height, channels, pixels] = picture;
+  const std::string_view format = form == ImageToEncode::Form::kJpeg  ? "jpeg"
+                                  : form == ImageToEncode::Form::kExr ? "openexr"
+                                                                      : "png";
   require(width > 0 && height > 0 &&
               values == static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
                             static_cast<std::size_t>(channels),
@@ -267,6 +270,14 @@ Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limi
 
 }  // namespace
 
+const ImageCodec& image_codec() {
+  using Function = const ImageCodec*();
+  static const ImageCodec& codec = *reinterpret_cast<Function*>(load_library_function(
+      "libcrowdface_images.so", "crowdface_image_codec", "images need (OpenImageIO)",
+      "images can be neither read nor written"))();
+  return codec;
+}
+
 ImageMemory reserve_image_memory(const path& file, std::uint64_t bytes) {
   const std::uint64_t most = input_limits().image_bytes;
   {
@@ -316,26 +327,23 @@ ImageSize read_image_size(const path& file, const ImageLimits& limits) {
 
 std::string encode_png(int width, int height, int channels, std::span<const std::uint8_t> pixels) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  return encode("png", {ImageToEncode::Form::kPng, width, height, channels, pixels.data()},
-                pixels.size());
+  return encode({ImageToEncode::Form::kPng, width, height, channels, pixels.data()}, pixels.size());
 }
 
 std::string encode_jpeg(int width, int height, std::span<const std::uint8_t> pixels) {
-  return encode("jpeg", {ImageToEncode::Form::kJpeg, width, height, 3, pixels.data()},
-                pixels.size());
+  return encode({ImageToEncode::Form::kJpeg, width, height, 3, pixels.data()}, pixels.size());
 }
 
 std::string encode_png16(int width, int height, int channels,
                          std::span<const std::uint16_t> pixels) {
   require(channels > 0 && channels <= 4, "a PNG of ", channels, " channels");
-  return encode("png", {ImageToEncode::Form::kPng16, width, height, channels, pixels.data()},
+  return encode({ImageToEncode::Form::kPng16, width, height, channels, pixels.data()},
                 pixels.size());
 }
 
 std::string encode_exr(int width, int height, int channels, std::span<const float> pixels) {
   require(channels == 1 || channels == 3, "an OpenEXR of ", channels, " channels");
-  return encode("openexr", {ImageToEncode::Form::kExr, width, height, channels, pixels.data()},
-                pixels.size());
+  return encode({ImageToEncode::Form::kExr, width, height, channels, pixels.data()}, pixels.size());
 }
 
 }  // namespace crowdface

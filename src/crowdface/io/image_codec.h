@@ -51,6 +51,10 @@ struct ImageCodec {
   bool (*encode)(const ImageToEncode& picture, std::string& bytes, std::string& error);
 };
 
+/// The codec for PNG, the format that nearly every run uses. It uses libpng and does not need the
+/// libraries that `image_codec` loads.
+const ImageCodec& png_codec();
+
 /// The codec for all formats except PNG, based on OpenImageIO. OpenImageIO depends on some 250
 /// libraries, which need 0.2 s to load. The codec is therefore in a separate shared library
 /// (openimageio_codec.cpp), which the first call loads. This shared library holds no state of the

@@ -40,4 +40,10 @@ void append_number(std::string& out, Number number) {
   out.append(bytes, put_number(bytes, number));
 }
 
+/// Appends the bytes of an array's elements to a text.
+template <class Array>
+void append_array(std::string& out, const Array& array) {
+  out.append(reinterpret_cast<const char*>(array.data()), array.size() * sizeof(array[0]));
+}
+
 }  // namespace crowdface

@@ -66,6 +66,43 @@ std::string_view reason_not_copied(const fs::path& relative) {
   return {};
 }
 
+/// All suffixes of a statement's arguments that begin at one of the last 32 words, longest first.
+/// One of the suffixes is the file name: the file name comes after the options and may contain
+/// spaces.
+std::vector<std::string_view> suffixes_starting_at_words(std::string_view text) {
+  constexpr std::size_t kMaxSuffixes = 32;
+  std::vector<std::string_view> suffixes;
+  for (std::size_t end = text.size(); end > 0 && suffixes.size() < kMaxSuffixes;) {
+    const std::size_t begin = text.find_last_of(kBlanks, end - 1) + 1;  // npos + 1 is 0
+    suffixes.push_back(text.substr(begin));
+    end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
+  }
+  std::ranges::reverse(suffixes);
+  return suffixes;
+}
+
+/// The numbers with which a text begins, clamped to [0, 1].
+std::vector<float> leading_fractions(std::string_view text) {
+  std::vector<float> numbers;
+  for (const std::string& word : words_of(text)) {
+    const auto number = parse_double(word);
+    if (!number) break;
+    numbers.push_back(std::clamp(static_cast<float>(*number), 0.0F, 1.0F));
+  }
+  return numbers;
+}
+
+/// Sets the colour or the opacity of a material; ignores other statements.
+void set_colour(const MaterialLine& line, SurfaceMaterial& material) {
+  if (line.keyword != "Kd" && line.keyword != "d" && line.keyword != "Tr") return;
+  const std::vector<float> numbers = leading_fractions(line.arguments);
+  if (line.keyword == "Kd") {
+    if (numbers.size() == 3) material.colour = {numbers[0], numbers[1], numbers[2]};
+  } else if (numbers.size() == 1) {
+    material.opacity = line.keyword == "d" ? numbers[0] : 1 - numbers[0];
+  }
+}
+
 /// Reads material files and collects the files that they name.
 class Collector {
  public:
@@ -92,7 +129,9 @@ class Collector {
   }
   NamedTextures take_textures() {
     NamedTextures named{std::move(of_kind_), {}, {}};
-    if (materials_.size() == 1) named.single_material = *materials_.begin();
+    std::set<std::string_view> materials;
+    for (const SurfaceMaterial& material : files_.surface_materials) materials.insert(material.name);
+    if (materials.size() == 1) named.single_material = *materials.begin();
     for (auto& [kind, of_material] : named.paths_by_kind) {
       const auto only = of_material.find(named.single_material);
       if (only != of_material.end()) of_material.emplace("", only->second);
@@ -153,13 +192,16 @@ class Collector {
     }
   }
 
+  static fs::path destination_of(const fs::path& relative) {
+    return (stays_inside(relative) ? relative : relative.filename()).lexically_normal();
+  }
+
   bool take_file(const fs::path& relative, std::string_view what) {
     const auto refuse = [&](std::string_view why) {
       files_.warnings.push_back(concat(what, " ", quoted(relative.string()), " ", why));
       return false;
     };
-    const fs::path destination =
-        (stays_inside(relative) ? relative : relative.filename()).lexically_normal();
+    const fs::path destination = destination_of(relative);
     if (const std::string_view objection = reason_not_copied(destination); !objection.empty()) {
       return refuse(concat(objection, " and is not copied"));
     }
@@ -209,7 +251,6 @@ class Collector {
     throw_if_system_error(file, error);
     if (is_too_large || error) return;
     textures_of_.clear();
-    std::string material;
     const std::string text = read_material_text(file);
     if (text.find('\0') != text.npos) {
       files_.warnings.push_back(concat("material file ", quoted(name.string()),
@@ -217,24 +258,36 @@ class Collector {
                                        "it as UTF-8"));
       return;
     }
-    for (const std::string_view line : split_lines(text)) {
-      const auto [word, rest] = material_statement(line);
+    for (const MaterialLine& line : material_lines(text)) {
       throw_if_interrupted();
-      if (word == "newmtl") {
-        material = rest;
-        materials_.insert(material);
-      }
-      if (!is_texture_statement(word)) continue;
-      const fs::path relative = texture_of(rest, name.parent_path());
+      if (line.keyword == "newmtl") files_.surface_materials.push_back({std::string(line.arguments)});
+      SurfaceMaterial* const material =
+          files_.surface_materials.empty() ? nullptr : &files_.surface_materials.back();
+      if (material != nullptr) set_colour(line, *material);
+      if (!is_texture_statement(line.keyword)) continue;
+      const fs::path relative = texture_of(line.arguments, name.parent_path());
       const NameStatus status = add_name(relative, kTexture, file, textures_);
-      if (status == NameStatus::kTooMany) continue;
-      const std::optional<TextureKind> kind = texture_kind_of(word);
-      if (kind && (stays_inside(relative) || exists_as_texture(relative))) {
-        of_kind_[*kind].emplace(material, (folder_ / relative).lexically_normal());
-      }
-      texture_uses_[relative].kinds.insert(kind);
-      if (status == NameStatus::kNew) take_texture(relative);
+      if (status != NameStatus::kTooMany) use_texture(relative, status, line);
+      if (material == nullptr) continue;
+      if (line.keyword == "map_Kd") material->colour_map = copied_file(relative);
+      if (line.keyword == "map_d") material->opacity_map = copied_file(relative);
     }
+  }
+
+  void use_texture(const fs::path& relative, NameStatus status, const MaterialLine& line) {
+    const std::optional<TextureKind> kind = texture_kind_of(line.keyword);
+    if (kind && (stays_inside(relative) || exists_as_texture(relative))) {
+      of_kind_[*kind].emplace(line.material, (folder_ / relative).lexically_normal());
+    }
+    texture_uses_[relative].kinds.insert(kind);
+    if (status == NameStatus::kNew) take_texture(relative);
+  }
+
+  /// The source of a texture that `take_file` has accepted; otherwise an empty path.
+  fs::path copied_file(const fs::path& relative) const {
+    fs::path source = (folder_ / relative).lexically_normal();
+    const auto copied = destinations_.find(destination_of(relative));
+    return copied != destinations_.end() && copied->second == source ? source : fs::path();
   }
 
   /// Returns the longest suffix of the statement that names an existing file or (with <UDIM>) an
@@ -305,7 +358,6 @@ class Collector {
   }
 
   fs::path mesh_, folder_;
-  std::set<std::string> materials_;  ///< names of the materials that the material files define
   NameSet libraries_, textures_;
   /// largest number of searches, each of which lists the folder and its subfolders
   static constexpr int kMaxSearches = 64;
@@ -343,34 +395,41 @@ Collector collect(const fs::path& mesh, const std::vector<std::string>& librarie
 
 }  // namespace
 
-MaterialStatement material_statement(std::string_view line) {
-  line = line.substr(0, line.find_last_not_of(kBlanks) + 1);
-  line = line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
-  const std::size_t blank = line.find_first_of(kBlanks);
-  if (blank == line.npos) return {};
-  return {usual_spelling(line.substr(0, blank)),
-          line.substr(line.find_first_not_of(kBlanks, blank))};
+std::vector<MaterialLine> material_lines(std::string_view text) {
+  std::vector<MaterialLine> lines;
+  std::string_view material;
+  for (const std::string_view whole : split_lines(text)) {
+    MaterialLine& line = lines.emplace_back(MaterialLine{whole});
+    std::string_view words = whole.substr(0, whole.find_last_not_of(kBlanks) + 1);
+    words = words.substr(std::min(words.find_first_not_of(kBlanks), words.size()));
+    const std::size_t blank = words.find_first_of(kBlanks);
+    if (blank != words.npos) {
+      line.keyword = usual_spelling(words.substr(0, blank));
+      line.arguments = words.substr(words.find_first_not_of(kBlanks, blank));
+    }
+    if (line.keyword == "newmtl") material = line.arguments;
+    line.material = material;
+  }
+  return lines;
 }
 
 std::string read_material_text(const fs::path& file) {
   return plain_text(read_file(file));
 }
 
-std::vector<std::string_view> suffixes_starting_at_words(std::string_view text) {
-  constexpr std::size_t kMaxSuffixes = 32;
-  std::vector<std::string_view> suffixes;
-  for (std::size_t end = text.size(); end > 0 && suffixes.size() < kMaxSuffixes;) {
-    const std::size_t begin = text.find_last_of(kBlanks, end - 1) + 1;  // npos + 1 is 0
-    suffixes.push_back(text.substr(begin));
-    end = begin == 0 ? 0 : text.find_last_not_of(kBlanks, begin - 1) + 1;
-  }
-  std::ranges::reverse(suffixes);
-  return suffixes;
-}
-
 bool is_texture_statement(std::string_view word) {
   return word.starts_with("map_") || word == "bump" || word == "disp" || word == "decal" ||
          word == "refl" || word == "norm";
+}
+
+std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
+                                                  const MaterialFiles& files) {
+  std::vector<SurfaceMaterial> materials;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(files.surface_materials, name, &SurfaceMaterial::name);
+    materials.push_back(found != files.surface_materials.end() ? *found : SurfaceMaterial{name});
+  }
+  return materials;
 }
 
 MaterialFiles find_material_files(const fs::path& mesh, const std::vector<std::string>& libraries) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -23,9 +24,20 @@ struct MaterialFile {
   std::optional<TextureKind> kind = {};
 };
 
+/// The colour, opacity and maps of a material, as its material file describes them.
+struct SurfaceMaterial {
+  std::string name;
+  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear, from 0 to 1
+  float opacity = 1;                                ///< `d`, or 1 − `Tr`
+  std::filesystem::path colour_map = {};            ///< the file of `map_Kd`; empty: there is none
+  std::filesystem::path opacity_map = {};           ///< the file of `map_d`; empty: there is none
+};
+
 /// Result of `find_material_files`.
 struct MaterialFiles {
   std::vector<MaterialFile> files;  ///< the files to copy, one entry per destination
+  /// The materials in the order of the material files. Their maps are sources of `files`.
+  std::vector<SurfaceMaterial> surface_materials;
   /// One message for each problem: a file is missing, cannot be read or is not copied; the material
   /// files contain too many names.
   std::vector<std::string> warnings;
@@ -37,21 +49,21 @@ struct MaterialFiles {
 /// Name of the folder, beside the meshes, that contains only files made by this program.
 inline constexpr std::string_view kBlendedFolder = "blended";
 
-/// The first word of a line in a material file, and the text after this word. Both are empty if the
-/// line has fewer than two words.
-struct MaterialStatement {
-  std::string_view keyword, arguments;
+/// A line of a material file.
+struct MaterialLine {
+  std::string_view text;  ///< the whole line
+  /// The first word, and the text after this word. Both are empty if the line has fewer than two
+  /// words. The keyword of a known statement has its usual case, whatever the case in the line.
+  std::string_view keyword = {}, arguments = {};
+  /// name of the material to which the line belongs; empty before the first `newmtl`
+  std::string_view material = {};
 };
-/// The keyword of a known statement has its usual case, whatever the case in the line.
-MaterialStatement material_statement(std::string_view line);
+/// Splits the text of a material file, as `read_material_text` returns it.
+std::vector<MaterialLine> material_lines(std::string_view text);
 /// Reads a material file and converts it with `plain_text`.
 std::string read_material_text(const std::filesystem::path& file);
 /// Whether a statement with this first word names a texture.
 bool is_texture_statement(std::string_view word);
-/// All suffixes of a statement's arguments that begin at one of the last 32 words, longest first.
-/// One of the suffixes is the file name: the file name comes after the options and may contain
-/// spaces.
-std::vector<std::string_view> suffixes_starting_at_words(std::string_view text);
 
 /// Finds the material files that a mesh names, and the textures that these files name. A name with
 /// the placeholder `<UDIM>` stands for all existing tiles. Warns about files that are missing or
@@ -63,6 +75,11 @@ std::vector<std::string_view> suffixes_starting_at_words(std::string_view text);
 /// \param libraries  arguments of the `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
                                   const std::vector<std::string>& libraries);
+
+/// Returns the first material in the files with each of these names, or a default material if there
+/// is none.
+std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
+                                                  const MaterialFiles& files);
 
 /// The textures that the materials of a mesh refer to.
 struct NamedTextures {

@@ -39,14 +39,9 @@ MergedMaterials::MergedMaterials(const std::filesystem::path& mesh,
     std::string folder = file.destination.parent_path().generic_string();
     if (!shared.empty()) folder = concat(shared, folder.empty() ? "" : "/", folder);
     const std::string text = read_material_text(file.source);
-    std::string material;
-    for (const std::string_view as_it_stands : split_lines(text)) {
-      Line line{std::string(as_it_stands), {}, {}, {}};
-      const MaterialStatement statement = material_statement(line.text);
-      line.keyword = statement.keyword;
-      line.arguments = statement.arguments;
-      if (line.keyword == "newmtl") material = line.arguments;
-      line.material = material;
+    for (const MaterialLine& original : material_lines(text)) {
+      Line line{std::string(original.text), std::string(original.keyword),
+                std::string(original.arguments), std::string(original.material)};
       if (is_texture_statement(line.keyword) && !folder.empty()) {
         line.arguments.insert(start_of_name(line.arguments), folder + '/');
         line.text = concat(line.keyword, ' ', line.arguments);

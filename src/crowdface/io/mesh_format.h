@@ -7,20 +7,25 @@
 #include <string_view>
 #include <vector>
 
+#include "crowdface/core/units.h"
 #include "crowdface/mesh/topology.h"
 
 namespace crowdface {
 
+struct FileMesh;
+
 /// An output format. Each format has an entry in the table of mesh_format.cpp and an entry in the
-/// table of run/mesh_encoder.cpp. If an entry is missing, compilation fails.
+/// table of run/mesh_encoder.cpp. If an entry is missing or incomplete, compilation fails. No other
+/// code lists the formats.
 enum class MeshFormat {
   kObj,     ///< the text of the target head's OBJ file with new positions
   kPly,     ///< binary PLY
   kGlb,     ///< binary glTF 2.0
   kPoints,  ///< only positions, .npy
   kUsd,     ///< a USD text layer, .usda
+  kEnd,     ///< not a format; the number of formats
 };
-inline constexpr std::size_t kMeshFormatCount = 5;
+inline constexpr std::size_t kMeshFormatCount = static_cast<std::size_t>(MeshFormat::kEnd);
 
 /// Where a format stores a kind of data: shapes, attachments or textures.
 enum class DataStorage {
@@ -54,6 +59,8 @@ struct MeshFormatTraits {
   /// the vertex order.
   /// \throws InvalidInput if another program wrote the file.
   Positions (*read)(const std::filesystem::path& file, Index vertices);
+  /// Function that writes a mesh that was read from any file. \throws CannotCreate, IoError
+  void (*write)(const FileMesh& mesh, LengthUnit unit, const std::filesystem::path& file);
 };
 
 /// The properties of a format.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "crowdface/core/text.h"
+#include "crowdface/io/obj_statements.h"
 
 namespace crowdface {
 namespace {
@@ -64,9 +65,8 @@ ColourRows obj_colours(std::string_view text, Eigen::Index vertices) {
   std::vector<std::array<double, 3>> found;  // #vertices; empty before the first colour
   std::size_t vertex = 0, coloured = 0;
   double most = 1;
-  for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
-    end = std::min(text.find('\n', begin), text.size());
-    const std::string_view line = text.substr(begin, end - begin);
+  for (std::size_t at = 0; at < text.size();) {
+    const std::string_view line = next_obj_line(text, at);
     if (!is_vertex(line)) continue;
     if (vertex == count) return ColourRows(0, 3);
     const std::size_t v = vertex++;

@@ -45,16 +45,11 @@ std::string_view rest_after(std::string_view line, std::string_view word) {
   return rest;
 }
 
-/// Calls visit(line) for each line, without its line end.
-template <class Visit>
-void for_each_line(std::string_view text, const Visit& visit) {
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line = text.substr(begin, end - begin);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    visit(line);
-    begin = end + 1;
-  }
+/// Returns the next line without its line end; see next_obj_line.
+std::string_view next_line(std::string_view text, std::size_t& at) {
+  std::string_view line = next_obj_line(text, at);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
 }
 
 std::string_view without_blanks_before(std::string_view line) {
@@ -147,11 +142,12 @@ class Scanner {
     scan_.positions.resize(static_cast<Index>(total_.vertex_count), 3);
     scan_.uvs.resize(
         line_selection_ == ObjLineSelection::kAll ? static_cast<Index>(total_.uv_count) : 0, 2);
-    for_each_line(text_, [&](std::string_view line) {
+    for (std::size_t at = 0; at < text_.size();) {
+      const std::string_view line = next_line(text_, at);
       ++line_number_;
       in_cut_line_ = line.data() + line.size() == text_.data() + text_.size();
       if (line_selection_ == ObjLineSelection::kAll || !skips(line)) check(line);
-    });
+    }
     in_cut_line_ = false;
     if (total_.vertex_count == 0 && first_unknown_line_ != 0) {
       line_number_ = first_unknown_line_;
@@ -353,7 +349,7 @@ class Scanner {
 
 ObjSummary summarise_obj(std::string_view text) {
   Summariser summariser;
-  for_each_line(text, [&](std::string_view line) { summariser.look_at(line); });
+  for (std::size_t at = 0; at < text.size();) summariser.look_at(next_line(text, at));
   return summariser.end();
 }
 

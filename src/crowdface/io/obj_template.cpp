@@ -10,6 +10,7 @@
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/obj_statements.h"
 #include "crowdface/io/single_precision.h"
 
 namespace crowdface {
@@ -110,11 +111,8 @@ ObjTemplate::ObjTemplate(const ObjFile& target, const Topology& topology, bool c
   const bool has_normals = !target.corner_normals.empty();
   std::uint32_t vertices = 0, normals = 0;
   std::vector<NumberRange> ranges;  // vertices and normals may be interleaved
-  for (std::size_t begin = 0; begin < text_.size();) {
-    const std::size_t end = std::min(text_.find('\n', begin), text_.size());
-    const std::string_view line = text_.substr(begin, end - begin);
-    begin = end + 1;
-    const auto [numbers, is_normal] = coordinates_of(line, colours);
+  for (std::size_t at = 0; at < text_.size();) {
+    const auto [numbers, is_normal] = coordinates_of(next_obj_line(text_, at), colours);
     if (numbers.empty() || (is_normal && !has_normals)) continue;
     const bool ends_run = !ranges.empty() && ranges.back().is_normal != is_normal &&
                           ranges.size() > kRangesPerBlock / 2;

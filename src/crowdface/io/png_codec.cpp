@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/io/png_codec.h"
-
 #include <algorithm>
 #include <csetjmp>
 #include <cstdlib>
@@ -12,6 +10,7 @@
 #include <zlib.h>
 
 #include "crowdface/core/interrupt.h"
+#include "crowdface/io/image_codec.h"
 #include "crowdface/io/run_deflate.h"
 
 namespace crowdface {

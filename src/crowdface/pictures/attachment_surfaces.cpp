@@ -11,7 +11,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/heads/image_values.h"
 #include "crowdface/io/image.h"
-#include "crowdface/io/surface_materials.h"
+#include "crowdface/io/material_files.h"
 
 namespace crowdface {
 namespace {
@@ -124,7 +124,7 @@ std::uint64_t attachment_texture_bytes(std::span<const Attachment* const> items,
     }
   };
   for (const Attachment* item : items) {
-    for (const SurfaceMaterial& material : read_surface_materials(item->materials)) {
+    for (const SurfaceMaterial& material : item->materials.surface_materials) {
       add(material.colour_map, 2);
       add(material.opacity_map, 1);
     }

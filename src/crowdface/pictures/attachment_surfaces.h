@@ -9,7 +9,7 @@
 
 #include "crowdface/core/lazy_map.h"
 #include "crowdface/heads/face_attachments.h"
-#include "crowdface/io/surface_materials.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/render/attachment_mesh.h"
 
 namespace crowdface {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "crowdface/cast/hair_colour.h"
+#include "crowdface/cast/review.h"
 
 namespace crowdface {
 

@@ -7,7 +7,7 @@
 
 #include "crowdface/core/error.h"
 #include "crowdface/io/image.h"
-#include "crowdface/io/surface_materials.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/mesh/polygon_sample.h"
 
 namespace crowdface {

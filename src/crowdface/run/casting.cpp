@@ -194,7 +194,7 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs,
   }
   FaceSpace space =
       cached_face_space(cache, std::move(heads), sample_weights(cells, prepared.samples, areas),
-                        band_count(config.sampling));
+                        band_count(*config.sampling));
   ProxySkin skin(cell_triangles(inputs.head_set.topology, cells), space.heads_at_samples().mean,
                  space.heads_at_samples().heads);
   return {std::move(space), std::move(skin)};
@@ -207,11 +207,11 @@ CastingOptions casting_options(const Config& config, const Inputs& inputs,
           config.crowd.seed,
           lay_out(config, head_distances),
           config.region_names(),
-          config.sampling,
+          *config.sampling,
           config.recipes,
           config.blending.normalization,
           level_scale(config, inputs),
-          config.diversity,
+          *config.diversity,
           config.families,
           merged_reviews(config.review.reviews).reviews,
           config.groups,
@@ -252,7 +252,7 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
   if (casting_builds_candidate_meshes(config)) {
     find_mesh_defects = mesh_defect_finder(config, inputs, builder());
   }
-  const BelievabilityOptions& believability = config.believability;
+  const BelievabilityOptions& believability = *config.believability;
   FaceJudge judge(space, casting.diversity, believability, &judged_in.proxy_skin,
                   find_mesh_defects);
   const auto traits = face_traits_of_config(config, inputs, prepared);

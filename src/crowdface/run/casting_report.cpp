@@ -197,7 +197,7 @@ void log_casting(const CrowdPlan& crowd_plan) {
 
 Json casting_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   Json json;
-  json["asked"] = asked_to_json(config.diversity);
+  json["asked"] = asked_to_json(*config.diversity);
   json["faces"] = crowd_plan.crowd.size();
   json["distances"] = distances_to_json(config.region_names(), crowd_plan.distances);
   if (!config.groups.empty()) json["groups"] = groups_to_json(config.groups, crowd_plan);

@@ -150,12 +150,12 @@ std::string estimate(const std::filesystem::path& config_file, const ConfigOverr
   const CastingSpace judged_in = casting_space(job.config, job.inputs, prepared, cache);
   const CastingOptions casting =
       casting_options(job.config, job.inputs, judged_in.face_space.head_distances());
-  const FaceJudge judge(judged_in.face_space, casting.diversity, job.config.believability,
+  const FaceJudge judge(judged_in.face_space, casting.diversity, *job.config.believability,
                         &judged_in.proxy_skin);
   const std::uint64_t asked = job.config.crowd.count;
   const auto rows = estimate_capacity(casting, judge, counts_up_to(asked),
                                       std::clamp(5 * asked, kSmallestPool, kLargestPool));
-  const double requested_mm = job.config.diversity.min_distance_mm;
+  const double requested_mm = job.config.diversity->min_distance_mm;
   const std::filesystem::path& folder = directory.root;
   make_directories(folder);
   write_file(folder / "estimate.csv", format_csv(rows));

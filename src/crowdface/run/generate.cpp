@@ -290,7 +290,7 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
     return concat("shard ", options.shard.name(), ": ", built, built == 1 ? " face" : " faces",
                   " built; when all shards are done: crowdface gather ", directory.root.string());
   }
-  warn(mesh_warnings(job.config.believability, crowd, so_far.faces));
+  warn(mesh_warnings(*job.config.believability, crowd, so_far.faces));
   std::size_t pages = 0;
   if (sheet && !crowd.empty()) {
     pages = timed(stages, "sheets", [&] {

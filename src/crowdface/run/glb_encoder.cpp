@@ -14,7 +14,7 @@
 #include "crowdface/io/glb_part.h"
 #include "crowdface/io/glb_template.h"
 #include "crowdface/io/image.h"
-#include "crowdface/io/surface_materials.h"
+#include "crowdface/io/material_files.h"
 #include "crowdface/mesh/vector3.h"
 #include "crowdface/parts/point_grid.h"
 #include "crowdface/run/attachments_in_format.h"
@@ -64,9 +64,9 @@ GlbImage rgba_image(const Image* colour, const Image* opacity) {
   return {encode_png(size.width, size.height, 4, pixels), "image/png"};
 }
 
-GlbPartMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage>& images) {
-  using Alpha = GlbPartMaterial::Alpha;
-  GlbPartMaterial material;
+GlbMaterial material_of(const SurfaceMaterial& made_of, std::vector<GlbImage>& images) {
+  using Alpha = GlbMaterial::Alpha;
+  GlbMaterial material;
   material.name = made_of.name;
   const bool has_colours = !made_of.colour_map.empty();
   if (made_of.colour && !has_colours) {
@@ -117,7 +117,7 @@ CompressedRows<Influence> influences_of(const Attachment& item, const Inputs& in
 
 /// The materials and images of an attachment.
 struct GlbLook {
-  std::vector<GlbPartMaterial> materials;
+  std::vector<GlbMaterial> materials;
   std::vector<std::uint32_t> of_face;
   std::vector<GlbImage> images;
 };
@@ -130,7 +130,7 @@ GlbLook look_of(const Attachment& item, bool own_texture) {
   look.of_face = std::move(named.material_of_polygon);
   if (own_texture) {
     for (const std::string& name : named.names) {
-      GlbPartMaterial& material = look.materials.emplace_back();
+      GlbMaterial& material = look.materials.emplace_back();
       material.name = name;
       material.image = 0;
     }

@@ -106,7 +106,7 @@ std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Conf
 }
 
 void check_levels(const Config& config, const Inputs& inputs, Problems& problems) {
-  check_sampling(config.sampling, "sampling.", config, inputs, problems);
+  check_sampling(*config.sampling, "sampling.", config, inputs, problems);
   for (const Group& group : config.groups) {
     check_sampling(group.sampling, concat("group ", group.name, ", "), config, inputs, problems);
   }
@@ -130,7 +130,7 @@ constexpr std::uint64_t kFacesPerFolder = 1'000;
 /// faces do not change if the config has a smaller `min_distance`.
 /// \return the config with these distances; unchanged if there are no existing faces.
 Config with_kept_distances(Config config, const std::string& before) {
-  DiversityOptions& diversity = config.diversity;
+  DiversityOptions& diversity = *config.diversity;
   const auto kept = distances_in_config(before);
   const auto count = number_in_config(before, "crowd.count");
   const bool is_own = !diversity.min_distance_mm_up_to_face.empty() && kept &&
@@ -195,7 +195,7 @@ ConfigReading read_with_kept_reviews(const ReadConfig& read, ConfigOverrides ove
     differences = config_differences(before, effective_config(reading.config, directory.root));
     overrides.former_face_count = number_in_config(before, "crowd.count");
     const auto distances = distances_in_config(before);
-    const double now = reading.config.diversity.min_distance_mm;
+    const double now = reading.config.diversity->min_distance_mm;
     if (distances && distances->min_distance_mm != now &&
         !overrides.keep_reviews_of_other_configs) {
       overrides.former_min_distance_mm = distances->min_distance_mm;
@@ -244,7 +244,7 @@ std::optional<Job> load_read_job(const ReadConfig& read, const ConfigOverrides& 
   std::optional<Inputs> inputs = load_inputs(config, cache, problems);
   if (!inputs) return std::nullopt;
   check_levels(config, *inputs, problems);
-  for (std::string& text : empty_bands(config.sampling, config, *inputs)) {
+  for (std::string& text : empty_bands(*config.sampling, config, *inputs)) {
     log_warning(text);
     inputs->warnings.push_back(std::move(text));
   }

@@ -82,13 +82,15 @@ constexpr std::array<MeshEncoding, kMeshFormatCount> kEncodings = {{
      iris_file},
 }};
 
-constexpr bool encodings_are_in_order() {
+constexpr bool are_encodings_complete() {
   for (std::size_t f = 0; f < kEncodings.size(); ++f) {
-    if (kEncodings[f].format != static_cast<MeshFormat>(f)) return false;
+    const MeshEncoding& row = kEncodings[f];
+    if (row.format != static_cast<MeshFormat>(f) || row.make == nullptr || row.estimate == nullptr)
+      return false;
   }
   return true;
 }
-static_assert(encodings_are_in_order(), "every MeshFormat has its row, in the enumeration's order");
+static_assert(are_encodings_complete(), "every MeshFormat has its row, in the enumeration's order");
 
 }  // namespace
 

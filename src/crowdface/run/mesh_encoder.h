@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Encodes meshes in each file format. A factory function per format makes one encoder for each
-// level of detail. To add a format, add a row in io/mesh_format.cpp, an encoder like
-// obj_encoder.cpp, and a row in mesh_encoder.cpp.
+// level of detail. docs/architecture.md lists the files to change for a new format.
 #pragma once
 
 #include <cstddef>

@@ -31,7 +31,7 @@ ViewSetup viewing_of(const Config& config) {
 
 bool skin_is_judged(const Config& config, const Inputs& inputs) {
   constexpr Index kMaxFaces = 200'000;  // polygons; larger meshes would dominate the run time
-  const BelievabilityOptions& believability = config.believability;
+  const BelievabilityOptions& believability = *config.believability;
   using MeshChecks = BelievabilityOptions::MeshChecks;
   return believability.check && believability.meshes != MeshChecks::kNone &&
          (believability.meshes != MeshChecks::kAuto ||
@@ -62,8 +62,8 @@ ProtrudingPartsCheck protruding_parts_check(const Config& config, const Inputs& 
 }
 
 bool casting_builds_candidate_meshes(const Config& config) {
-  return config.believability.check &&
-         config.believability.meshes == BelievabilityOptions::MeshChecks::kJudge;
+  return config.believability->check &&
+         config.believability->meshes == BelievabilityOptions::MeshChecks::kJudge;
 }
 
 MeshDefectFinder mesh_defect_finder(const Config& config, const Inputs& inputs,

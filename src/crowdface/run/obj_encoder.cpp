@@ -78,7 +78,7 @@ std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
 /// Returns the `usemtl` line to write after the `mtllib` line, by target head. Contains only target
 /// heads whose first polygons have no material although the material files define exactly one
 /// material. Programs ignore this material if there is no `usemtl` line.
-std::map<Index, std::string> material_lines(const MeshSource& source) {
+std::map<Index, std::string> usemtl_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.target_heads) {
     const ObjFile& file = source.inputs.head_files[static_cast<std::size_t>(target)];
@@ -161,7 +161,7 @@ MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
 MeshEncoders obj_encoders(const MeshSource& source) {
   MeshEncoders encoders;
   const std::map<Index, std::string> others = replacing_library_lines(source);
-  const std::map<Index, std::string> materials = material_lines(source);
+  const std::map<Index, std::string> materials = usemtl_lines(source);
   for (const MeshLevel& level : source.levels) {
     MeshEncoder encoder =
         level.is_whole_mesh() ? whole_encoder(source) : level_encoder(source, *level.face_level);

@@ -7,6 +7,8 @@
 #include <set>
 
 #include "crowdface/cast/attachment_item.h"
+#include "crowdface/cast/review.h"
+#include "crowdface/cast/sampling.h"
 #include "crowdface/cast/typical_head.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/text.h"

@@ -18,7 +18,7 @@ std::uint64_t rounded_estimate(double count) {
 }
 
 std::string asked_of(const Config& config, RejectionReason reason) {
-  return describe(reason, config.diversity, config.believability);
+  return describe(reason, *config.diversity, *config.believability);
 }
 
 /// Advice for a user who extends an existing crowd. Names only config keys that can change without
@@ -27,7 +27,7 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
                                              const Shortfall& shortfall) {
   std::vector<std::string> advice;
   const bool grows = config.crowd.count > *config.crowd.existing_face_count;
-  const bool is_first_fit = config.diversity.mode == DiversityOptions::Mode::kFirstFit;
+  const bool is_first_fit = config.diversity->mode == DiversityOptions::Mode::kFirstFit;
   if (remedy.binding_constraint == RejectionReason::kMinDistance && is_first_fit) {
     const std::string smaller =
         remedy.largest_distance_mm
@@ -66,7 +66,7 @@ std::vector<std::string> advice(const Config& config, const Remedy& remedy,
                             all ? "" : "; more faces need a smaller value"));
   }
   if (remedy.binding_constraint == RejectionReason::kMinDistance &&
-      config.diversity.mode == DiversityOptions::Mode::kFirstFit) {
+      config.diversity->mode == DiversityOptions::Mode::kFirstFit) {
     advice.emplace_back("mode: spread fits more faces at the same distance");
   }
   for (const std::string_view line : constraint_of(remedy.binding_constraint).advice) {
@@ -151,7 +151,7 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
         config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding_constraint),
         ", cannot be met; reached ", shortfall.cast_count, " of ", config.crowd.count, " faces");
   }
-  if (config.diversity.mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
+  if (config.diversity->mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
       shortfall.manual_face_id.empty()) {
     message += concat(" (for the next face ", by_main, " of ", rejected,
                       " candidates were rejected for this reason)");

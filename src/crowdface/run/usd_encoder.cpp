@@ -10,7 +10,6 @@
 #include "crowdface/crowd/crowd_directory.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
-#include "crowdface/io/surface_materials.h"
 #include "crowdface/io/usda_template.h"
 #include "crowdface/io/usda_text.h"
 #include "crowdface/run/attachments_in_format.h"

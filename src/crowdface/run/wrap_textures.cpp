@@ -132,7 +132,7 @@ void add_texture_files(const fs::path& scan, Hasher& hasher) {
   for (std::size_t at = text.find(kWord); at != text.npos; at = text.find(kWord, at + 1)) {
     if (at > 0 && text[at - 1] != '\n') continue;
     const std::string_view line = text.substr(at, text.find_first_of("\r\n", at) - at);
-    libraries.emplace_back(material_statement(line).arguments);
+    libraries.emplace_back(material_lines(line).front().arguments);
   }
   for (const MaterialFile& used : find_material_files(scan, libraries).files) {
     hasher.add(hash_file(used.source).digest);

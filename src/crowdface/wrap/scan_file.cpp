@@ -29,30 +29,6 @@ bool has_area(const Scan& scan) {
   });
 }
 
-/// Rejects scans that are so far from the origin (such as scans in map coordinates) that rounding
-/// to single precision turns the surface into steps.
-void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
-  constexpr double kMaxOfSize = 1e-3;
-  const std::vector<bool> used = is_vertex_used(scan);
-  Eigen::AlignedBox3d box;
-  double farthest = 0;
-  for (Index v = 0; v < scan.positions.rows(); ++v) {
-    if (!used[static_cast<std::size_t>(v)]) continue;
-    const Eigen::Vector3d place = row3(scan.positions, v);
-    if (place.cast<float>().cast<double>() != place) return;  // finer than single precision
-    box.extend(place);
-    farthest = std::max(farthest, place.cwiseAbs().maxCoeff());
-  }
-  const double size = box.diagonal().norm();
-  const double step = std::ldexp(1.0, std::ilogb(farthest) - 23);
-  if (!(farthest > 0 && step > kMaxOfSize * size)) return;
-  refuse_file(
-      path,
-      concat("coordinates near ", format_fixed(farthest, 0), " in single precision have steps of ",
-             format_fixed(step, 3), ", too coarse for a scan of size ", format_fixed(size, 1),
-             ": move the scan near the origin before exporting it, or export doubles (PLY, OBJ)"));
-}
-
 /// The smallest distance between different coordinates along an axis, in a sample of the vertices.
 /// A scan with enough digits has a far smaller distance than its size.
 double smallest_step(const std::vector<double>& values) {
@@ -68,32 +44,37 @@ double smallest_step(const std::vector<double>& values) {
   return step;
 }
 
-/// Rejects scans that are far from the origin and whose file has too few digits, so that the surface
-/// consists of steps.
-void refuse_few_digits(const Scan& scan, const std::filesystem::path& path) {
-  constexpr double kFar = 10, kMaxOfSize = 5e-3;
+/// Rejects scans that are so far from the origin (such as scans in map coordinates) that their
+/// numbers turn the surface into steps: numbers in single precision, or with too few digits.
+void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
+  constexpr double kFar = 10, kMaxOfSize = 5e-3, kMaxSingleOfSize = 1e-3;
   const std::vector<bool> used = is_vertex_used(scan);
   std::array<std::vector<double>, 3> values;
   Eigen::AlignedBox3d box;
+  bool are_singles = true;
   for (Index v = 0; v < scan.positions.rows(); ++v) {
     if (!used[static_cast<std::size_t>(v)]) continue;
-    box.extend(row3(scan.positions, v));
-    for (std::size_t k = 0; k < 3; ++k) {
-      values[k].push_back(scan.positions(v, static_cast<Index>(k)));
-    }
+    const Eigen::Vector3d place = row3(scan.positions, v);
+    are_singles = are_singles && place.cast<float>().cast<double>() == place;
+    box.extend(place);
+    for (std::size_t k = 0; k < 3; ++k) values[k].push_back(place[static_cast<Index>(k)]);
   }
   const double size = box.diagonal().norm();
   for (std::size_t k = 0; k < 3; ++k) {
     const auto axis = static_cast<Index>(k);
     const double farthest = std::max(std::abs(box.min()[axis]), std::abs(box.max()[axis]));
-    const double step = smallest_step(values[k]);
-    if (!(farthest > kFar * size && step > kMaxOfSize * size)) continue;
-    refuse_file(
-        path, concat("its ", "xyz"[k], " coordinates near ", format_fixed(farthest, 0),
-                     std::isinf(step) ? " are all equal"
-                                      : concat(" have steps of ", format_fixed(step, 3)),
-                     ", too coarse for a scan of size ", format_fixed(size, 1),
-                     ": move the scan near the origin before exporting it, or export more digits"));
+    const double of_singles =
+        are_singles && farthest > 0 ? std::ldexp(1.0, std::ilogb(farthest) - 23) : 0;
+    const bool is_single = of_singles > kMaxSingleOfSize * size;
+    const double step = is_single ? of_singles : smallest_step(values[k]);
+    if (!is_single && !(farthest > kFar * size && step > kMaxOfSize * size)) continue;
+    refuse_file(path, concat("its ", "xyz"[k], " coordinates near ", format_fixed(farthest, 0),
+                             is_single ? " in single precision" : "",
+                             std::isinf(step) ? " are all equal"
+                                              : concat(" have steps of ", format_fixed(step, 3)),
+                             ", too coarse for a scan of size ", format_fixed(size, 1),
+                             ": move the scan near the origin before exporting it, or export ",
+                             is_single ? "doubles (PLY, OBJ)" : "more digits"));
   }
 }
 
@@ -149,7 +130,6 @@ Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
                              " from the origin, found another"));
   }
   refuse_coarse_numbers(scan, path);
-  refuse_few_digits(scan, path);
   if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
   weld_vertices(scan);
   refuse_fan(scan, path);
