@@ -83,6 +83,13 @@ TEST_F(ReadConfig, FoldersSayWhichArraysAreNoHeads) {
   EXPECT_TRUE(of_pattern.ends_with(left_out)) << of_pattern;
 }
 
+TEST(NamesOfHeads, ReplacesCharactersThatNamesCannotHave) {
+  EXPECT_EQ(names_of_heads({"Jörg Müller.obj", "head (1).OBJ", "头部 3.ply"}),
+            (std::vector<std::string>{"Jorg_Muller", "head__1_", "___3"}));
+  EXPECT_EQ(names_of_heads({"Ann B/neutral pose.obj", "Bob C/neutral pose.obj"}),
+            (std::vector<std::string>{"Ann_B", "Bob_C"}));
+}
+
 TEST_F(ReadConfig, FilesKeepTheirOrder) {
   const auto config = read(
       "schema: 1\ncrowd: {name: a, count: 0}\n"

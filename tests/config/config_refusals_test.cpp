@@ -54,7 +54,6 @@ INSTANTIATE_TEST_SUITE_P(
     Colours, WrongConfig,
     testing::Values(
         Wrong{"textures: {colours: apart}", "5:21", "recipe or drawn"},
-        Wrong{"points: rig.yaml/", "5:9", "without '/' at its end"},
         Wrong{"points: \"C:\\users\\p.yaml\"", "5:18", "write paths with /"},
         Wrong{"textures: {blend: target, colours: drawn}", "5:36", "requires textures.blend: auto"},
         Wrong{"textures: {alike: []}", "5:19", "requires colours: drawn"},

@@ -2,10 +2,12 @@
 // Heads whose exports split, joined or reordered vertices take one mesh.
 #include "crowdface/heads/common_mesh.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
@@ -15,6 +17,7 @@
 #include "crowdface/mesh/all_columns.h"
 
 #include "support/crowd_files.h"
+#include "support/expect_error.h"
 #include "support/small_crowd.h"
 
 namespace crowdface {
@@ -168,6 +171,16 @@ TEST_F(CommonMesh, DoesNotDependOnTheDiagonals) {
   }
 }
 
+TEST_F(CommonMesh, DoesNotDependOnOrderAndDiagonals) {
+  const FanCorner mixed = [](Index f) { return static_cast<std::size_t>(f % 3 == 0 ? 1 : 0); };
+  for (const Copy& copy : {whole, split_below_face_100}) {
+    write(0, whole);
+    write(1, copy, true, true, mixed);
+    write(2, whole);
+    expect_common_mesh(used_);
+  }
+}
+
 // Blender cuts most quads of GLB heads alike; the others tore the mesh.
 TEST_F(CommonMesh, IsNotTornWhereDiagonalsDiffer) {
   std::vector<HeadFile> heads(2);
@@ -184,6 +197,37 @@ TEST_F(CommonMesh, IsNotTornWhereDiagonalsDiffer) {
   EXPECT_EQ(heads[1].mesh, heads[0].mesh);
   EXPECT_EQ(heads[0].mesh->topology.vertex_count, used_);
   EXPECT_EQ(heads[1].file.positions.rows(), used_);
+}
+
+TEST_F(CommonMesh, IsNotThatOfAMirroredHead) {
+  std::istringstream lines(read_text(folder_.head(folder_.names()[1])));
+  std::string text;
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string> words = words_of(line);
+    if (words.at(0) == "v") words[1] = concat(-*parse_double(words[1]));
+    if (words.at(0) == "f") std::reverse(words.begin() + 1, words.end());
+    text += join(words, " ") + '\n';
+  }
+  folder_.folder().write("heads/" + folder_.names()[1] + ".obj", text);
+  testing::expect_error(ExitCode::kBadData, {folder_.names()[1], "is mirrored"}, [&] { read(); });
+}
+
+TEST(FewDecimals, AreToldIfTheySpoilTheSurface) {
+  const auto warnings = [](double step, double mm, double offset) {
+    std::vector<HeadFile> heads(1);
+    Positions& positions = heads[0].file.positions;
+    positions = 100 * Positions::Random(1000, 3);
+    if (step > 0) positions = (positions / step).array().round() * step;
+    positions.array() += offset;
+    positions = positions.cast<float>().cast<double>();
+    return few_decimals_warnings(heads, mm);
+  };
+  EXPECT_THAT(warnings(1, 1, 0), ::testing::ElementsAre(::testing::HasSubstr("to 1 mm")));
+  EXPECT_THAT(warnings(0.1, 10, 0), ::testing::ElementsAre(::testing::HasSubstr("to 1 mm")));
+  EXPECT_TRUE(warnings(0.01, 10, 0).empty());
+  EXPECT_TRUE(warnings(0.01, 1, 5).empty());
+  EXPECT_TRUE(warnings(0, 1, 0).empty());
+  EXPECT_TRUE(warnings(0, 1000, 0).empty());
 }
 
 TEST_F(CommonMesh, HasThePolygonsOfMostHeads) {

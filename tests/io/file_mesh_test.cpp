@@ -50,6 +50,18 @@ TEST(ParsePly, ReadsPolygonsColoursAndTextureCoordinates) {
   EXPECT_EQ(mesh.colours.row(0), Eigen::RowVector3d(1, 0, 0.2));
 }
 
+TEST(ParsePly, ReadsPropertiesInCapitals) {
+  const FileMesh mesh = parse_ply(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float X\nproperty float Y\n"
+      "property float Z\nproperty uchar Red\nproperty uchar Green\nproperty uchar Blue\n"
+      "element face 1\nproperty list uchar int Vertex_Indices\nend_header\n"
+      "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 5 255 0 0\n3 0 1 2\n",
+      "head.ply");
+  EXPECT_EQ(mesh.positions.row(2), Eigen::RowVector3d(0, 1, 5));
+  EXPECT_EQ(mesh.colours.row(2), Eigen::RowVector3d(1, 0, 0));
+  EXPECT_EQ(mesh.topology.face_count(), 1);
+}
+
 TEST(ParsePly, ReadsStripsAndLinesThatEndInCr) {
   std::string text = "ply\nformat ascii 1.0\n" + kPlyHead +
                      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
@@ -130,6 +142,14 @@ TEST(ParseStl, TakesAnyNameCaseAndLineEnd) {
   }
 }
 
+TEST(ParseStl, TakesATextOfOneLine) {
+  std::string line = text_stl_of("head", false) + text_stl_of("", true);
+  std::ranges::replace(line, '\n', ' ');
+  const FileMesh mesh = parse_stl(line, "line.stl");
+  ASSERT_EQ(mesh.topology.face_count(), 2);
+  EXPECT_EQ(mesh.positions.row(5), Eigen::RowVector3d(0, 1, 0.01));
+}
+
 TEST(ParseStl, SaysWhyItRefuses) {
   const std::string text = text_stl_of("head", false);
   expect_error(ExitCode::kBadData, {"decimal point"}, [&] {
@@ -184,6 +204,7 @@ struct GltfParts {
   std::string node = R"({"mesh":0})", primitive = R"({"attributes":{"POSITION":0},"indices":1})",
               accessors, views, more, weights;
   std::string data;
+  std::string uri;  ///< of the buffer; empty: the data stand in the JSON text
 };
 
 FileMesh mesh_of(const GltfParts& parts, const std::filesystem::path& path = "scene.gltf") {
@@ -191,8 +212,10 @@ FileMesh mesh_of(const GltfParts& parts, const std::filesystem::path& path = "sc
       concat(R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)",
              parts.node, R"(],"meshes":[{"primitives":[)", parts.primitive, "]", parts.weights,
              R"(}],"accessors":[)", parts.accessors, R"(],"bufferViews":[)", parts.views, R"(],)",
-             parts.more, R"("buffers":[{"uri":"data:application/octet-stream;base64,)",
-             base64(parts.data), R"(","byteLength":)", parts.data.size(), "}]}"),
+             parts.more, R"("buffers":[{"uri":")",
+             parts.uri.empty() ? "data:application/octet-stream;base64," + base64(parts.data)
+                               : parts.uri,
+             R"(","byteLength":)", parts.data.size(), "}]}"),
       path);
 }
 
@@ -447,6 +470,20 @@ TEST(ParseGltf, FindsTexturesOfOtherMachines) {
   EXPECT_TRUE(without.textures.empty());
   EXPECT_THAT(without.notes,
               ::testing::ElementsAre(::testing::HasSubstr("\"other.png\" is neither beside it")));
+}
+
+TEST(ParseGltf, FindsBuffersOfOtherMachines) {
+  const TemporaryFolder folder;
+  GltfParts parts = plain_parts();
+  folder.write("Head.bin", parts.data);
+  for (const char* uri :
+       {R"(C:\\Users\\Anna\\head.bin)", "/home/anna/head.bin", "../head.bin", "Head.bin"}) {
+    parts.uri = uri;
+    EXPECT_EQ(mesh_of(parts, folder / "head.gltf").topology.face_count(), 2) << uri;
+  }
+  parts.uri = "/home/anna/other.bin";
+  expect_error(ExitCode::kBadData, {"outside its folder", "/home/anna/other.bin"},
+               [&] { mesh_of(parts, folder / "head.gltf"); });
 }
 
 TEST(ParseGltf, AppliesTheDefaultWeightsOfMorphTargets) {

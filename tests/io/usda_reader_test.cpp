@@ -285,6 +285,25 @@ TEST(ParseUsda, InheritsMaterialsFromParents) {
   EXPECT_EQ(mesh.materials[1].name, "iris");
 }
 
+// Omniverse and Houdini bind some heads only for final renders; such heads had no materials.
+TEST(ParseUsda, BindingsOfThePurposeFullCountLast) {
+  const auto material = [](const std::string& root, const std::string& mesh) {
+    return mesh_of(concat("def Xform \"a\" {\n", root, "\n def Mesh \"face\" {\n", kSquare, mesh,
+                          "\n}\n}\n"))
+        .materials.at(0)
+        .name;
+  };
+  const std::string full = "rel material:binding:full = </m/mdl>";
+  EXPECT_EQ(material("", full), "mdl");
+  EXPECT_EQ(material(full, ""), "mdl");
+  EXPECT_EQ(material("rel material:binding = </m/skin>", full), "skin");
+  EXPECT_EQ(material(full, "rel material:binding:preview = </m/skin>"), "skin");
+  EXPECT_EQ(material("rel material:binding:collection:full:x = [</a.collection:x>, </m/mdl>]\n"
+                     "rel collection:x:includes = </a>",
+                     ""),
+            "mdl");
+}
+
 // The parts of a head that Houdini or Omniverse binds through collections had no materials.
 TEST(ParseUsda, BindsMaterialsThroughCollections) {
   const auto materials = [](const std::string& root, const std::string& group = {}) {

@@ -130,6 +130,37 @@ TEST(HasSamePolygons, WhateverTheOrderAndTheDiagonals) {
   EXPECT_FALSE(has_same_polygons(missing, other));
 }
 
+TEST(HasSamePolygons, CutInAnyWay) {
+  Topology hexagons, fans, zigzags, other;
+  for (Topology* all : {&hexagons, &fans, &zigzags, &other}) all->vertex_count = 10;
+  hexagons.add_face(std::array{0U, 1U, 2U, 3U, 4U, 5U});
+  hexagons.add_face(std::array{3U, 2U, 6U, 7U, 8U, 9U});
+  const auto cut = [](Topology& to, const std::array<std::uint32_t, 12>& diagonals) {
+    for (const std::uint32_t first : {0U, 6U}) {
+      constexpr std::array<std::array<std::uint32_t, 6>, 2> kHexagons = {
+          {{0, 1, 2, 3, 4, 5}, {3, 2, 6, 7, 8, 9}}};
+      const auto& h = kHexagons[first / 6];
+      for (std::uint32_t i = 0; i < 12; i += 3) {
+        to.add_face(std::array{h[diagonals[i]], h[diagonals[i + 1]], h[diagonals[i + 2]]});
+      }
+    }
+  };
+  cut(fans, {0, 1, 2, 0, 2, 3, 0, 3, 4, 0, 4, 5});
+  cut(zigzags, {0, 1, 5, 1, 2, 5, 2, 4, 5, 2, 3, 4});
+  const std::array<Topology, 3> same = {hexagons, fans, zigzags};
+  for (const Topology& a : same) {
+    for (const Topology& b : same) EXPECT_TRUE(has_same_polygons(a, b));
+  }
+  cut(other, {1, 0, 5, 1, 2, 5, 2, 4, 5, 2, 3, 4});  // one triangle is reversed
+  EXPECT_FALSE(has_same_polygons(hexagons, other));
+  // A vertex in the middle of a square is no corner of the square's border.
+  Topology square, star;
+  for (Topology* both : {&square, &star}) both->vertex_count = 6;
+  for (std::uint32_t i = 0; i < 4; ++i) star.add_face(std::array{i, (i + 1) % 4, 4U});
+  for (std::uint32_t i = 0; i < 4; ++i) square.add_face(std::array{i, (i + 1) % 4, 5U});
+  EXPECT_FALSE(has_same_polygons(square, star));
+}
+
 TEST(Triangulated, CutsQuadsEitherWay) {
   Topology quad;
   quad.vertex_count = 4;

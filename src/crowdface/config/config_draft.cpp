@@ -24,13 +24,6 @@ std::filesystem::path resolve(const std::filesystem::path& folder, const std::st
 
 bool expect_file(const YamlNode& node, const std::filesystem::path& file, ConfigDraft& draft,
                  std::string_view what) {
-  // The node may also be the folder in which the file was found.
-  const bool names_file =
-      std::filesystem::path(node.text).parent_path().filename() == file.filename();
-  if (node.text.ends_with('/') && names_file) {
-    draft.complaints.add_mismatch(node, "a file name without '/' at its end");
-    return false;
-  }
   if (path_exists(file) && !is_folder(file)) return true;
   const std::string found =
       is_folder(file) ? " is a folder; name the file in it" : " is missing" + advice_on_path(file);

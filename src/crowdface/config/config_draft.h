@@ -50,7 +50,7 @@ std::string known_tags(const Config::Faces& faces);
 std::vector<std::string> remove_age_tags(std::vector<std::string> tags);
 
 /// Resolves a path against the folder. Removes "a/../" by text alone, without following symbolic
-/// links.
+/// links, and removes a '/' at the end.
 std::filesystem::path resolve(const std::filesystem::path& folder, const std::string& path);
 
 /// Returns whether a file exists. If the file is missing, adds a complaint of kind kMissingInput.

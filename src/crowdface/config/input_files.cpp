@@ -202,9 +202,22 @@ std::vector<fs::path> files_matching(const fs::path& pattern) {
   return found;
 }
 
+std::string valid_head_name(const std::string& stem) {
+  std::string name;
+  for (const char c : decomposed(stem)) {
+    const bool is_mark = (static_cast<unsigned char>(c) & 0xFEU) == 0xCCU;
+    if (is_valid_name(concat('a', c))) {
+      name += c;
+    } else if (!is_utf8_continuation(c) && !is_mark) {
+      name += '_';
+    }
+  }
+  return name;
+}
+
 std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
   std::vector<std::string> names;
-  for (const fs::path& file : files) names.push_back(file.stem().string());
+  for (const fs::path& file : files) names.push_back(valid_head_name(file.stem().string()));
   const auto all_differ = [&] {
     return std::set(names.begin(), names.end()).size() == names.size();
   };
@@ -215,8 +228,8 @@ std::vector<std::string> names_of_heads(const std::vector<fs::path>& files) {
   for (const fs::path& file : files) {
     const fs::path plain = file.lexically_normal();
     std::vector<std::string>& of = parts.emplace_back();
-    for (const fs::path& part : plain.parent_path()) of.push_back(part.string());
-    of.push_back(plain.stem().string());
+    for (const fs::path& part : plain.parent_path()) of.push_back(valid_head_name(part.string()));
+    of.push_back(valid_head_name(plain.stem().string()));
     if (of.size() != parts[0].size()) return names;
   }
   // Build each name from the path parts that are not equal in all paths, such as "ann_smile". Add

@@ -16,6 +16,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/obj_colours.h"
+#include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/all_columns.h"
 #include "crowdface/mesh/disjoint_sets.h"
 #include "crowdface/mesh/joined_borders.h"
@@ -52,6 +53,58 @@ std::vector<std::array<double, 4>> uv_bounds(const Topology& topology,
     }
   }
   return bounds;
+}
+
+/// Matches the vertices by their texture coordinates, and vertices with equal texture coordinates
+/// by their positions. The polygons may be cut into triangles along different diagonals.
+std::optional<Vertices> match_vertices_by_uvs(const HeadFile& first, const Topology& found,
+                                              const TextureCoordinates& uvs,
+                                              const Positions& positions) {
+  const Topology& expected = first.mesh->topology;
+  if (uvs.rows() == 0 || first.mesh->uvs.rows() == 0) return std::nullopt;
+  if (found.vertex_count != expected.vertex_count) return std::nullopt;
+  const auto wanted = uv_bounds(expected, first.mesh->uvs), known = uv_bounds(found, uvs);
+  Vertices by_u(known.size());
+  std::iota(by_u.begin(), by_u.end(), 0U);
+  const auto u_of = [&](std::uint32_t v) { return known[v][0]; };
+  std::ranges::sort(by_u, {}, u_of);
+  constexpr std::size_t kMaxAlike = 16;  // vertices with equal texture coordinates
+  std::vector<Vertices> alike(wanted.size());
+  Positions from, to;  // vertices with unique texture coordinates
+  std::vector<std::array<std::uint32_t, 2>> unique;
+  for (std::uint32_t v = 0; v < wanted.size(); ++v) {
+    const auto& uv = wanted[v];
+    for (auto at = std::ranges::lower_bound(by_u, uv[0] - kUvTolerance, {}, u_of);
+         at != by_u.end() && u_of(*at) <= uv[0] + kUvTolerance; ++at) {
+      const bool is_alike = std::ranges::equal(
+          uv, known[*at], [](double x, double y) { return std::abs(x - y) <= kUvTolerance; });
+      if (is_alike) alike[v].push_back(*at);
+      if (alike[v].size() > kMaxAlike) return std::nullopt;
+    }
+    if (alike[v].empty()) return std::nullopt;
+    if (alike[v].size() == 1) unique.push_back({v, alike[v][0]});
+  }
+  constexpr std::size_t kMinUnique = 4;
+  if (unique.size() < kMinUnique) return std::nullopt;
+  from.resize(std::ssize(unique), 3);
+  to.resize(std::ssize(unique), 3);
+  for (Index i = 0; i < from.rows(); ++i) {
+    const auto& [in_first, in_found] = unique[static_cast<std::size_t>(i)];
+    from.row(i) = positions.row(in_found);
+    to.row(i) = first.file.positions.row(in_first);
+  }
+  const Positions placed = fit_similarity(from, to, ScaleFit::kUniform).apply(positions);
+  Vertices vertices, expected_of_found(wanted.size(), kNoIndex);
+  for (std::uint32_t v = 0; v < wanted.size(); ++v) {
+    vertices.push_back(*std::ranges::min_element(alike[v], {}, [&](std::uint32_t w) {
+      return (placed.row(w) - first.file.positions.row(v)).squaredNorm();
+    }));
+    if (std::exchange(expected_of_found[vertices[v]], v) != kNoIndex) return std::nullopt;
+  }
+  Topology renumbered = found;
+  for (std::uint32_t& vertex : renumbered.corner_vertices) vertex = expected_of_found[vertex];
+  if (!has_same_polygons(expected, renumbered)) return std::nullopt;
+  return vertices;
 }
 
 /// \param vertices  the vertex of `found` for each vertex of `first`
@@ -114,6 +167,7 @@ std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& h
   for (std::uint32_t around = 0; around < 2 && !vertices; ++around) {
     vertices = match_graphs(triangulated(expected, around), there, found, positions);
   }
+  if (!vertices) vertices = match_vertices_by_uvs(first, found, head.mesh->uvs, positions);
   if (!vertices || !has_same_uvs(*first.mesh, found, head.mesh->uvs, *vertices)) {
     return std::nullopt;
   }

@@ -13,6 +13,8 @@
 #include "crowdface/heads/named_parts.h"
 #include "crowdface/mesh/alignment.h"
 #include "crowdface/mesh/all_columns.h"
+#include "crowdface/mesh/same_graph.h"
+#include "crowdface/mesh/winding.h"
 #include "crowdface/paint/face_marks.h"
 
 namespace crowdface {
@@ -90,6 +92,14 @@ std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head
   };
   const bool same_vertices = first.vertex_count == found.vertex_count;
   const bool same_faces = first.face_count() == found.face_count();
+  Topology reversed = found;
+  reverse_faces(reversed);
+  if (same_vertices && has_same_polygons(first, reversed)) {
+    return "; its polygons have the reverse order of corners, so that one of the two heads is "
+           "mirrored: mirror it back (scale it by -1 along one axis, and flip its faces), or "
+           "export "
+           "both with the same axes";
+  }
   if (same_vertices && same_faces) {
     return "; it has as many vertices and faces, but in another order or with other connections: "
            "export it again and keep the vertex order, or wrap the first head onto it (crowdface "
@@ -239,6 +249,31 @@ std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm) {
                                 " mm apart (rms): are they the same person? Faces that mix the two "
                                 "then vary less than expected"));
     }
+  }
+  return warnings;
+}
+
+std::vector<std::string> few_decimals_warnings(const std::vector<HeadFile>& heads, double mm) {
+  constexpr Index kMinVertices = 500, kSampled = 2000;
+  constexpr double kMaxStepMm = 0.1, kRounding = 0.01;  // single precision changes the last digits
+  std::vector<std::string> warnings;
+  for (const HeadFile& head : heads) {
+    const Positions& positions = head.file.positions;
+    if (positions.rows() < kMinVertices) continue;
+    const auto is_rounded_to = [&](double step) {
+      for (Index v = 0; v < positions.rows();
+           v += std::max<Index>(1, positions.rows() / kSampled)) {
+        const Eigen::Array3d steps = positions.row(v).transpose().array() / step;
+        if (!((steps - steps.round()).abs() <= kRounding).all()) return false;
+      }
+      return true;
+    };
+    double step = 1;
+    while (step * mm > kMaxStepMm && !is_rounded_to(step)) step /= 10;
+    if (step * mm <= kMaxStepMm) continue;
+    warnings.push_back(concat(head.file.path.string(), ": its positions are rounded to ", step * mm,
+                              " mm, which makes the surface rough: export more decimals, or in a "
+                              "smaller unit"));
   }
   return warnings;
 }

@@ -27,6 +27,11 @@ std::optional<std::string> check_orientation_and_size(const Config& config, cons
 /// \param mm  millimetres per file unit
 std::vector<std::string> same_person_warnings(const Inputs& inputs, double mm);
 
+/// Warns about each head whose file has so few decimals that positions are rounded to more than a
+/// tenth of a millimetre.
+/// \param mm  millimetres per file unit
+std::vector<std::string> few_decimals_warnings(const std::vector<HeadFile>& heads, double mm);
+
 /// Warns if the heads are so far from the origin that single precision, in which meshes are
 /// written, cannot represent a hundredth of a millimetre there.
 std::optional<std::string> far_from_origin_warning(const Config& config, const Inputs& inputs);

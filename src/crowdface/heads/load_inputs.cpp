@@ -255,6 +255,9 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
 
   cache_heads(heads, cache);
   Inputs inputs;
+  for (std::string& text : few_decimals_warnings(heads, mm_per(config.faces.units))) {
+    inputs.warn(std::move(text));
+  }
   take_heads(config, std::move(heads), inputs);
   read_vertex_colours(inputs);
   inputs.materials =

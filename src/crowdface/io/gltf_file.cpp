@@ -144,18 +144,17 @@ std::string GltfFile::read_uri(const std::string& uri, const std::string& what) 
     if (comma == uri.npos) fail(concat(what, " has no data"));
     return decoded_base64(std::string_view(uri).substr(comma + 1));
   }
-  const std::filesystem::path file = percent_decoded(uri).value_or(std::string(uri));
+  std::string named = percent_decoded(uri).value_or(std::string(uri));
+  std::ranges::replace(named, '\\', '/');
+  const std::filesystem::path file = named, folder = path_.parent_path();
   const bool inside = file.is_relative() && !file.lexically_normal().string().starts_with("..");
-  if (!inside) fail(concat("its data lie outside its folder, at ", quoted(uri)));
-  const std::filesystem::path folder = path_.parent_path();
-  if (!is_file(folder / file)) {
-    if (const auto found = search_texture(folder, file, path_.stem())) {
-      return read_file(folder / *found);
-    }
-    throw MissingInput(concat((folder / file).string(), ": is missing; ", path_.string(),
-                              " keeps its data there (export GLB, which is one file)"));
+  if (inside && is_file(folder / file)) return read_file(folder / file);
+  if (const auto found = search_texture(folder, file, path_.stem())) {
+    return read_file(folder / *found);
   }
-  return read_file(folder / file);
+  if (!inside) fail(concat("its data lie outside its folder, at ", quoted(uri)));
+  throw MissingInput(concat((folder / file).string(), ": is missing; ", path_.string(),
+                            " keeps its data there (export GLB, which is one file)"));
 }
 
 std::string_view GltfFile::buffer(std::size_t number) {

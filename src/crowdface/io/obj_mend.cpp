@@ -57,6 +57,8 @@ class Mender {
       }
       text = plain;
     }
+    const std::string lower = with_lower_case_statements(text);
+    text = lower;
     text_.reserve(text.size());
     for (std::size_t at = 0; at < text.size();) {
       std::string_view line = next_obj_line(text, at);
@@ -72,6 +74,16 @@ class Mender {
       if (at <= text.size()) text_ += '\n';
       text_.append(joined, '\n');
     }
+  }
+  static std::string with_lower_case_statements(std::string_view text) {
+    std::string result(text);
+    for (std::size_t at = 0; at < text.size();) {
+      const std::string_view word = first_obj_word(next_obj_line(text, at));
+      const std::string lower = lower_case(word);
+      if (!is_obj_statement(lower)) continue;
+      std::ranges::copy(lower, result.begin() + (word.data() - text.data()));
+    }
+    return result;
   }
   static std::string_view without_cr(std::string_view line) {
     if (line.ends_with('\r')) line.remove_suffix(1);

@@ -214,7 +214,8 @@ class Scanner {
   /// Handles a statement that OBJ does not define. Programs add such statements; readers ignore
   /// them.
   void unknown_statement(std::string_view statement) {
-    if (!is_valid_name(lower_case(statement))) {
+    const std::string lower = lower_case(statement);
+    if (!is_valid_name(lower) || is_obj_statement(lower)) {
       fail(concat("expected an OBJ statement, found ", quoted(statement)));
     }
     if (first_unknown_line_ != 0) return;

@@ -135,10 +135,11 @@ class PlyReader {
       } else if (words[0] == "element" && words.size() == 3 && parse_unsigned(words[2])) {
         elements_.push_back({words[1], *parse_unsigned(words[2]), {}});
       } else if (words[0] == "property" && words.size() == 3 && !elements_.empty()) {
-        elements_.back().properties.push_back({words[2], type_of(words[1])});
+        elements_.back().properties.push_back({lower_case(words[2]), type_of(words[1])});
       } else if (words[0] == "property" && words.size() == 5 && words[1] == "list" &&
                  !elements_.empty()) {
-        elements_.back().properties.push_back({words[4], type_of(words[3]), type_of(words[2])});
+        elements_.back().properties.push_back(
+            {lower_case(words[4]), type_of(words[3]), type_of(words[2])});
       } else {
         fail(concat("its header says ", quoted(join(words, " "))));
       }

@@ -17,8 +17,8 @@ constexpr std::string_view kStlBlanks = " \t\r\n";
   throw InvalidInput(concat(name, ": expected an STL file, found that ", found));
 }
 
-/// Reads text STL. Keywords are case-insensitive. The text after "solid" or "endsolid" up to the
-/// line end is a name.
+/// Reads text STL. Keywords are case-insensitive. The text after "solid" or "endsolid" is a name,
+/// which ends at the line end or, in files of one line, before "facet normal" or "endsolid".
 class StlText {
  public:
   StlText(std::string_view text, const std::string& name) : text_(text), name_(name) {}
@@ -27,7 +27,7 @@ class StlText {
     std::vector<double> loop;
     for (std::string word = next(); !word.empty(); word = next()) {
       if (word == "solid" || word == "endsolid") {
-        at_ = std::min(text_.find_first_of("\r\n", at_), text_.size());
+        skip_name();
       } else if (word == "vertex") {
         for (int c = 0; c < 3; ++c) loop.push_back(number());
       } else if (word == "endloop" || word == "outer" || word == "endfacet") {
@@ -50,6 +50,12 @@ class StlText {
   std::string next() {
     constexpr std::size_t kLongest = 16;
     return lower_case(next_word().substr(0, kLongest));
+  }
+  void skip_name() {
+    constexpr std::size_t kLongestName = 1000;
+    const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
+    const std::string name = lower_case(text_.substr(at_, std::min(end - at_, kLongestName)));
+    at_ += std::min({end - at_, name.find(" facet normal "), name.find(" endsolid")});
   }
   double number() {
     const std::string_view word = next_word();

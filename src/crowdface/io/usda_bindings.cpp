@@ -9,8 +9,9 @@ namespace crowdface {
 namespace {
 
 constexpr std::string_view kDirect = "material:binding", kPreview = "material:binding:preview",
+                           kFull = "material:binding:full",
                            kThroughCollection = "material:binding:collection:",
-                           kFull = "material:binding:collection:full:";
+                           kFullThroughCollection = "material:binding:collection:full:";
 
 std::string_view parent_of(std::string_view path) {
   return path.substr(0, path.rfind('/'));
@@ -20,8 +21,7 @@ std::string_view parent_of(std::string_view path) {
 
 void UsdaBindings::add(const std::string& prim, const std::string& property,
                        const std::vector<std::string>& values, const std::string& strength) {
-  const bool is_binding = property.starts_with(kDirect) && !property.starts_with(kFull);
-  if (!is_binding && !property.starts_with("collection:")) return;
+  if (!property.starts_with(kDirect) && !property.starts_with("collection:")) return;
   prims_[prim][property] = {values, strength == "strongerThanDescendants"};
 }
 
@@ -52,13 +52,14 @@ bool UsdaBindings::has_prim(std::string_view collection, std::string_view prim, 
 /// The strongest binding among the properties of one prim that applies to `prim`, the prim itself
 /// or a descendant; null if there is none.
 const UsdaBindings::Property* UsdaBindings::binding_at(const Properties& properties,
-                                                       std::string_view prim) const {
+                                                       std::string_view prim, bool full) const {
   for (auto at = properties.lower_bound(kThroughCollection);
        at != properties.end() && at->first.starts_with(kThroughCollection); ++at) {
+    if (at->first.starts_with(kFullThroughCollection) != full) continue;
     const std::vector<std::string>& values = at->second.values;  // the collection, the material
     if (values.size() == 2 && has_prim(values[0], prim, 0)) return &at->second;
   }
-  for (const std::string_view name : {kPreview, kDirect}) {
+  for (const std::string_view name : {full ? kFull : kPreview, full ? kFull : kDirect}) {
     const auto direct = properties.find(name);
     if (direct != properties.end() && !direct->second.values.empty()) return &direct->second;
   }
@@ -67,12 +68,15 @@ const UsdaBindings::Property* UsdaBindings::binding_at(const Properties& propert
 
 std::string UsdaBindings::material_of(std::string_view prim) const {
   std::string material;
-  for (std::string_view path = prim; !path.empty(); path = parent_of(path)) {
-    const auto properties = prims_.find(path);
-    if (properties == prims_.end()) continue;
-    const Property* binding = binding_at(properties->second, prim);
-    if (binding == nullptr) continue;
-    if (material.empty() || binding->is_stronger) material = binding->values.back();
+  for (const bool full : {false, true}) {
+    for (std::string_view path = prim; !path.empty(); path = parent_of(path)) {
+      const auto properties = prims_.find(path);
+      if (properties == prims_.end()) continue;
+      const Property* binding = binding_at(properties->second, prim, full);
+      if (binding == nullptr) continue;
+      if (material.empty() || binding->is_stronger) material = binding->values.back();
+    }
+    if (!material.empty()) break;
   }
   return material;
 }

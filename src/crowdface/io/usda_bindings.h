@@ -23,7 +23,8 @@ class UsdaBindings {
 
   /// The path of the material bound to a prim; empty if there is none. The binding of the nearest
   /// prim above wins, unless a prim above has a binding that is stronger than its descendants. If a
-  /// prim has several bindings, the bindings through collections win.
+  /// prim has several bindings, the bindings through collections win. Bindings of the purpose
+  /// `full` count only if no other binding applies.
   std::string material_of(std::string_view prim) const;
 
  private:
@@ -35,7 +36,8 @@ class UsdaBindings {
 
   /// Whether a collection has a prim as a member. \param depth  of collections in collections.
   bool has_prim(std::string_view collection, std::string_view prim, int depth) const;
-  const Property* binding_at(const Properties& properties, std::string_view prim) const;
+  /// \param full  whether to look only at bindings of the purpose `full`, or at all others
+  const Property* binding_at(const Properties& properties, std::string_view prim, bool full) const;
 
   std::map<std::string, Properties, std::less<>> prims_;  ///< by path of the prim
 };

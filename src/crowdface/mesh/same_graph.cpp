@@ -294,10 +294,13 @@ Triangle triangle_of(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   return triangle;
 }
 
+using HalfEdge = std::pair<std::uint32_t, std::uint32_t>;
+using Triangles = std::vector<Triangle>;
+
 /// The triangles of a mesh's polygons, sorted.
-std::vector<Triangle> sorted_triangles(const Topology& topology) {
+Triangles sorted_triangles(const Topology& topology) {
   const Topology triangles = triangulated(topology, 0);
-  std::vector<Triangle> sorted;
+  Triangles sorted;
   for (Index f = 0; f < triangles.face_count(); ++f) {
     const std::span<const std::uint32_t> face = triangles.face(f);
     sorted.push_back(triangle_of(face[0], face[1], face[2]));
@@ -306,47 +309,74 @@ std::vector<Triangle> sorted_triangles(const Topology& topology) {
   return sorted;
 }
 
+std::array<HalfEdge, 3> half_edges_of(const Triangle& t) {
+  return {HalfEdge(t[0], t[1]), HalfEdge(t[1], t[2]), HalfEdge(t[2], t[0])};
+}
+
+HalfEdge edge_of(const HalfEdge& half_edge) {
+  return std::minmax(half_edge.first, half_edge.second);
+}
+
+std::set<HalfEdge> edges_of(const Triangles& triangles) {
+  std::set<HalfEdge> edges;
+  for (const Triangle& triangle : triangles) {
+    for (const HalfEdge& half_edge : half_edges_of(triangle)) edges.insert(edge_of(half_edge));
+  }
+  return edges;
+}
+
+/// The half-edges of `triangles` that lie on `kept` edges, sorted. All other edges are diagonals,
+/// at which neighbouring triangles are joined to polygons.
+/// \return nothing if a polygon has a hole, or a vertex that is not at its border.
+std::optional<std::vector<HalfEdge>> polygon_borders(const Triangles& triangles,
+                                                     const std::set<HalfEdge>& kept) {
+  std::vector<HalfEdge> borders;
+  DisjointSets polygons(triangles.size());
+  std::map<HalfEdge, std::uint32_t> first_at_diagonal;
+  std::map<HalfEdge, int> balance;  // of a diagonal: triangles on its left minus those on its right
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (const HalfEdge& half_edge : half_edges_of(triangles[t])) {
+      const HalfEdge edge = edge_of(half_edge);
+      if (kept.contains(edge)) {
+        borders.push_back(half_edge);
+      } else {
+        polygons.join(t, first_at_diagonal.try_emplace(edge, t).first->second);
+        balance[edge] += edge == half_edge ? 1 : -1;
+      }
+    }
+  }
+  // A polygon of n corners has n - 2 triangles.
+  std::vector<int> surplus(triangles.size(), 0);
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    for (const HalfEdge& half_edge : half_edges_of(triangles[t])) {
+      surplus[polygons.root(t)] += kept.contains(edge_of(half_edge)) ? 1 : 0;
+    }
+    --surplus[polygons.root(t)];
+  }
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (polygons.root(t) == t && surplus[t] < 2) return std::nullopt;
+  }
+  if (std::ranges::any_of(balance, [](const auto& of) { return of.second != 0; })) {
+    return std::nullopt;
+  }
+  std::ranges::sort(borders);
+  return borders;
+}
+
 }  // namespace
 
 bool has_same_polygons(const Topology& a, const Topology& b) {
   if (a.vertex_count != b.vertex_count) return false;
-  const std::vector<Triangle> of_a = sorted_triangles(a), of_b = sorted_triangles(b);
+  const Triangles of_a = sorted_triangles(a), of_b = sorted_triangles(b);
   if (of_a.size() != of_b.size()) return false;
-  std::multiset<Triangle> only_a, only_b;
-  std::ranges::set_difference(of_a, of_b, std::inserter(only_a, only_a.end()));
-  std::ranges::set_difference(of_b, of_a, std::inserter(only_b, only_b.end()));
-  // For each half-edge of the remaining triangles of a, the third vertices.
-  std::multimap<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> third_vertices;
-  for (const auto& [x, y, z] : only_a) {
-    third_vertices.emplace(std::pair(x, y), z);
-    third_vertices.emplace(std::pair(y, z), x);
-    third_vertices.emplace(std::pair(z, x), y);
-  }
-  const auto take = [](std::multiset<Triangle>& from, const Triangle& t, const Triangle& u) {
-    const auto first = from.find(t), second = from.find(u);
-    if (first == from.end() || second == from.end()) return false;
-    from.erase(first);
-    from.erase(second);
-    return true;
-  };
-  // The triangles x, y, z and x, z, w of a quad in a are x, y, w and y, z, w in b.
-  const std::vector<Triangle> triangles(only_a.begin(), only_a.end());
-  for (Triangle triangle : triangles) {
-    for (int turn = 0; turn < 3; ++turn) {
-      const std::uint32_t x = triangle[0], y = triangle[1], z = triangle[2];
-      const auto [begin, end] = third_vertices.equal_range({x, z});
-      const bool is_cut_otherwise = std::any_of(begin, end, [&](const auto& edge) {
-        const std::uint32_t w = edge.second;
-        const Triangle first = triangle_of(x, y, z), second = triangle_of(x, z, w);
-        return only_a.contains(first) && only_a.contains(second) &&
-               take(only_b, triangle_of(x, y, w), triangle_of(y, z, w)) &&
-               take(only_a, first, second);
-      });
-      if (is_cut_otherwise) break;
-      std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
-    }
-  }
-  return only_a.empty() && only_b.empty();
+  Triangles only_a, only_b;
+  std::ranges::set_difference(of_a, of_b, std::back_inserter(only_a));
+  std::ranges::set_difference(of_b, of_a, std::back_inserter(only_b));
+  const std::set<HalfEdge> edges_a = edges_of(only_a), edges_b = edges_of(only_b);
+  std::set<HalfEdge> common;
+  std::ranges::set_intersection(edges_a, edges_b, std::inserter(common, common.end()));
+  const auto borders = polygon_borders(only_a, common);
+  return borders && borders == polygon_borders(only_b, common);
 }
 
 std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,

@@ -24,7 +24,7 @@ std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,
                                                        const Positions& found_positions);
 
 /// Whether two meshes have the same polygons on the same vertices. The polygons may have different
-/// orders, and quads may be cut into triangles along different diagonals.
+/// orders, and may be cut into triangles along different diagonals.
 bool has_same_polygons(const Topology& a, const Topology& b);
 
 /// Cuts polygons into fans of triangles. All triangles of a quad share the quad's corner

@@ -13,7 +13,6 @@
 #include "crowdface/core/problems.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/units.h"
-#include "crowdface/io/decomposed_text.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/read_mesh.h"
@@ -146,19 +145,6 @@ std::vector<fs::path> list_files_with_extensions(const fs::path& folder,
   return files;
 }
 
-std::string head_name_of_scan(const fs::path& scan) {
-  std::string name;
-  for (const char c : decomposed(scan.stem().string())) {
-    const bool is_mark = (static_cast<unsigned char>(c) & 0xFEU) == 0xCCU;
-    if (is_valid_name(concat('a', c))) {
-      name += c;
-    } else if (!is_utf8_continuation(c) && !is_mark) {
-      name += '_';
-    }
-  }
-  return name;
-}
-
 std::vector<fs::path> list_scans(const fs::path& folder) {
   std::vector<std::string> endings(mesh_extensions().begin(), mesh_extensions().end());
   std::vector<fs::path> scans = list_files_with_extensions(folder, endings);
@@ -176,7 +162,7 @@ std::vector<fs::path> list_scans(const fs::path& folder) {
   Problems problems;
   std::map<std::string, fs::path> names;
   for (const fs::path& scan : scans) {
-    const std::string name = head_name_of_scan(scan);
+    const std::string name = valid_head_name(scan.stem().string());
     if (const auto [before, added] = names.emplace(name, scan); !added) {
       problems.add(ExitCode::kUsage,
                    concat(before->second.string(), " and ", scan.string(),

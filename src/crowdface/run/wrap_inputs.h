@@ -66,11 +66,6 @@ LengthUnit parse_unit(const std::string& option, const std::string& text);
 std::vector<std::filesystem::path> list_files_with_extensions(
     const std::filesystem::path& folder, const std::vector<std::string>& endings);
 
-/// The name of the head that a scan of a batch gives: the stem of the scan's file name. Accents are
-/// removed, and `_` replaces the characters that the name of a head cannot have (see
-/// objection_to_head_name).
-std::string head_name_of_scan(const std::filesystem::path& scan);
-
 /// Lists the scans in a folder, sorted by name, without arrays of landmarks and of polygons.
 /// \throws MissingInput; UsageError if a scan would give a head with a reserved name or with the name
 /// of another head; InvalidInput if there are no scans.

@@ -77,7 +77,7 @@ std::vector<Task> tasks_without_textures(const WrapOptions& options) {
   }
   std::vector<Task> tasks;
   for (const fs::path& scan : list_scans(options.batch)) {
-    const std::string name = head_name_of_scan(scan);
+    const std::string name = valid_head_name(scan.stem().string());
     if (name != scan.stem().string()) {
       log_warning(concat(scan.string(), ": its head is called ", quoted(name),
                          ", because a head's name has only letters (a-z), digits, '_', '-' and "
