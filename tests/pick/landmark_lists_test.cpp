@@ -33,6 +33,9 @@ TEST(LandmarkLists, AreReadAsOtherProgramsWriteThem) {
       " <point x=\"0\" y=\"0\" z=\"0\" name=\"off\" active=\"0\"/>\n</PickedPoints>\n");
   expect_chin_and_nose("picked.csv", "name,x,y,z\r\nchin,1,-2.5,3\r\n\"nose tip\",4,5,6\r\n");
   expect_chin_and_nose("picked.csv", "Name;X;Y;Z\nchin;1,0;-2,5;3,0\nnose tip;4;5;6\n");
+  expect_chin_and_nose("excel.csv",
+                       "sep=;\r\nName;X;Y;Z\r\nchin;1,0;\u22122,5;3\r\nnose tip;4;5;6");
+  expect_chin_and_nose("sheet.csv", "Name,X,Y,Z\nchin,\"1,0\",\"-2,5\",3\n\"nose tip\",4,5,6\n");
   expect_chin_and_nose("slicer.fcsv",
                        "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
                        "vtkMRMLMarkups_0,1,-2.5,3,0,0,0,1,1,1,0,chin,,\r\n"

@@ -131,11 +131,14 @@ void read_fcsv(std::string_view text, LandmarkList& list) {
   }
 }
 
-/// Parses a number with a decimal point or, as some systems write it, a decimal comma.
+/// Parses a number with a decimal point or, as some systems write it, a decimal comma. The sign may
+/// be the minus sign of Unicode.
 std::optional<double> parse_field(std::string_view field) {
-  std::string with_point(field);
-  std::ranges::replace(with_point, ',', '.');
-  return parse_double(with_point);
+  constexpr std::string_view kMinus = "\xE2\x88\x92";
+  std::string plain(field);
+  if (plain.starts_with(kMinus)) plain.replace(0, kMinus.size(), "-");
+  std::ranges::replace(plain, ',', '.');
+  return parse_double(plain);
 }
 
 bool is_number(std::string_view field) {
@@ -149,11 +152,27 @@ char separator_of(std::string_view line) {
   return ' ';
 }
 
+/// Splits a line at the separators that are not between double quotes.
+std::vector<std::string_view> split_outside_quotes(std::string_view line, char separator) {
+  if (std::ranges::count(line, '"') % 2 != 0) return split(line, separator);
+  std::vector<std::string_view> fields;
+  bool is_quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') is_quoted = !is_quoted;
+    if (line[i] != separator || is_quoted) continue;
+    fields.push_back(line.substr(begin, i - begin));
+    begin = i + 1;
+  }
+  fields.push_back(line.substr(begin));
+  return fields;
+}
+
 /// Splits a line into fields. Removes quotes around fields, and empty fields at the end of the
 /// line.
 std::vector<std::string_view> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;
-  for (std::string_view field : split(line, separator)) {
+  for (std::string_view field : split_outside_quotes(line, separator)) {
     constexpr std::string_view kAround = " \t\r\"'";
     field.remove_prefix(std::min(field.find_first_not_of(kAround), field.size()));
     field = field.substr(0, field.find_last_not_of(kAround) + 1);
@@ -281,6 +300,8 @@ void read_table(std::string_view text, LandmarkList& list) {
   TableColumns columns;
   for (const std::string_view line : split_lines(text)) {
     ++line_number;
+    if (is_first && lower_case(line).starts_with("sep="))
+      continue;  // names the separator for Excel
     const char separator = separator_of(line);
     const std::vector<std::string_view> fields = fields_of(line, separator);
     if (fields.empty() || line[line.find_first_not_of(" \t")] == '#') continue;
