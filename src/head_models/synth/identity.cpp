@@ -55,7 +55,8 @@ Identity::Identity(std::uint64_t seed, std::uint64_t index)
   // age and build.
   for (const Measure& measure : measures()) {
     double value = measure.maleness_effect * person_.maleness + measure.age_effect * aged +
-                   measure.build_effect * person_.build + measure.spread * normal(measure.name);
+                   measure.build_effect * person_.build + measure.spread * normal(measure.name) +
+                   measure.mean;
     // Keep extreme heads plausible.
     value = std::clamp(value, -2.4, 2.4);
     LocalDisplacement pull = measure.displacement;

@@ -24,22 +24,22 @@ std::span<const Measure> measures() {
       // skull
       Measure{"forehead_slope", -0.6, 0, 0, 0.9, shifted({0, 7.5, 6.5}, {9, 6, 9}, {0, 0, 0.5})},
       Measure{"forehead_bosses", -0.4, 0, 0, 0.9, shifted({2.6, 5.6, 8.4}, {4, 4, 5}, {0.05, 0, 0.16})},
-      Measure{"temple", 0, -0.6, 0.4, 0.9, shifted({6.6, 3.2, 4.5}, {3.5, 5, 5.5}, {0.3, 0, 0.05})},
+      Measure{"temple", 0, -0.9, 0.4, 0.9, shifted({6.6, 3.2, 4.5}, {3.5, 5, 5.5}, {0.3, 0, 0.05})},
       Measure{"crown", 0, 0, 0, 1, shifted({0, 11, -1}, {11, 6.5, 11}, {0, 0.3, 0})},
       Measure{"occiput", 0.2, 0, 0, 0.7, shifted({0, 2, -10}, {9, 8.5, 8}, {0, 0, -0.4})},
       // brows
       Measure{"brow_ridge", 1.2, 0.05, 0, 0.7, shifted({2.3, 1.7, 9}, {3.8, 1.8, 3.2}, {0, -0.04, 0.22})},
       Measure{"glabella", 0.6, 0.1, 0, 0.8, shifted({0, 1.9, 9.5}, {2.0, 1.8, 2.8}, {0, 0, 0.15})},
       Measure{"brow_height", -0.6, -0.2, 0, 0.9, shifted({3, 1.8, 8.6}, {4, 1.8, 4}, {0, 0.17, 0})},
-      Measure{"brow_tail", -0.75, -0.8, 0, 0.8, shifted({4.7, 1.5, 7.2}, {2.2, 1.7, 3}, {0, 0.17, 0})},
+      Measure{"brow_tail", -0.75, -0.3, 0, 0.6, shifted({4.7, 1.5, 7.2}, {2.2, 1.7, 3}, {0, 0.17, 0})},
       // eyes
       Measure{"eye_spacing", -0.1, 0, 0, 1.2, shifted({3.12, 0, 8}, {3.0, 3.2, 4.5}, {0.13, 0, 0})},
       Measure{"eye_size", -0.65, -0.1, 0, 1.1, stretched({3.12, 0, 8.2}, {2.6, 2.2, 3}, {0.05, 0.07, 0.03})},
-      Measure{"eye_opening", -0.35, -0.5, 0, 0.9, stretched({3.12, 0, 8.3}, {2.4, 1.5, 2.5}, {0, 0.12, 0})},
+      Measure{"eye_opening", -0.35, -0.8, 0, 0.9, stretched({3.12, 0, 8.3}, {2.4, 1.5, 2.5}, {0, 0.12, 0})},
       Measure{"eye_tilt", -0.3, -0.3, 0, 1, shifted({4.6, 0.1, 7.4}, {1.9, 2.0, 2.8}, {0, 0.13, 0})},
       Measure{"inner_corner", 0, 0, 0, 1, shifted({1.65, -0.1, 8}, {1.3, 1.5, 2.2}, {0.03, 0.07, 0})},
       Measure{"eye_depth", -0.3, -0.5, 0.2, 1, shifted({3.12, 0, 8}, {2.8, 2.4, 4.5}, {0, 0, 0.2})},
-      Measure{"lid_fold", 0, 0.9, 0.3, 0.9, shifted({3.5, 1.0, 8.5}, {2.0, 0.9, 2.0}, {0, -0.08, 0.12})},
+      Measure{"lid_fold", 0, 0.6, 0.3, 0.7, shifted({3.5, 1.0, 8.5}, {2.0, 0.9, 2.0}, {0, -0.08, 0.12})},
       Measure{"eye_bags", 0.1, 1.1, 0.2, 0.6, shifted({3.1, -1.15, 8.4}, {1.6, 0.7, 1.6}, {0, -0.03, 0.10})},
       // nose
       Measure{"nose_length", 0.3, 0.45, 0, 1.1, shifted({0, -3.9, 11}, {3.2, 3.4, 4.5}, {0, -0.28, 0})},
@@ -58,7 +58,7 @@ std::span<const Measure> measures() {
       Measure{"cupid_bow", -0.2, -0.3, 0, 1, shifted({0.55, -6.3, 10}, {0.8, 0.6, 1.2}, {0, 0.07, 0.05})},
       Measure{"mouth_height", -0.1, -0.3, 0, 1, shifted({1.6, -7, 9.5}, {3.2, 2.4, 4.5}, {0, 0.18, 0})},
       Measure{"mouth_protrusion", 0, -0.3, 0, 1, shifted({0, -7, 9.8}, {3.8, 2.6, 4.5}, {0, 0, 0.24})},
-      Measure{"mouth_corners", 0, 0, 0, 0.5, shifted({2.4, -7.05, 9}, {1.7, 1.4, 2.4}, {0, 0.10, 0})},
+      Measure{"mouth_corners", 0, 0.3, 0, 0.4, shifted({2.4, -7.05, 9}, {1.7, 1.4, 2.4}, {0, 0.10, 0}), 1.0},
       // cheeks and jaw
       Measure{"cheekbone_width", 0.5, 0, 0, 1, shifted({6, -2, 4}, {3.8, 3.2, 5.5}, {0.28, 0, 0})},
       Measure{"cheekbone_forward", -0.45, -0.3, 0, 1, shifted({4.5, -2.5, 6.6}, {3.2, 2.4, 3.8}, {0.08, 0, 0.26})},

@@ -18,12 +18,13 @@ struct LocalDisplacement {
 /// A property of a head, such as the length of the nose. The value of a measure is
 ///
 ///     maleness_effect · Person::maleness + age_effect · Person::scaled_age()
-///     + build_effect · Person::build + spread · N(0, 1)
+///     + build_effect · Person::build + spread · N(0, 1) + mean
 struct Measure {
   std::string_view name;
   double maleness_effect, age_effect, build_effect;  ///< coefficients of the mean of the value
   double spread;                                     ///< standard deviation of the random part
   LocalDisplacement displacement;                    ///< displacement for a value of 1
+  double mean = 0;                                   ///< value of an average person
 };
 /// Returns all measures.
 std::span<const Measure> measures();

@@ -35,16 +35,17 @@ struct Fold {
 const auto& fold_list() {
   static const std::array list = {
     Fold{"lid_crease", {1.75, 0.40}, {3.1, 1.42}, {4.8, 0.42}, 0.17, 0.055, 1, 0.1, 0.3, 0},
-    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.06, 0.2, 0.9, 0.2, 0},
-    Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.48, 0.12, 0.25, 0.85, 0.2, 0.6},
-    Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.055, 0.05, 0.8, 0.2, 0.4},
-    Fold{"cheek_line", {4.2, -3.6}, {4.9, -5.0}, {4.6, -6.8}, 0.55, 0.05, -0.1, 0.7, 0.3, 0.3},
+    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.045, 0.2, 0.9, 0.2, 0},
+    Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.5, 0.085, 0.25, 0.85, 0.2, 1.3},
+    Fold{"nasolabial_crease", {1.75, -3.7}, {2.75, -4.8}, {3.2, -7.2}, 0.22, 0.05, -0.1, 0.8, 0.2, 0.3},
+    Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.035, 0, 0.8, 0.2, 1.2},
+    Fold{"bag", {1.7, -0.9}, {2.6, -2.3}, {4.6, -1.7}, 0.2, 0.035, -0.3, 0.8, 0.3, 0},
     Fold{"philtrum_ridge", {0.3, -4.95}, {0.42, -5.5}, {0.5, -6.15}, 0.26, -0.07, 1, -0.3, 0.3, 0},
     Fold{"wing_crease", {1.25, -3.0}, {2.0, -3.5}, {1.8, -4.5}, 0.24, 0.07, 0.8, 0.2, 0.2, 0},
     Fold{"lip_edge", {0.4, -6.08}, {1.0, -6.15}, {2.3, -6.85}, 0.14, -0.035, 1, -0.3, 0.2, 0},
     Fold{"chin_crease", {-1.8, -8.7}, {0, -8.5}, {1.8, -8.7}, 0.5, 0.07, 0.6, 0.1, 0.4, 0, false},
-    Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.05, 0.3, 0.4, 0.3, 0, false},
-    Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.05, 0.2, 0.4, 0.3, 0, false},
+    Fold{"neck_upper", {-4.2, -13.0}, {0, -14.2}, {4.2, -13.0}, 0.28, 0.04, 0.3, 0.4, 0.3, 0, false},
+    Fold{"neck_lower", {-4.4, -14.4}, {0, -15.8}, {4.4, -14.4}, 0.28, 0.04, 0.2, 0.4, 0.3, 0, false},
   };
   return list;
 }
@@ -57,24 +58,24 @@ struct WrinkleArea {
   bool has_rays;
   Vector2d centre, radii;  ///< the wrinkles lie in this ellipse; cm
   double spacing;          ///< mean distance between neighbouring wrinkles, cm
-  double depth;            ///< depth of the wrinkles at Person::scaled_age() = begin + 1, cm
-  double begin;            ///< Person::scaled_age() at which these wrinkles begin
+  double depth;            ///< depth of the wrinkles of old people, cm
+  double begin;            ///< Person::scaled_age() at which these wrinkles begin; they are complete at begin + 1
   bool paired = true;      ///< whether the area is mirrored to x < 0
 };
 /// Half the width of a wrinkle, relative to the distance between wrinkles.
-constexpr double kWrinkleHalfWidth = 0.22;
+constexpr double kWrinkleHalfWidth = 0.27;
 
 // clang-format off
 const auto& wrinkle_areas() {
   static const std::array list = {
-    WrinkleArea{"forehead", {0, -20}, false, {0, 5.0}, {6.0, 2.9}, 0.95, 0.070, -0.1, false},
-    WrinkleArea{"frown", {0, -12}, true, {0, 2.0}, {1.3, 1.9}, 0.85, 0.07, 0.1, false},
-    WrinkleArea{"crow", {3.7, 0.1}, true, {5.7, 0.0}, {1.5, 2.2}, 0.42, 0.055, -0.1},
-    WrinkleArea{"under_eye", {3.1, 1.6}, false, {3.2, -1.5}, {2.2, 1.1}, 0.36, 0.045, 0.1},
-    WrinkleArea{"cheek", {-1.5, -5.5}, false, {5.0, -4.6}, {2.0, 3.8}, 0.6, 0.034, 0.1},
-    WrinkleArea{"upper_lip", {0, -14}, true, {0, -5.75}, {2.5, 0.9}, 0.36, 0.035, 0.4, false},
-    WrinkleArea{"lower_lip", {0, -2}, true, {0, -8.4}, {2.5, 0.8}, 0.42, 0.03, 0.6, false},
-    WrinkleArea{"neck", {0, 2}, false, {0, -13.6}, {6, 3}, 0.8, 0.06, 0.1, false},
+    WrinkleArea{"forehead", {0, -20}, false, {0, 5.0}, {6.0, 2.9}, 0.6, 0.055, 0.1, false},
+    WrinkleArea{"frown", {0, -12}, true, {0, 2.0}, {1.3, 1.7}, 0.7, 0.02, 0.3, false},
+    WrinkleArea{"crow", {3.7, 0.1}, true, {5.7, 0.0}, {1.6, 2.3}, 0.36, 0.075, 0.1},
+    WrinkleArea{"under_eye", {3.1, 1.6}, false, {3.2, -1.5}, {2.3, 1.2}, 0.3, 0.065, 0.1},
+    WrinkleArea{"cheek", {-1.5, -5.5}, false, {5.0, -4.6}, {2.2, 3.9}, 0.42, 0.028, 0.2},
+    WrinkleArea{"upper_lip", {0, -14}, true, {0, -5.75}, {2.5, 0.9}, 0.34, 0.045, 0.4, false},
+    WrinkleArea{"lower_lip", {0, -2}, true, {0, -8.4}, {2.5, 0.8}, 0.38, 0.03, 0.6, false},
+    WrinkleArea{"neck", {0, 2}, false, {0, -13.6}, {6, 3}, 0.55, 0.06, 0.2, false},
   };
   return list;
 }
@@ -115,7 +116,8 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
       const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided;
-      if (factor > 0.02) add_stroke(i, side, depth);
+      const double drawn = represented_fraction(2.7 * fold.width, edge_cm);
+      if (factor > 0.02) add_stroke(i, side, depth * drawn);
     }
   }
   for (const WrinkleArea& area : wrinkle_areas()) {
@@ -123,7 +125,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
     const auto [uniform, offset] = random_pair({seed, index, purpose});
     const double spacing = area.spacing * (0.75 + 0.5 * uniform);
     const double varied = std::clamp(1 + 0.35 * random_normal({seed, index, purpose}, 1), 0.3, 1.7);
-    const double years = std::clamp(aged - area.begin, 0.0, 1.8);
+    const double years = 1.6 * smooth_step(area.begin, area.begin + 1, aged);
     // Fade out wrinkles that are too narrow for the mesh. Such wrinkles would look like steps.
     const double drawn = represented_fraction(2.7 * kWrinkleHalfWidth * spacing, edge_cm);
     wrinkles_.push_back({area.depth * varied * years * drawn, spacing, offset});
@@ -214,10 +216,10 @@ double Relief::wrinkle_height(const Vector3d& p) const {
     const double wave = wrinkle_waves_.at({0.35 * along, 0.5 * across / wrinkles.spacing, lane});
     const double place_in_steps = across / wrinkles.spacing + wrinkles.offset + 0.45 * wave;
     const double number = std::round(place_in_steps);
-    const double gaps = wrinkle_gaps_.at({0.25 * along, 7 * number, lane});
+    const double gaps = wrinkle_gaps_.at({0.4 * along, 7 * number, lane});
     const double off = std::abs(place_in_steps - number);
     const double line = bump(off / kWrinkleHalfWidth) - 0.4 * bump((off - 0.36) / 0.14);
-    sum -= wrinkles.depth * std::min(1.0, 2 * inside) * smooth_step(-0.6, 0.4, gaps) * line;
+    sum -= wrinkles.depth * std::min(1.0, 1.5 * inside) * smooth_step(-0.4, 0.9, gaps) * line;
   }
   return front * sum;
 }
@@ -229,8 +231,8 @@ double Relief::fold_height(const Vector3d& p) const {
 double Relief::fold_shade(const Vector3d& p) const {
   // The divisor is not the width itself, because wide folds would then hardly be visible.
   return -sum_of_strokes(p, [](const Stroke& stroke) {
-    return 1.8 / (0.15 + 0.5 * stroke.width);
-  }) - 9 * wrinkle_height(p);
+    return 1.3 / (0.15 + 0.5 * stroke.width);
+  }) - 6 * wrinkle_height(p);
 }
 
 double Relief::grain(const Vector3d& p) const {

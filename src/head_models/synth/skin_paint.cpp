@@ -89,7 +89,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double flush = flush_.at(p);
   const double melanin = 0.55 * mottle + 0.4 * blotch + 0.22 * fine;
   tint(colour, {0.80, 0.72, 0.67},
-       (0.20 + 0.36 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone) * melanin);
+       (0.12 + 0.6 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone) * melanin);
   tint(colour, {0.80, 0.66, 0.56}, (0.10 + 0.06 * aged_) * smooth_step(0.5, 0.85, fine));
   const double blood = complexion_.redness * (1 + 0.2 * aged_);
   tint(colour, {0.99, 0.80, 0.79},
@@ -113,7 +113,9 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   // Cheeks and temples of old people are hollow, and their jowls throw shadows.
   const double hollows = patch(p, {5.2, -5.4}, {2.2, 3.4}) + patch(p, {6.4, 2.6}, {2.0, 2.6}) +
                          patch(p, {3.4, -9.6}, {1.5, 1.6});
-  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.0 : 0.3) * aged_ * std::min(1.0, hollows));
+  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.0 : 0.6) * aged_ * std::min(1.0, hollows));
+  // Old skin is sallow.
+  tint(colour, {0.97, 0.95, 0.90}, aged_);
   // Darken lines and hollows, because they lie in shade.
   const double hollow = std::clamp((male ? 1.25 : 0.8) * relief_.fold_shade(p), 0.0, 1.0);
   tint(colour, {0.66, 0.53, 0.49}, hollow);
@@ -141,7 +143,7 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const bool male = person_.maleness > 0;
-  const double pale = male ? 0.4 + 0.2 * aged_ : 0;
+  const double pale = (male ? 0.4 + 0.25 * aged_ : 0);
   tint(lips, {0.88, 0.63, 0.65}, 1 - pale);
   tint(lips, {0.90, 0.62, 0.66}, complexion_.lipstick);
   tint(lips, {male ? 0.82 : 0.91, 0.80, 0.83}, complexion_.skin_tone);
@@ -160,7 +162,7 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   // The skin of the eye sockets is thin and bluish, mostly below the eye and at its inner corner.
   const double socket = patch(p, {3.1, -0.2}, {2.9, 2.1}) + patch(p, {1.6, -0.4}, {1.0, 1.3});
   tint(colour, {0.88, 0.86, 0.88}, (0.4 + 0.4 * aged_) * std::min(1.0, 1.3 * socket));
-  tint(colour, {0.85, 0.83, 0.87}, (0.3 + 0.6 * aged_) * patch(p, {2.8, -1.3}, {2.1, 0.95}));
+  tint(colour, {0.85, 0.83, 0.87}, (0.3 + 0.9 * aged_) * patch(p, {2.8, -1.3}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
   tint(colour, {0.87, 0.81, 0.79}, 0.7 * lids);
   // Darken the crease of the upper lid.
@@ -309,7 +311,7 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   tint(colour, {0.93, 0.80, 0.76},
        smooth_step(0.35, 0.9, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
   tint(colour, {0.93, 0.87, 0.76},
-       0.3 * complexion_.skin_tone + 0.25 * std::max(0.0, person_.scaled_age()));
+       0.3 * complexion_.skin_tone + 0.5 * aged_);
   colour *= 1 - 0.15 * complexion_.skin_tone;
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
