@@ -48,7 +48,7 @@ HairColour hair_colour_for(const HairColour& hair, Tint tint) {
   HairColour own = hair;
   if (tint == Tint::kBrows) {
     own.eumelanin += 0.1 + 0.15 * (1 - hair.eumelanin);
-    own.grey_fraction = 0.8 * hair.grey_fraction * hair.grey_fraction;
+    own.grey_fraction = 0.6 * hair.grey_fraction * hair.grey_fraction;
   } else if (tint == Tint::kBeard) {
     own.eumelanin -= 0.05;
     own.pheomelanin += 0.15 * (1 - hair.eumelanin);

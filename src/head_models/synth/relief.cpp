@@ -35,8 +35,8 @@ struct Fold {
 const auto& fold_list() {
   static const std::array list = {
     Fold{"lid_crease", {1.75, 0.40}, {3.1, 1.42}, {4.8, 0.42}, 0.17, 0.055, 1, 0.1, 0.3, 0},
-    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.045, 0.2, 0.9, 0.2, 0},
-    Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.5, 0.085, 0.25, 0.85, 0.2, 1.3},
+    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.045, 0.1, 1.0, 0.2, 0},
+    Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.5, 0.085, 0.1, 0.9, 0.2, 1.3},
     Fold{"nasolabial_crease", {1.75, -3.7}, {2.75, -4.8}, {3.2, -7.2}, 0.22, 0.05, -0.1, 0.8, 0.2, 0.3},
     Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.035, 0, 0.8, 0.2, 1.2},
     Fold{"bag", {1.7, -0.9}, {2.6, -2.3}, {4.6, -1.7}, 0.2, 0.035, -0.3, 0.8, 0.3, 0},
@@ -124,7 +124,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
     const std::string purpose = concat("synth/wrinkles/", area.name);
     const auto [uniform, offset] = random_pair({seed, index, purpose});
     const double spacing = area.spacing * (0.75 + 0.5 * uniform);
-    const double varied = std::clamp(1 + 0.35 * random_normal({seed, index, purpose}, 1), 0.3, 1.7);
+    const double varied = std::clamp(1 + 0.35 * random_normal({seed, index, purpose}, 1), 0.7, 1.6);
     const double years = 1.6 * smooth_step(area.begin, area.begin + 1, aged);
     // Fade out wrinkles that are too narrow for the mesh. Such wrinkles would look like steps.
     const double drawn = represented_fraction(2.7 * kWrinkleHalfWidth * spacing, edge_cm);
@@ -137,7 +137,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
   broad_octaves_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
   // The wavelength of SmoothNoise is about 2.5 to 3 times its lattice spacing.
   for (const auto& [lane, spacing, amplitude] :
-       {std::tuple{23U, 0.22, 0.006}, std::tuple{24U, 0.1, 0.004}, std::tuple{25U, 0.05, 0.002}}) {
+       {std::tuple{23U, 0.22, 0.0045}, std::tuple{24U, 0.1, 0.004}, std::tuple{25U, 0.05, 0.002}}) {
     const double part = represented_fraction(2.5 * spacing, edge_cm);
     const double old = 1 + 0.3 * std::max(0.0, aged);
     if (part > 0) fine_octaves_.push_back(octave(lane, spacing, amplitude * rough * old * part));

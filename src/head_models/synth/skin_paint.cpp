@@ -66,13 +66,13 @@ SkinPaint::SkinPaint(std::uint64_t seed, std::uint64_t index, double scalp_hair,
       blotch_(mix(seed, index, 102), 0.35),
       pores_(mix(seed, index, 103), 0.06),
       freckles_(mix(seed, index, 104), 0.11),
-      spots_(mix(seed, index, 105), 0.34),
+      spots_(mix(seed, index, 105), 0.26),
       hairs_(mix(seed, index, 106), 0.045),
       tufts_(mix(seed, index, 107), 0.3),
       hairline_(mix(seed, index, 108), 0.5),
       grain_(mix(seed, index, 110), 0.03),
       flush_(mix(seed, index, 111), 1.3),
-      aged_(smooth_step(30, 70, person_.age_years)),
+      aged_(smooth_step(36, 68, person_.age_years)),
       hair_(seed, index, scalp_hair == 1),
       scalp_hair_(scalp_hair) {}
 
@@ -117,7 +117,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   // Old skin is sallow.
   tint(colour, {0.97, 0.95, 0.90}, aged_);
   // Darken lines and hollows, because they lie in shade.
-  const double hollow = std::clamp((male ? 1.25 : 0.8) * relief_.fold_shade(p), 0.0, 1.0);
+  const double hollow = std::clamp((male ? 1.15 : 1.0) * relief_.fold_shade(p), 0.0, 1.0);
   tint(colour, {0.66, 0.53, 0.49}, hollow);
   return colour;
 }
@@ -130,9 +130,9 @@ void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
          0.75 * complexion_.freckles * std::min(1.0, 1.6 * where) * spot);
   }
   if (complexion_.age_spots > 0) {
-    const double where = smooth_step(2.5, 6, p.y()) + 0.8 * patch(p, {6, -2}, {4, 5});
-    const double spot = smooth_step(0.6, 0.95, spots_.at(p) + 0.2 * freckles_.at(p));
-    tint(colour, {0.80, 0.70, 0.62}, 0.8 * complexion_.age_spots * std::min(1.0, where) * spot);
+    const double where = smooth_step(2.0, 5, p.y()) + 0.9 * patch(p, {5.5, -2}, {4.5, 5});
+    const double spot = smooth_step(0.5, 0.8, spots_.at(p) + 0.2 * freckles_.at(p));
+    tint(colour, {0.76, 0.64, 0.55}, 0.8 * complexion_.age_spots * std::min(1.0, where) * spot);
   }
 }
 
@@ -143,10 +143,10 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const bool male = person_.maleness > 0;
-  const double pale = (male ? 0.4 + 0.25 * aged_ : 0);
+  const double pale = (male ? 0.4 + 0.4 * aged_ : 0);
   tint(lips, {0.88, 0.63, 0.65}, 1 - pale);
   tint(lips, {0.90, 0.62, 0.66}, complexion_.lipstick);
-  tint(lips, {male ? 0.82 : 0.91, 0.80, 0.83}, complexion_.skin_tone);
+  tint(lips, {male ? 0.82 : 0.97, male ? 0.8 : 0.74, male ? 0.83 : 0.78}, complexion_.skin_tone);
   // The upper lip is darker, because it faces down; so is the line between the lips.
   const double up = p.y() - lip_line(p.x());
   tint(lips, {0.86, 0.79, 0.79}, smooth_step(-0.05, 0.1, up));
@@ -161,7 +161,7 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   const bool male = person_.maleness > 0;
   // The skin of the eye sockets is thin and bluish, mostly below the eye and at its inner corner.
   const double socket = patch(p, {3.1, -0.2}, {2.9, 2.1}) + patch(p, {1.6, -0.4}, {1.0, 1.3});
-  tint(colour, {0.88, 0.86, 0.88}, (0.4 + 0.4 * aged_) * std::min(1.0, 1.3 * socket));
+  tint(colour, {0.88, 0.86, 0.88}, (0.35 + 0.6 * aged_) * std::min(1.0, 1.3 * socket));
   tint(colour, {0.85, 0.83, 0.87}, (0.3 + 0.9 * aged_) * patch(p, {2.8, -1.3}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
   tint(colour, {0.87, 0.81, 0.79}, 0.7 * lids);
@@ -312,7 +312,7 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
        smooth_step(0.35, 0.9, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
   tint(colour, {0.93, 0.87, 0.76},
        0.3 * complexion_.skin_tone + 0.5 * aged_);
-  colour *= 1 - 0.15 * complexion_.skin_tone;
+  colour *= 1 - 0.15 * complexion_.skin_tone - 0.1 * aged_;
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
