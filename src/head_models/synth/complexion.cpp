@@ -77,7 +77,8 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   look.hair += grey * (from_bytes(168, 166, 164) - look.hair);
   look.redness = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.6 * look.skin_tone);
   look.freckles = look.skin_tone < 0.35 ? smooth_step(0.55, 1, unit("synth/freckles")) : 0;
-  look.age_spots = smooth_step(48, 72, person.age_years) * (0.4 + 0.6 * unit("synth/spots"));
+  look.age_spots = smooth_step(48, 72, person.age_years) * (0.4 + 0.6 * unit("synth/spots")) *
+                   (1 - 0.6 * look.skin_tone);
   look.brow_density = (male ? 0.9 : 0.75) + 0.2 * (unit("synth/brow_density") - 0.5);
   look.brow_width = (male ? 1.15 : 0.85) + 0.3 * (unit("synth/brow_width") - 0.5);
   look.iris = random_iris(look.skin_tone, unit("synth/iris"), unit("synth/iris_light"));

@@ -47,11 +47,11 @@ std::vector<Strand> draw_strands(bool curly) {
     strand.half = is_wisp ? 0.011 : 0.016 * (0.7 + 0.6 * unit("half"));
     // At its edges, a card shows short single strands.
     strand.start = (0.01 + (strip < kThinStrip ? 0.04 : 0.12) * edge) * unit("start");
-    strand.end = 0.8 + 0.2 * of_clump("end") - (0.12 + 0.3 * edge) * unit("end");
-    if (is_cap) strand.end = 0.4 + 0.58 * unit("end");
-    strand.light = (0.88 + 0.24 * of_clump("light")) * (0.78 + 0.44 * unit("light"));
+    strand.end = 0.86 + 0.14 * of_clump("end") - (0.08 + 0.22 * edge) * unit("end");
+    if (is_cap) strand.end = 0.5 + 0.28 * unit("end");
+    strand.light = (0.78 + 0.44 * of_clump("light")) * (0.72 + 0.56 * unit("light"));
     strand.waves = kWaves * (1 + of_clump("waves"));
-    strand.bend = is_wisp ? 0.12 : 0.02;
+    strand.bend = is_wisp ? 0.12 : is_cap ? 0.1 : 0.02;
     strand.phase = 2 * of_clump("phase") + 0.35 * unit("phase");
     strands.push_back(strand);
   }
@@ -88,7 +88,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       }
       // Strands become thinner towards their tips, and visible gradually at their roots.
       const double half = strand.half * (1 - 0.7 * smooth_step(0.5, 1, t / strand.end));
-      const double grown = is_cap ? smooth_step(strand.end, strand.end - 0.4, t)
+      const double grown = is_cap ? smooth_step(strand.end, strand.end - 0.15, t)
                                   : smooth_step(strand.start, strand.start + 0.025, t);
       const double first = std::max(0.0, (middle - 1.2 * half) * size / kTextureStripCount);
       for (auto x = static_cast<std::size_t>(first); x < side && u_of(x) < middle + 1.2 * half;
@@ -103,7 +103,10 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       const bool is_cap = u_of(x) >= kCardStripCount;
       const double light = lights[x] * (is_cap ? 1 : 0.65 + 0.35 * smooth_step(0, 0.3, t));
       // Single hairs near the hairline; farther away, the cap is closed.
-      if (is_cap) covers[x] = std::max(covers[x], smooth_step(0.85, 0.4, t));
+      if (is_cap) {
+        const double frayed = t + 0.12 * bends.at({4 * u_of(x), 0, 9});
+        covers[x] = std::max(covers[x], smooth_step(0.7, 0.4, frayed));
+      }
       std::uint8_t* texel = &bytes[4 * (y * side + x)];
       for (Eigen::Index c = 0; c < 3; ++c)
         texel[c] = to_byte(std::clamp(colour[c] * light, 0.0, 1.0));

@@ -281,10 +281,11 @@ double SkinPaint::beard_coverage(const Vector& p) const {
   const double dense = beard_coverage(p, strand) * beard_length(p);
   if (dense <= 0) return 0;
   // Single hairs: the part of the noise above a threshold. Stubble is finer than a long beard.
-  const double stubble = smooth_step(0.9, 0.5, dense);
+  const double stubble = smooth_step(0.9, 0.5, beard_length(p));
   const double hairs = 0.5 + 0.5 * (strand + stubble * (grain_.at(p) - strand));
   const double grown = 0.75 * dense + 0.4 * smooth_step(0.7, 1, dense);
-  return smooth_step(0.05, 0.4, dense) * smooth_step(-0.1, 0.15, hairs - 1 + grown);
+  const double hair = smooth_step(-0.1, 0.15, hairs - 1 + grown);
+  return smooth_step(0.05, 0.4, dense) * std::max(hair * (1 - 0.3 * stubble), 0.5 * dense);
 }
 
 void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
@@ -310,8 +311,7 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   ScreenColour colour(0.70, 0.68, 0.655);
   tint(colour, {0.93, 0.80, 0.76},
        smooth_step(0.35, 0.9, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
-  tint(colour, {0.93, 0.87, 0.76},
-       0.3 * complexion_.skin_tone + 0.5 * aged_);
+  tint(colour, {0.93, 0.87, 0.76}, 0.3 * complexion_.skin_tone + 0.5 * aged_);
   colour *= 1 - 0.15 * complexion_.skin_tone - 0.1 * aged_;
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
