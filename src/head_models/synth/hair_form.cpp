@@ -52,8 +52,9 @@ double v_at_distance_from_hairline(double within) {
 }  // namespace
 
 double head_distance(const Vector3d& p) {
-  const Vector3d radii(1.0, 3.0, 2.0);
-  const Vector3d q = (Vector3d(std::abs(p.x()), p.y(), p.z()) - ear_centre()).cwiseQuotient(radii);
+  // The rear upper part of an ear stands off the head.
+  const Vector3d centre = ear_centre() + Vector3d(0.6, 0.2, -0.9), radii(1.5, 2.9, 2.3);
+  const Vector3d q = (Vector3d(std::abs(p.x()), p.y(), p.z()) - centre).cwiseQuotient(radii);
   return std::min(skin_distance(p), (q.norm() - 1) * radii.x());
 }
 

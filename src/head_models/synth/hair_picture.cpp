@@ -49,7 +49,8 @@ std::vector<Strand> draw_strands(bool curly) {
     strand.start = (0.01 + (strip < kThinStrip ? 0.04 : 0.12) * edge) * unit("start");
     strand.end = 0.86 + 0.14 * of_clump("end") - (0.08 + 0.22 * edge) * unit("end");
     if (is_cap) strand.end = 0.5 + 0.28 * unit("end");
-    strand.light = (0.78 + 0.44 * of_clump("light")) * (0.72 + 0.56 * unit("light"));
+    strand.light = (curly ? 0.9 + 0.2 * of_clump("light") : 0.78 + 0.44 * of_clump("light")) *
+                   (0.72 + 0.56 * unit("light"));
     strand.waves = kWaves * (1 + of_clump("waves"));
     strand.bend = is_wisp ? 0.12 : is_cap ? 0.1 : 0.02;
     strand.phase = 2 * of_clump("phase") + 0.35 * unit("phase");
@@ -80,7 +81,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       double middle = strand.place + gathered * (strand.middle - strand.place);
       middle += 0.05 * bends.at({0.6 * static_cast<double>(strand.clump), t, 0}) +
                 strand.bend * bends.at({0.6 * static_cast<double>(s), t, 5});
-      double light = strand.light * (is_cap ? 0.8 : 1);  // the cap lies in the shade of the cards
+      double light = strand.light * (is_cap ? 0.7 : 1);  // the cap lies in the shade of the cards
       if (curly) {
         const double phase = strand.waves * t + strand.phase;
         middle += kSwing * smooth_wave(phase);
@@ -104,7 +105,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       const double light = lights[x] * (is_cap ? 1 : 0.65 + 0.35 * smooth_step(0, 0.3, t));
       // Single hairs near the hairline; farther away, the cap is closed.
       if (is_cap) {
-        const double frayed = t + 0.12 * bends.at({4 * u_of(x), 0, 9});
+        const double frayed = t + 0.08 * bends.at({10 * u_of(x), 0, 9});
         covers[x] = std::max(covers[x], smooth_step(0.7, 0.4, frayed));
       }
       std::uint8_t* texel = &bytes[4 * (y * side + x)];

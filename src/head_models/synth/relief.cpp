@@ -35,11 +35,11 @@ struct Fold {
 const auto& fold_list() {
   static const std::array list = {
     Fold{"lid_crease", {1.75, 0.40}, {3.1, 1.42}, {4.8, 0.42}, 0.17, 0.055, 1, 0.1, 0.3, 0},
-    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.045, 0.1, 1.0, 0.2, 0},
+    Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.055, 0.1, 1.0, 0.2, 0},
     Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.5, 0.085, 0.1, 0.9, 0.2, 1.3},
     Fold{"nasolabial_crease", {1.75, -3.7}, {2.75, -4.8}, {3.2, -7.2}, 0.22, 0.05, -0.1, 0.8, 0.2, 0.3},
     Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.035, 0, 0.8, 0.2, 1.2},
-    Fold{"bag", {1.7, -0.9}, {2.6, -2.3}, {4.6, -1.7}, 0.2, 0.035, -0.3, 0.8, 0.3, 0},
+    Fold{"bag", {1.7, -0.9}, {2.6, -2.3}, {4.6, -1.7}, 0.22, 0.05, -0.3, 0.8, 0.3, 0},
     Fold{"philtrum_ridge", {0.3, -4.95}, {0.42, -5.5}, {0.5, -6.15}, 0.26, -0.07, 1, -0.3, 0.3, 0},
     Fold{"wing_crease", {1.25, -3.0}, {2.0, -3.5}, {1.8, -4.5}, 0.24, 0.07, 0.8, 0.2, 0.2, 0},
     Fold{"lip_edge", {0.4, -6.08}, {1.0, -6.15}, {2.3, -6.85}, 0.14, -0.035, 1, -0.3, 0.2, 0},
@@ -59,8 +59,9 @@ struct WrinkleArea {
   Vector2d centre, radii;  ///< the wrinkles lie in this ellipse; cm
   double spacing;          ///< mean distance between neighbouring wrinkles, cm
   double depth;            ///< depth of the wrinkles of old people, cm
-  double begin;            ///< Person::scaled_age() at which these wrinkles begin; they are complete at begin + 1
-  bool paired = true;      ///< whether the area is mirrored to x < 0
+  double
+      begin;  ///< Person::scaled_age() at which these wrinkles begin; they are complete at begin + 1
+  bool paired = true;  ///< whether the area is mirrored to x < 0
 };
 /// Half the width of a wrinkle, relative to the distance between wrinkles.
 constexpr double kWrinkleHalfWidth = 0.27;

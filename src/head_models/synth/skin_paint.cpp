@@ -113,7 +113,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   // Cheeks and temples of old people are hollow, and their jowls throw shadows.
   const double hollows = patch(p, {5.2, -5.4}, {2.2, 3.4}) + patch(p, {6.4, 2.6}, {2.0, 2.6}) +
                          patch(p, {3.4, -9.6}, {1.5, 1.6});
-  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.0 : 0.6) * aged_ * std::min(1.0, hollows));
+  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.0 : 0.85) * aged_ * std::min(1.0, hollows));
   // Old skin is sallow.
   tint(colour, {0.97, 0.95, 0.90}, aged_);
   // Darken lines and hollows, because they lie in shade.
@@ -312,7 +312,7 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   tint(colour, {0.93, 0.80, 0.76},
        smooth_step(0.35, 0.9, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
   tint(colour, {0.93, 0.87, 0.76}, 0.3 * complexion_.skin_tone + 0.5 * aged_);
-  colour *= 1 - 0.15 * complexion_.skin_tone - 0.1 * aged_;
+  colour *= 1 - 0.15 * complexion_.skin_tone - 0.2 * aged_;
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
