@@ -91,7 +91,7 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   } else {
     look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
     const double fond = unit("synth/made_up");
-    look.makeup = 0.25 + 0.55 * fond * fond;
+    look.makeup = 0.35 + 0.5 * fond * fond;
     look.lipstick = 0.7 * smooth_step(0.8, 1.0, fond);
   }
   return look;

@@ -72,7 +72,10 @@ struct Card {
 class HairCardBuilder {
  public:
   explicit HairCardBuilder(const HairCut& cut)
-      : cut_(cut), locks_(mix(7, 1, 5), 1.6), pieces_(cut.is_long() ? kPieces : kPiecesOfShort) {}
+      : cut_(cut),
+        locks_(mix(7, 1, 5), 1.6),
+        pieces_(cut.is_long() ? kPieces : kPiecesOfShort),
+        hides_ears_(cut.is_long() && !cut.is_tied) {}
 
   Card grow(const Root& root, std::uint64_t number, int layer) const {
     return cut_.layers > 1 ? random_curl(root, number, layer) : comb(root, number, layer);
@@ -95,14 +98,14 @@ class HairCardBuilder {
     // Shift the root, so that roots do not form a straight line along the hairline.
     Vector3d p = root.place - (0.45 * unit("root") - 0.1) * way;
     double rest = hair_stand_off(cut_, p);
-    p += (rest + 0.02 - head_distance(p)) * head_distance_gradient(p);
+    p += (rest + 0.02 - head_distance(p, hides_ears_)) * head_distance_gradient(p, hides_ears_);
     Vector3d direction = (0.1 * root.normal + way).normalized();
     const double curl = cut_.is_curly ? cut_.wave_amplitude : 0;
     const double phase = 2 * locks_.at(0.4 * root.place) + 0.5 * unit("phase");
     double grown = 0;
     Card card;
     for (int i = 0;; ++i) {
-      const Vector3d normal = head_distance_gradient(p);
+      const Vector3d normal = head_distance_gradient(p, hides_ears_);
       const Vector3d across = (direction.cross(normal) + twist * normal).normalized();
       const double turn = phase + grown / kHalfWave;
       card.middle.emplace_back(p + curl * smooth_step(0, 4, grown) *
@@ -144,10 +147,10 @@ class HairCardBuilder {
   /// already farther away than `off` is moved only part of the way.
   Vector3d moved_off_head(Vector3d p, double off) const {
     for (int k = 0; k < 2; ++k) {
-      const double missing = off + 0.05 - head_distance(p);
+      const double missing = off + 0.05 - head_distance(p, hides_ears_);
       const double hangs = cut_.is_tied ? smooth_step(-4, -9, p.y()) : smooth_step(2.5, -1, p.y());
       const double held = missing > 0 ? 1 : 1 - hangs * (1 - 0.5 * smooth_step(-7, 1, p.y()));
-      p += held * std::max(missing, -2.0) * head_distance_gradient(p);
+      p += held * std::max(missing, -2.0) * head_distance_gradient(p, hides_ears_);
     }
     return p;
   }
@@ -215,6 +218,7 @@ class HairCardBuilder {
   const HairCut& cut_;
   SmoothNoise locks_;
   int pieces_;
+  bool hides_ears_;
 };
 
 void add_card(const Card& card, double width, int strip, bool turned, HairMesh& hair) {

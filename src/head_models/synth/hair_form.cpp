@@ -51,15 +51,17 @@ double v_at_distance_from_hairline(double within) {
 
 }  // namespace
 
-double head_distance(const Vector3d& p) {
-  // The rear upper part of an ear stands off the head.
-  const Vector3d centre = ear_centre() + Vector3d(0.6, 0.2, -0.9), radii(1.5, 2.9, 2.3);
+double head_distance(const Vector3d& p, bool has_wide_ears) {
+  const Vector3d shift = has_wide_ears ? Vector3d(0.6, 0.2, -0.9) : Vector3d::Zero();
+  const Vector3d radii = has_wide_ears ? Vector3d(1.5, 2.9, 2.3) : Vector3d(1.0, 3.0, 2.0);
+  const Vector3d centre = ear_centre() + shift;
   const Vector3d q = (Vector3d(std::abs(p.x()), p.y(), p.z()) - centre).cwiseQuotient(radii);
   return std::min(skin_distance(p), (q.norm() - 1) * radii.x());
 }
 
-Vector3d head_distance_gradient(const Vector3d& p) {
-  return central_differences(head_distance, p, 1e-3).normalized();
+Vector3d head_distance_gradient(const Vector3d& p, bool has_wide_ears) {
+  const auto distance = [&](const Vector3d& at) { return head_distance(at, has_wide_ears); };
+  return central_differences(distance, p, 1e-3).normalized();
 }
 
 double distance_inside_hair(const HairCut& cut, const Vector3d& p) {
