@@ -89,7 +89,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double flush = flush_.at(p);
   const double melanin = 0.55 * mottle + 0.4 * blotch + 0.22 * fine;
   tint(colour, {0.80, 0.72, 0.67},
-       (0.12 + 0.6 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone) * melanin);
+       (0.12 + 0.54 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone) * melanin);
   tint(colour, {0.80, 0.66, 0.56}, (0.10 + 0.06 * aged_) * smooth_step(0.5, 0.85, fine));
   const double blood = complexion_.redness * (1 + 0.2 * aged_);
   tint(colour, {0.99, 0.80, 0.79},
@@ -117,7 +117,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   // Old skin is sallow.
   tint(colour, {0.97, 0.95, 0.90}, aged_);
   // Darken lines and hollows, because they lie in shade.
-  const double hollow = std::clamp((male ? 1.15 : 1.0) * relief_.fold_shade(p), 0.0, 1.0);
+  const double hollow = std::clamp((male ? 1.25 : 0.9) * relief_.fold_shade(p), 0.0, 1.0);
   tint(colour, {0.66, 0.53, 0.49}, hollow);
   return colour;
 }
