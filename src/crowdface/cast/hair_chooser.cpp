@@ -172,7 +172,7 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
 double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
   const auto of_head = [&](Index head) {
     const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
-    return contains(tags, "old")     ? 0.95
+    return contains(tags, "old")     ? 0.88
            : contains(tags, "adult") ? 0.45
            : contains(tags, "young") ? 0.15
                                      : 0.3;

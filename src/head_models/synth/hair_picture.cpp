@@ -106,7 +106,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       // Single hairs near the hairline; farther away, the cap is closed.
       if (is_cap) {
         const double frayed = t + 0.08 * bends.at({10 * u_of(x), 0, 9});
-        covers[x] = std::max(covers[x], smooth_step(0.7, 0.4, frayed));
+        covers[x] = std::max(covers[x], smooth_step(0.77, 0.47, frayed));
       }
       std::uint8_t* texel = &bytes[4 * (y * side + x)];
       for (Eigen::Index c = 0; c < 3; ++c)

@@ -58,7 +58,7 @@ std::span<const Measure> measures() {
       Measure{"cupid_bow", -0.2, -0.3, 0, 1, shifted({0.55, -6.3, 10}, {0.8, 0.6, 1.2}, {0, 0.07, 0.05})},
       Measure{"mouth_height", -0.1, -0.3, 0, 1, shifted({1.6, -7, 9.5}, {3.2, 2.4, 4.5}, {0, 0.18, 0})},
       Measure{"mouth_protrusion", 0, -0.3, 0, 1, shifted({0, -7, 9.8}, {3.8, 2.6, 4.5}, {0, 0, 0.24})},
-      Measure{"mouth_corners", 0, 0.3, 0, 0.4, shifted({2.4, -7.05, 9}, {1.7, 1.4, 2.4}, {0, 0.10, 0}), 1.0},
+      Measure{"mouth_corners", 0, 0.1, 0, 0.3, shifted({2.4, -7.05, 9}, {1.7, 1.4, 2.4}, {0, 0.10, 0}), 0.25},
       // cheeks and jaw
       Measure{"cheekbone_width", 0.5, 0, 0, 1, shifted({6, -2, 4}, {3.8, 3.2, 5.5}, {0.28, 0, 0})},
       Measure{"cheekbone_forward", -0.45, -0.3, 0, 1, shifted({4.5, -2.5, 6.6}, {3.2, 2.4, 3.8}, {0.08, 0, 0.26})},

@@ -143,7 +143,7 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const bool male = person_.maleness > 0;
-  const double pale = (male ? 0.4 + 0.4 * aged_ : 0);
+  const double pale = (male ? 0.4 + 0.1 * aged_ : 0);
   tint(lips, {0.88, 0.63, 0.65}, 1 - pale);
   tint(lips, {0.90, 0.62, 0.66}, complexion_.lipstick);
   tint(lips, {male ? 0.82 : 0.97, male ? 0.8 : 0.74, male ? 0.83 : 0.78}, complexion_.skin_tone);
@@ -311,8 +311,8 @@ ScreenColour SkinPaint::eyeball_colour(const Vector& ball) const {
   ScreenColour colour(0.70, 0.68, 0.655);
   tint(colour, {0.93, 0.80, 0.76},
        smooth_step(0.35, 0.9, flat) * (0.75 + 0.5 * blotch_.at(3 * ball)));
-  tint(colour, {0.93, 0.87, 0.76}, 0.3 * complexion_.skin_tone + 0.5 * aged_);
-  colour *= 1 - 0.15 * complexion_.skin_tone - 0.2 * aged_;
+  tint(colour, {0.93, 0.87, 0.76}, 0.3 * complexion_.skin_tone + 0.33 * aged_);
+  colour *= 1 - 0.15 * complexion_.skin_tone;
   if (ball.z() < 0) return colour;
   constexpr double kIris = 0.385, kPupil = 0.14;
   const Vector spoke = flat > 0 ? Vector(ball.x() / flat, ball.y() / flat, 0.25 * flat) : ball;
