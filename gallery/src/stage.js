@@ -111,7 +111,6 @@ export function roughAtVertices(material) {
   });
 }
 
-const backdrop = ['#83868a', '#46484c']; // of a view, from top to bottom: program_page.css
 const field = 20; // degrees from top to bottom
 const narrow = 0.8; // width by height of a view below which the field is wider
 const rest = 80; // ms without a move, after which all is drawn in full
@@ -290,20 +289,10 @@ export class Stage {
     this.draw();
   }
 
-  /// What the view shows, in full, as a canvas.
-  photograph() {
+  drawInFull() {
     clearTimeout(this.resting);
     if (this.moving) this.drawCheaply(false);
     else this.draw();
-    const picture = document.createElement('canvas');
-    [picture.width, picture.height] = [this.node.width, this.node.height];
-    const context = picture.getContext('2d');
-    const behind = context.createLinearGradient(0, 0, 0, picture.height);
-    backdrop.forEach((colour, end) => behind.addColorStop(end, colour));
-    context.fillStyle = behind;
-    context.fillRect(0, 0, picture.width, picture.height);
-    context.drawImage(this.node, 0, 0);
-    return picture;
   }
 
   draw() {

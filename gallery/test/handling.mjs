@@ -4,7 +4,7 @@
 //   node handling.mjs ADDRESS PHOTO [PICTURES_FOLDER]
 // The last line says "all right".
 import assert from 'node:assert/strict';
-import { writeFileSync } from 'node:fs';
+import { readFileSync, writeFileSync } from 'node:fs';
 import { openPage } from './open_page.mjs';
 
 const [address, photo, pictures] = process.argv.slice(2);
@@ -28,6 +28,32 @@ const canvas = page.locator('.stage:not(.other) canvas');
 const clickOnHead = async (part) => {
   const view = await canvas.boundingBox();
   await page.mouse.click(view.x + view.width / 2, view.y + part * view.height);
+};
+
+/// Asserts that Picture saves what the views show: to the right of the numbers that lie over them, and above.
+const assertPictureIsView = async (what) => {
+  await rested();
+  await page.mouse.move(2, 2);
+  const boxes = await Promise.all(['.stage:not(.other)', '.stage.other', '.photostage'].map((part) => page.locator(part).boundingBox()));
+  const [own] = boxes;
+  const width = Math.floor(Math.max(...boxes.filter(Boolean).map((box) => box.x + box.width)) - own.x);
+  const screen = await page.screenshot({ clip: { x: own.x, y: own.y, width, height: Math.floor(own.height) } });
+  const download = page.waitForEvent('download');
+  await button('Picture').click();
+  const saved = readFileSync(await (await download).path());
+  const [size, differing] = await page.evaluate(async (texts) => {
+    const [a, b] = await Promise.all(texts.map(async (text) => {
+      const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+      const picture = await createImageBitmap(new Blob([bytes], { type: 'image/png' }));
+      const small = new OffscreenCanvas(40, 40).getContext('2d', { willReadFrequently: true });
+      small.drawImage(picture, 0, 0, 40, 40);
+      return { size: [picture.width, picture.height], data: small.getImageData(0, 0, 40, 34).data };
+    }));
+    const far = (i) => [0, 1, 2].some((c) => Math.abs(a.data[i + c] - b.data[i + c]) > 24);
+    return [b.size, [...Array(40 * 34).keys()].filter((i) => far(4 * i)).length];
+  }, [screen, saved].map((picture) => picture.toString('base64')));
+  assert.ok(Math.abs(size[0] - width) <= 1 && Math.abs(size[1] - own.height) <= 1, `${what}: ${size}`);
+  assert.ok(differing < 14, `${what}: ${differing} of 1360 places of the saved picture differ from the screen`);
 };
 
 await page.goto(address);
@@ -173,6 +199,7 @@ await page.getByLabel('Face beside', { exact: true }).selectOption(another);
 await isStill();
 const front = await stillPicture(other);
 await take('beside');
+await assertPictureIsView('a face beside');
 for (let step = 0; step < 16; step += 1) {
   const seen = await colourAt(beside.x + 0.47 * beside.width + step, beside.y + 0.42 * beside.height);
   assert.ok(Math.min(...seen) > 70, `bare skin on the forehead beside, without edges of the mesh: ${seen}`);
@@ -312,6 +339,7 @@ const covered = await colourAt(headBox.x + 0.5 * headBox.width, headBox.y + 0.5 
 await page.getByLabel('Opacity of the head').fill('0');
 assert.notDeepEqual(await colourAt(headBox.x + 0.5 * headBox.width, headBox.y + 0.5 * headBox.height), covered, 'the opacity counts');
 await page.getByLabel('Opacity of the head').fill('0.6');
+await assertPictureIsView('a photo behind');
 await page.locator('.photobox input[type=file]').setInputFiles(photoOfHead);
 await page.waitForFunction((width) => Math.abs(document.querySelector('.photo').naturalWidth - width) < 2, headBox.width);
 await button('Match points').click();
@@ -348,6 +376,7 @@ await button('Look from there').click();
 assert.ok(Math.abs(await facing() - taken) < 2);
 await button('Beside').click();
 await take('photo_beside');
+await assertPictureIsView('a photo beside');
 const half = await page.locator('.photostage').boundingBox();
 assert.ok(half.x >= (await canvas.boundingBox()).x + (await canvas.boundingBox()).width - 1, 'beside the head');
 await page.reload();

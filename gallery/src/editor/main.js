@@ -15,6 +15,7 @@ import { HeadHand } from './head_hand.js';
 import { HeadView } from './head_view.js';
 import { openPainting } from './painting.js';
 import { Photo } from './photo.js';
+import { photograph } from './photograph.js';
 import { PlaneBoard } from './plane_board.js';
 import { ProgramPage } from '../program_page.js';
 import {
@@ -663,7 +664,7 @@ class Editor extends ProgramPage {
   }
 
   async savePicture() {
-    const picture = this.view.photograph();
+    const picture = photograph(this);
     const blob = await new Promise((done) => { picture.toBlob(done, 'image/png'); });
     const name = `${this.document.recipe.id}_view.png`;
     const link = el('a', { download: name, href: URL.createObjectURL(blob) });

@@ -203,6 +203,22 @@ export class Photo {
     return [scale, 0, x - (scale * width) / 2, y - (scale * height) / 2];
   }
 
+  /// Paints the photo as it lies on the page.
+  /// \param left  of the picture, in the window
+  paint(context, left) {
+    if (this.mode === 'off') return;
+    const [a, b, x, y] = this.placement();
+    const stage = this.stage.getBoundingClientRect();
+    context.save();
+    context.translate(stage.left - left, 0);
+    context.beginPath();
+    context.rect(0, 0, stage.width, stage.height);
+    context.clip();
+    context.transform(a, b, -b, a, x, y);
+    context.drawImage(this.image, 0, 0);
+    context.restore();
+  }
+
   photoAt(clientX, clientY) {
     const box = this.stage.getBoundingClientRect();
     const [a, b, x, y] = this.placement();
