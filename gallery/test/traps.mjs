@@ -264,7 +264,7 @@ await page.waitForSelector('.photostage:not([hidden])');
 await page.keyboard.press('m');
 await page.keyboard.press('s');
 await page.waitForSelector('.besidebar:not([hidden])');
-for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [1152, 720], [960, 600], [853, 600], [390, 844]]) {
+for (const [width, height] of [[1440, 900], [1280, 720], [1024, 768], [1152, 720], [960, 600], [853, 600], [683, 512], [390, 844]]) {
   await page.setViewportSize({ width, height });
   await page.waitForFunction(() => { // until the plane has its new size
     const { board } = window.crowdface.editor;
