@@ -143,7 +143,10 @@ export class Stage {
     this.controls.enableDamping = false;
     this.controls.minDistance = pan ? 0.8 : 2.2;
     this.controls.maxDistance = 14;
-    this.controls.addEventListener('change', () => { if (!this.isStepping) this.draw(); });
+    this.controls.addEventListener('change', () => {
+      this.movedAt = performance.now();
+      if (!this.isStepping) this.draw();
+    });
     this.controls.addEventListener('start', () => this.setMoving(true));
     this.controls.addEventListener('end', () => this.setMoving(false));
     this.frames = 0;
@@ -160,7 +163,8 @@ export class Stage {
     if (!this.software || (!on && !this.moving)) return;
     clearTimeout(this.resting);
     this.resting = null;
-    if (!on) this.resting = setTimeout(() => this.drawCheaply(false), rest);
+    if (on) this.movedAt = performance.now();
+    if (!on) this.resting = setTimeout(() => this.drawCheaply(false), rest - (performance.now() - this.movedAt));
     else if (!this.moving) this.drawCheaply(true);
   }
 
