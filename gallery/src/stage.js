@@ -147,8 +147,13 @@ export class Stage {
       this.movedAt = performance.now();
       if (!this.isStepping) this.draw();
     });
-    this.controls.addEventListener('start', () => this.setMoving(true));
-    this.controls.addEventListener('end', () => this.setMoving(false));
+    this.isHeld = false; // by a hand that turns it
+    for (const [event, isHeld] of [['start', true], ['end', false]]) {
+      this.controls.addEventListener(event, () => {
+        this.isHeld = isHeld;
+        this.setMoving(isHeld);
+      });
+    }
     this.frames = 0;
   }
 
@@ -160,7 +165,7 @@ export class Stage {
   /// Without a graphics card what moves is drawn in a cheap form and with as few pixels as its speed asks for; once it
   /// rests, in full.
   setMoving(on) {
-    if (!this.software || (!on && !this.moving)) return;
+    if (!this.software || (!on && (!this.moving || this.isHeld))) return;
     clearTimeout(this.resting);
     this.resting = null;
     if (on) this.movedAt = performance.now();
@@ -192,10 +197,10 @@ export class Stage {
     this.isStepping = true;
     act();
     this.isStepping = false;
-    const isHeld = this.moving && !this.resting;
+    const keepsMoving = this.moving && !this.resting;
     if (this.moving || !this.software) this.draw();
     this.setMoving(true);
-    if (!isHeld) this.setMoving(false);
+    if (!keepsMoving) this.setMoving(false);
   }
 
   stand({ up, front, box: [low, high] }) {

@@ -6,6 +6,7 @@ import { bandNames, takeOver, underAnchors } from './recipe.js';
 
 const kindOfDrag = 'application/x-crowdface';
 const mostShown = 400; // cards; more are found by their name
+const pause = 100; // ms
 
 export class Library {
   /// \param editor  job, look, board, document, commit(document, label), setTarget, open, wear, withRegions, headPlace(name),
@@ -82,11 +83,12 @@ export class Library {
 
   keyOf({ of, name }) { return `${of} ${name}`; }
 
-  /// What is worn is shown on the face as it is now, one after the other.
+  /// What is worn is shown on the face as it is now, one after the other; none is made while something is dragged.
   async takePictures() {
     const { shelf } = this;
     for (const item of this.shelves.get(shelf) ?? []) {
       if (item.kind !== 'wear' || item.name === 'draw' || this.pictures.has(this.keyOf(item))) continue;
+      while (this.editor.view.isHeld || this.editor.passing) await new Promise((done) => { setTimeout(done, pause); });
       if (this.shelf !== shelf || !this.editor.ready) return;
       this.pictures.set(this.keyOf(item), await this.editor.wornPicture(item.of, item.name));
       const button = this.cards.querySelector(`[data-name="${CSS.escape(item.name)}"]`);
