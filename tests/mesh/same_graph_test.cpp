@@ -13,7 +13,8 @@
 namespace crowdface::testing {
 namespace {
 
-/// A cube of quads with a fifth corner on one side, so that no turn maps it onto itself; and two plain cubes beside it.
+/// A cube of quads with a fifth corner on one side, so that no turn maps it onto itself; and two
+/// plain cubes beside it.
 Mesh three_cubes() {
   Mesh mesh;
   for (int piece = 0; piece < 3; ++piece) {
@@ -31,7 +32,8 @@ Mesh three_cubes() {
   return mesh;
 }
 
-/// With vertices, faces and the first corners of faces in another order. \param to  the new number of each vertex
+/// With vertices, faces and the first corners of faces in another order.
+/// \param to  the new number of each vertex
 Mesh shuffled(const Mesh& mesh, const std::vector<std::uint32_t>& to, std::mt19937& random) {
   Mesh other;
   other.topology.vertex_count = mesh.topology.vertex_count;

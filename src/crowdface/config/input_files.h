@@ -62,9 +62,9 @@ std::vector<std::filesystem::path> heads_matching(const std::filesystem::path& p
 /// characters that the name of a head cannot have (see objection_to_head_name) by `_`.
 std::string valid_head_name(const std::string& stem);
 
-/// Returns the name of each head: the stem of the file's name, as a valid name. If two stems are equal, the names
-/// consist of the parts in which the paths differ. The name of "people/ann/neutral.obj" is then
-/// "ann".
+/// Returns the name of each head: the stem of the file's name, as a valid name. If two stems are
+/// equal, the names consist of the parts in which the paths differ. The name of
+/// "people/ann/neutral.obj" is then "ann".
 std::vector<std::string> names_of_heads(const std::vector<std::filesystem::path>& files);
 
 /// Returns the config file and every file that the config names, with all tiles of the masks. Does

@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Compresses bytes to a zlib stream (RFC 1950 and 1951) with Huffman codes and runs of equal bytes,
-/// as zlib does with the strategy Z_RLE. Filtered photographs become as small as with zlib, in a
-/// third of the time, and the result does not depend on the version of zlib.
+/// Compresses bytes to a zlib stream (RFC 1950 and 1951) with Huffman codes and runs of equal
+/// bytes, as zlib does with the strategy Z_RLE. Filtered photographs become as small as with zlib,
+/// in a third of the time, and the result does not depend on the version of zlib.
 class RunDeflater {
  public:
   /// Appends the stream to `out`, which must outlive this object.

@@ -26,8 +26,8 @@ class IrisCover {
   static constexpr double kMaxCoveredFraction = 0.1;
 
   /// \param builder      called once, when the first item has to be measured
-  /// \param attachments  the items to measure are bound here
-  /// \param config, inputs, attachments  must outlive this object.
+  /// \param attachments  the items to measure are bound here; must outlive this object.
+  /// \param config, inputs  must outlive this object.
   IrisCover(const Config& config, const Inputs& inputs, FaceAttachments& attachments,
             std::function<const FaceBuilder&()> builder);
 

@@ -67,8 +67,8 @@ std::vector<std::filesystem::path> list_files_with_extensions(
     const std::filesystem::path& folder, const std::vector<std::string>& endings);
 
 /// Lists the scans in a folder, sorted by name, without arrays of landmarks and of polygons.
-/// \throws MissingInput; UsageError if a scan would give a head with a reserved name or with the name
-/// of another head; InvalidInput if there are no scans.
+/// \throws MissingInput; UsageError if a scan would give a head with a reserved name or with the
+/// name of another head; InvalidInput if there are no scans.
 std::vector<std::filesystem::path> list_scans(const std::filesystem::path& folder);
 
 }  // namespace crowdface

@@ -12,8 +12,8 @@ namespace crowdface::synth {
 
 /// Returns the approximate signed distance of a point from the average head, cm. The ears of this
 /// head are ellipsoids.
-/// \param has_wide_ears  whether the ellipsoids contain the rear upper parts of ears that stand off,
-///                       so that loose long hair hides the ears.
+/// \param has_wide_ears  whether the ellipsoids contain the rear upper parts of ears that stand
+///                       off, so that loose long hair hides the ears.
 double head_distance(const Eigen::Vector3d& p, bool has_wide_ears = false);
 /// Returns the unit gradient of head_distance.
 Eigen::Vector3d head_distance_gradient(const Eigen::Vector3d& p, bool has_wide_ears = false);
