@@ -59,9 +59,8 @@ struct WrinkleArea {
   Vector2d centre, radii;  ///< the wrinkles lie in this ellipse; cm
   double spacing;          ///< mean distance between neighbouring wrinkles, cm
   double depth;            ///< depth of the wrinkles of old people, cm
-  double
-      begin;  ///< Person::scaled_age() at which these wrinkles begin; they are complete at begin + 1
-  bool paired = true;  ///< whether the area is mirrored to x < 0
+  double begin;            ///< Person::scaled_age() at which wrinkles begin; complete 1 later
+  bool paired = true;      ///< whether the area is mirrored to x < 0
 };
 /// Half the width of a wrinkle, relative to the distance between wrinkles.
 constexpr double kWrinkleHalfWidth = 0.27;
