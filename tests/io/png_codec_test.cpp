@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "crowdface/io/image_codec.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -11,8 +9,10 @@
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <png.h>
+#include <zlib.h>
 
 #include "crowdface/io/image.h"
+#include "crowdface/io/image_codec.h"
 
 #include "support/temporary_folder.h"
 
@@ -105,6 +105,27 @@ TEST(PngCodec, ReadsEveryFormAsOpenImageIODoes) {
       }
     }
   }
+}
+
+// Readers that check the whole file refuse a wrong checksum, even that of the last, empty chunk.
+TEST(PngCodec, EveryChunkHasItsChecksum) {
+  const std::string file = encode_png(3, 2, 3, std::vector<std::uint8_t>(18, 7));
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      number = number << 8 | static_cast<std::uint8_t>(file[at + i]);
+    return number;
+  };
+  std::string types;
+  for (std::size_t at = 8; at < file.size();) {
+    const std::size_t size = number_at(at);
+    ASSERT_LE(at + 12 + size, file.size());
+    types += file.substr(at + 4, 4);
+    const auto* typed = reinterpret_cast<const Bytef*>(file.data() + at + 4);
+    EXPECT_EQ(number_at(at + 8 + size), crc32(0, typed, static_cast<uInt>(4 + size))) << types;
+    at += 12 + size;
+  }
+  EXPECT_EQ(types, "IHDRIDATIEND");
 }
 
 TEST(PngCodec, WritesWhatItReads) {

@@ -142,9 +142,9 @@ std::string big_endian(std::size_t number) {
 }
 
 void append_chunk(std::string_view type, std::string_view data, std::string& file) {
-  uLong checksum = crc32(0, reinterpret_cast<const Bytef*>(type.data()), 4);
-  checksum = crc32_z(checksum, reinterpret_cast<const Bytef*>(data.data()), data.size());
-  file.append(big_endian(data.size())).append(type).append(data).append(big_endian(checksum));
+  const std::string typed = std::string(type).append(data);
+  const uLong checksum = crc32_z(0, reinterpret_cast<const Bytef*>(typed.data()), typed.size());
+  file.append(big_endian(data.size())).append(typed).append(big_endian(checksum));
 }
 
 /// Filters and compresses the rows of an image.
