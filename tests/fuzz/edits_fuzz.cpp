@@ -2,6 +2,8 @@
 // What the editor saves and its page sends: the file of the key `edits`, one recipe, and marks.
 #include <cstdlib>
 
+#include "crowdface/cast/review.h"
+#include "crowdface/cast/sampling.h"
 #include "crowdface/config/config_reader.h"
 #include "crowdface/config/edited_entries.h"
 
