@@ -185,7 +185,7 @@ TEST(HeadTextures, TheCacheHoldsTheMapsOfTheFiles) {
     EXPECT_EQ(mapped, values.size()) << when;
   }
   // Another picture of the same name and size
-  write_png(folder, "right.png", 8, {90, 70, 80});
+  write_png(folder, "left.png", 4, {90, 20, 30});
   EXPECT_EQ(maps_of(heads, cache.path()).first, maps_of(heads, {}).first);
   EXPECT_NE(maps_of(heads, cache.path()).first, expected);
   // Damaged entries are replaced

@@ -42,7 +42,7 @@ TEST(HairCards, AreTheSameOnEveryMachine) {
   const Mesh& bob = cards_of(cut_named("bob"));
   const auto values = static_cast<std::size_t>(bob.positions.size());
   EXPECT_EQ(Hasher().add_array(std::span(bob.positions.data(), values)).digest().hex(),
-            "5d01541dbc57b4ce129255d904b11df7");
+            "33431daf8fdc2fb677b65c63e03cd2f4");
   const std::vector<std::uint8_t> picture = hair_picture(64, {0.5, 0.4, 0.3}, true);
   EXPECT_EQ(Hasher().add_array(std::span(picture)).digest().hex(),
             "a2e6b838b9ecdef11dedd9bf8dc3abc6");

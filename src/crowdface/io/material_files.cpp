@@ -130,7 +130,8 @@ class Collector {
   NamedTextures take_textures() {
     NamedTextures named{std::move(of_kind_), {}, {}};
     std::set<std::string_view> materials;
-    for (const SurfaceMaterial& material : files_.surface_materials) materials.insert(material.name);
+    for (const SurfaceMaterial& material : files_.surface_materials)
+      materials.insert(material.name);
     if (materials.size() == 1) named.single_material = *materials.begin();
     for (auto& [kind, of_material] : named.paths_by_kind) {
       const auto only = of_material.find(named.single_material);
@@ -260,7 +261,8 @@ class Collector {
     }
     for (const MaterialLine& line : material_lines(text)) {
       throw_if_interrupted();
-      if (line.keyword == "newmtl") files_.surface_materials.push_back({std::string(line.arguments)});
+      if (line.keyword == "newmtl")
+        files_.surface_materials.push_back({std::string(line.arguments)});
       SurfaceMaterial* const material =
           files_.surface_materials.empty() ? nullptr : &files_.surface_materials.back();
       if (material != nullptr) set_colour(line, *material);
