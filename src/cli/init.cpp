@@ -208,8 +208,8 @@ void refuse_existing(const fs::path& file, bool force) {
 }
 
 /// Returns the names that the new config gives to the heads.
-/// \throws InvalidInput if the command `check` would refuse a name; MissingInput if a file is a
-///         link to a missing file.
+/// \throws InvalidInput if the command `check` would refuse a name; UsageError if it would refuse a
+///         path; MissingInput if a file is a link to a missing file.
 std::vector<std::string> valid_head_names(const std::vector<fs::path>& files) {
   std::vector<std::string> names;
   for (const std::string& name : names_of_heads(files)) {
@@ -217,6 +217,7 @@ std::vector<std::string> valid_head_names(const std::vector<fs::path>& files) {
     if (!path_exists(file)) {
       throw MissingInput(concat(file.string(), ": is a link to a file that is missing"));
     }
+    require_storable_path(file);
     const std::string objection = objection_to_head_name(name, file, names);
     if (!objection.empty()) throw InvalidInput(objection);
     names.push_back(name);

@@ -194,9 +194,10 @@ TEST_F(Outputs, PathsThatNoConfigCanHoldAreRefused) {
   }
 }
 
-TEST_F(Outputs, NamesThatNoConfigTakesWriteNone) {
+TEST_F(Outputs, FileNamesThatNoConfigTakesWriteNone) {
   fs::copy(folder_.head("ann"), folder_ / "heads/a\nregions: {}.obj");
-  crowdface(65, {"init", at("heads"), "-o", at("new.yaml")}, {"a\\x0aregions: {}", "rename"});
+  crowdface(64, {"init", at("heads"), "-o", at("new.yaml")},
+            {"a\\x0aregions: {}", "without control characters"});
   EXPECT_FALSE(fs::exists(folder_ / "new.yaml"));
 }
 
