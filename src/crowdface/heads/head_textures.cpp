@@ -56,12 +56,13 @@ int shading_map_texels(int max_px) {
 /// A normal or roughness map as a texture for renders; the mean normals become slopes.
 Texture shading_map_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
+  const std::size_t middle = channels / 2;
   const auto row = [&](int y, std::span<LinearRgb> texels) {
     const std::uint16_t* at =
         picture.values_16_bit.data() +
         channels * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(y);
     for (LinearRgb& texel : texels) {
-      texel = {static_cast<float>(at[0]), static_cast<float>(at[channels / 2]),
+      texel = {static_cast<float>(at[0]), static_cast<float>(at[middle]),
                static_cast<float>(at[channels - 1])};
       at += channels;
     }
