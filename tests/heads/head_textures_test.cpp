@@ -109,7 +109,7 @@ TEST(HeadTextures, OfMaterialsThatNoFaceUsesAreToldNotToBeShown) {
   for (const char* materials :
        {"newmtl face\nmap_Kd a.png\nnewmtl neck\n", "newmtl face\nmap_Kd a.png\n"}) {
     const HeadTextures textures = load(read(folder, materials), 1024);
-    EXPECT_FALSE(textures.has_textures() && textures.texture_sets[0].textures.size() > 0);
+    EXPECT_FALSE(textures.has_textures() && !textures.texture_sets[0].textures.empty());
     EXPECT_THAT(textures.warnings,
                 ElementsAre(AllOf(HasSubstr("no polygon uses their materials \"face\""),
                                   HasSubstr("its materials are \"skin left\", \"right\" (head)"))));
