@@ -48,7 +48,8 @@ std::size_t size_by_zlib(const Bytes& bytes) {
   return zlib.total_out;
 }
 
-/// Noise around 0, as in filtered images, with runs of equal bytes.
+/// Random bytes like those of a filtered image: normally distributed around 0, and runs of equal
+/// bytes.
 Bytes filtered_image(std::size_t size, double deviation, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0, deviation);

@@ -285,7 +285,7 @@ class Collector {
     if (status == NameStatus::kNew) take_texture(relative);
   }
 
-  /// The source of a texture that `take_file` has accepted; otherwise an empty path.
+  /// Returns the source of a texture that take_file has accepted; an empty path for any other.
   fs::path copied_file(const fs::path& relative) const {
     fs::path source = (folder_ / relative).lexically_normal();
     const auto copied = destinations_.find(destination_of(relative));

@@ -36,7 +36,7 @@ struct SurfaceMaterial {
 /// Result of `find_material_files`.
 struct MaterialFiles {
   std::vector<MaterialFile> files;  ///< the files to copy, one entry per destination
-  /// The materials in the order of the material files. Their maps are sources of `files`.
+  /// The materials, in the order of the material files. `files` contains each of their maps.
   std::vector<SurfaceMaterial> surface_materials;
   /// One message for each problem: a file is missing, cannot be read or is not copied; the material
   /// files contain too many names.
@@ -52,8 +52,8 @@ inline constexpr std::string_view kBlendedFolder = "blended";
 /// A line of a material file.
 struct MaterialLine {
   std::string_view text;  ///< the whole line
-  /// The first word, and the text after this word. Both are empty if the line has fewer than two
-  /// words. The keyword of a known statement has its usual case, whatever the case in the line.
+  /// The first word, and the text after this word; both are empty if the line has fewer than two
+  /// words. Known keywords have the case of the format's description: "map_Kd" for "MAP_KD".
   std::string_view keyword = {}, arguments = {};
   /// name of the material to which the line belongs; empty before the first `newmtl`
   std::string_view material = {};

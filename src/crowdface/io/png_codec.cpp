@@ -142,9 +142,11 @@ std::string big_endian(std::size_t number) {
 }
 
 void append_chunk(std::string_view type, std::string_view data, std::string& file) {
-  const std::string typed = std::string(type).append(data);
-  const uLong checksum = crc32_z(0, reinterpret_cast<const Bytef*>(typed.data()), typed.size());
-  file.append(big_endian(data.size())).append(typed).append(big_endian(checksum));
+  file.append(big_endian(data.size()));
+  const std::size_t begin = file.size();  // of the bytes that the checksum covers
+  file.append(type).append(data);
+  const auto* bytes = reinterpret_cast<const Bytef*>(file.data() + begin);
+  file.append(big_endian(crc32_z(0, bytes, file.size() - begin)));
 }
 
 /// Filters and compresses the rows of an image.

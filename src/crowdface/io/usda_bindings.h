@@ -34,7 +34,8 @@ class UsdaBindings {
   };
   using Properties = std::map<std::string, Property, std::less<>>;
 
-  /// Whether a collection has a prim as a member. \param depth  of collections in collections.
+  /// Whether a collection contains a prim.
+  /// \param depth  number of collections that include this collection, one in the other
   bool has_prim(std::string_view collection, std::string_view prim, int depth) const;
   /// \param full  whether to look only at bindings of the purpose `full`, or at all others
   const Property* binding_at(const Properties& properties, std::string_view prim, bool full) const;

@@ -41,8 +41,9 @@ std::vector<Line> lines_of(std::string_view text) {
   return lines;
 }
 
-/// Reads a name, which may be absent, and x, y, z. The result has no numbers if one of them is
-/// missing: see is_missing_value, or the file's code for missing numbers.
+/// Reads an optional name and three coordinates. If a coordinate is missing, the result has no
+/// coordinates. A coordinate is missing if is_missing_value is true for it, or if it equals
+/// `missing`.
 ListedLandmark read_landmark(const Line& line, double missing, const FailAtLine& fail) {
   ListedLandmark landmark{{}, {}, line.number};
   bool is_missing = false;

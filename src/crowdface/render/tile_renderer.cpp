@@ -295,9 +295,9 @@ class Tile {
   /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, where `disc` is a point of
   /// the unit disc. Consecutive rays have the same `disc`, so that their directions are similar.
   /// A pixel with PixelVariation::kNone gets `directions.rays_per_pixel()` rays, spread over the
-  /// hits of the pixel. Any other pixel gets at least as many, and at least one ray per
-  /// kHitsPerShadowRay hits; the other hits use the rays of similar hits in the pixel and its
-  /// neighbours.
+  /// hits of the pixel. Any other pixel gets at least this number of rays, and at least one ray for
+  /// each kHitsPerShadowRay hits. filter_visibility gives the hits without a ray the visibility of
+  /// similar points nearby.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =

@@ -22,16 +22,14 @@ using RowSums = std::array<std::uint64_t, 3>;
 /// Working memory for blending rows of texels.
 struct RowBuffer {
   RowBuffer(int width, const VertexFactorsOfImage& fields)
-      : stride(static_cast<std::size_t>(width) + kRowSlack),
-        values(stride * fields.channels),
-        ramps(2 * (fields.values_per_vertex() + kRowSlack)),
-        heads(fields.heads.size()) {
+      : ramps(2 * (fields.values_per_vertex() + kRowSlack)), heads(fields.heads.size()) {
+    const std::size_t stride = static_cast<std::size_t>(width) + kRowSlack;
+    values.resize(stride * fields.channels);
     for (std::size_t c = 0; c < fields.channels; ++c) sums.push_back(values.data() + c * stride);
   }
   RowBuffer(const RowBuffer&) = delete;
   RowBuffer& operator=(const RowBuffer&) = delete;
 
-  std::size_t stride;
   std::vector<float> values, ramps;
   std::vector<StoredRow> heads;
   std::vector<float*> sums;  ///< the blended values of the row, in `values`, one row per channel

@@ -44,8 +44,8 @@ double smallest_step(const std::vector<double>& values) {
   return step;
 }
 
-/// Rejects scans that are so far from the origin (such as scans in map coordinates) that their
-/// numbers turn the surface into steps: numbers in single precision, or with too few digits.
+/// Rejects scans whose coordinates are too coarse: scans far from the origin (for example in map
+/// coordinates) that have single precision or few digits. Their surface would consist of steps.
 void refuse_coarse_numbers(const Scan& scan, const std::filesystem::path& path) {
   constexpr double kFar = 10, kMaxOfSize = 5e-3, kMaxSingleOfSize = 1e-3;
   const std::vector<bool> used = is_vertex_used(scan);
