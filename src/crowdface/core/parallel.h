@@ -26,7 +26,7 @@ class ThreadLimit {
 int thread_count();
 
 namespace detail {
-/// The loops of parallel_blocks and parallel_for_each, which are compiled once.
+/// The parts of parallel_blocks and parallel_for_each that parallel.cpp implements.
 void run_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
                 const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body);
 void run_items(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body);

@@ -35,7 +35,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Counts finished steps.
+  /// Adds to the number of finished steps.
   void step(std::size_t step_count = 1);
   /// Seconds since the construction.
   double seconds() const { return clock_() - start_seconds_; }
