@@ -36,7 +36,7 @@ struct CommonOptions {
 
 /// The option `--cache`, the folder of prepared heads.
 struct CacheOption {
-  std::string cache_folder;  ///< empty: the default folder
+  std::string cache_folder;  ///< of the prepared heads; empty: the default folder
 
   /// Adds the option to a command.
   void add_to(CLI::App& command);

@@ -141,9 +141,9 @@ class Ledger {
   /// Passes the lines of the compacted ledger to `take`.
   void write_text(const TextSink& take) const;
 
-  std::filesystem::path root_, own_ledger_;  ///< the crowd's folder; the file to append to
+  std::filesystem::path root_, own_ledger_;           ///< the crowd's folder; the file to append to
   std::vector<std::filesystem::path> other_ledgers_;  ///< the ledgers that are only read
-  std::map<std::string, Item> items_;  ///< by the item's name
+  std::map<std::string, Item> items_;                 ///< by the item's name
   /// Files that an earlier line of an item lists and the item's finished entry does not list.
   /// `compact` removes these files, unless another item lists them.
   std::vector<LedgerEntry::File> replaced_files_;
