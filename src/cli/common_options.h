@@ -47,7 +47,7 @@ struct CacheOption {
 /// The config file, and the options that override values of the config.
 struct ConfigOptions : CacheOption {
   std::string config_file;
-  ConfigOverrides overrides;  ///< values of `--set`, `--seed`, `--count`, `--out`, `--review`
+  ConfigOverrides overrides;  ///< values of the options, such as `--set` and `--count`
 
   /// Adds the argument CONFIG and the options to a command.
   void add_to(CLI::App& command);
