@@ -20,6 +20,7 @@ namespace crowdface::cli {
 class OptionHandle {
  public:
   explicit OptionHandle(CLI::Option& option) : option_(&option) {}
+  /// Reports an error if the option is not given.
   OptionHandle required() const;
   /// Accepts only these words as values.
   OptionHandle one_of(const std::vector<std::string>& words) const;
@@ -34,8 +35,11 @@ class OptionHandle {
   CLI::Option* option_;
 };
 
+/// Adds a command to the program, and returns it, so that options can be added to it.
+/// \param description  for the help.
 CLI::App& add_subcommand(CLI::App& program, const char* name, const char* description);
 
+/// Adds an option without a value. `value` becomes true if the user gives the option.
 OptionHandle add_flag(CLI::App& command, const std::string& name, bool& value,
                       const std::string& help);
 

@@ -17,10 +17,12 @@ struct OptionDescription {
   std::string type;                          ///< name of the value, such as "DIR"; empty for a flag
   std::vector<std::string> accepted_values;  ///< empty: any value
   std::string default_value;                 ///< may be empty
-  std::string help;
+  std::string help;                          ///< what the option does
+  /// is_argument: positional, without dashes; is_repeated: the user may give several values
   bool is_argument = false, is_required = false, is_repeated = false;
 };
 
+/// The description of a command, with the texts that the help shows.
 struct CommandDescription {
   std::string name, help;
   std::vector<OptionDescription> options;
@@ -28,7 +30,7 @@ struct CommandDescription {
 
 /// The complete description of the program's command line.
 struct ProgramDescription : CommandDescription {
-  std::string footer;
+  std::string footer;  ///< text at the end of the help
   std::vector<CommandDescription> commands;
 };
 

@@ -19,12 +19,13 @@ namespace crowdface::cli {
 /// The options that every command has: `--threads`, `--quiet`, `--verbose`, `--log-file`,
 /// `--limit`. Numbers are parsed from text, because CLI11 accepts numbers that overflow.
 struct CommonOptions {
-  std::string threads;
+  std::string threads;  ///< number of threads; empty: one per processor
   bool quiet = false;
   bool verbose = false;
-  std::string log_file;
-  std::vector<std::string> limits;
+  std::string log_file;             ///< empty: no log file
+  std::vector<std::string> limits;  ///< such as "vertices=2000000"
 
+  /// Adds these options to a command.
   void add_to(CLI::App& command);
   /// Returns this command line's `--limit` options (limits on the size of inputs), for processes
   /// that this run starts.
@@ -35,8 +36,9 @@ struct CommonOptions {
 
 /// The option `--cache`, the folder of prepared heads.
 struct CacheOption {
-  std::string cache_folder;
+  std::string cache_folder;  ///< of the prepared heads; empty: the default folder
 
+  /// Adds the option to a command.
   void add_to(CLI::App& command);
   /// Returns `cache_folder`, or the default folder if `cache_folder` is empty.
   std::filesystem::path cache_path() const;
@@ -45,8 +47,9 @@ struct CacheOption {
 /// The config file, and the options that override values of the config.
 struct ConfigOptions : CacheOption {
   std::string config_file;
-  ConfigOverrides overrides;
+  ConfigOverrides overrides;  ///< values of the options, such as `--set` and `--count`
 
+  /// Adds the argument CONFIG and the options to a command.
   void add_to(CLI::App& command);
   /// Adds the option `--review`. For commands that plan a crowd.
   void add_review_to(CLI::App& command);
@@ -58,13 +61,16 @@ struct ConfigOptions : CacheOption {
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
-  std::string memory_limit;
-  std::string shard;
-  bool planned = false;  ///< `--planned`: require a plan in the folder; make no new plan
+  std::string memory_limit;  ///< such as "4 GiB"; empty: the default
+  std::string shard;         ///< such as "2/7"; empty: the whole crowd
+  bool planned = false;      ///< `--planned`: require a plan in the folder; make no new plan
 
+  /// Adds the options, except `--shard` and `--planned`, to a command.
   void add_to(CLI::App& command);
   /// Adds the options `--shard` and `--planned`. For commands that build faces.
   void add_shard_to(CLI::App& command);
+  /// Converts these options to options of `generate`, and applies the memory limit to images.
+  /// \param cache  folder of prepared heads. \throws UsageError
   GenerateOptions generate_options(const std::filesystem::path& cache) const;
 };
 

@@ -22,9 +22,10 @@ inline constexpr std::uint64_t kMinTexturePx = 64,
 /// A file to write into a folder of heads. The content depends only on the command line.
 struct HeadFile {
   std::filesystem::path path;
-  std::function<EncodedFile()> make;
+  std::function<EncodedFile()> make;  ///< returns the content
 };
 
+/// A file with the content `text`.
 HeadFile text_file(const std::filesystem::path& path, std::string text);
 
 /// Writes the missing files and creates their folders. Before writing, compares each existing file

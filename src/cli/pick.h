@@ -11,10 +11,10 @@ namespace crowdface::cli {
 
 /// The options and arguments of the command `wrap`.
 struct WrapCommand : CommonOptions, WrapOptions {
-  std::string template_argument;  ///< TEMPLATE.obj, given without --batch
-  std::string shard_text;         ///< part of the batch, such as 2/7
-  std::string port = "0";         ///< TCP port of the page of --pick; 0: any free port
-  bool pick = false, no_browser = false;
+  std::string template_argument;          ///< TEMPLATE.obj, given without --batch
+  std::string shard_text;                 ///< part of the batch, such as 2/7
+  std::string port = "0";                 ///< TCP port of the page of --pick; 0: any free port
+  bool pick = false, no_browser = false;  ///< `--pick`, `--no-browser`
 };
 
 /// Executes `wrap --pick`: serves the page on which the user picks landmarks on the template and on

@@ -144,7 +144,10 @@ void run_script(const fs::path& script) {
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0) {
-    if (errno != EINTR) throw IoError("waiting for the engine failed");
+    const int error = errno;
+    if (error == EINTR) continue;
+    throw IoError(concat("waiting for ", script.string(),
+                         " failed: ", std::generic_category().message(error)));
   }
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : static_cast<int>(ExitCode::kIoError);
   if (code == 0) return;

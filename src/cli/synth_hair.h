@@ -16,14 +16,14 @@
 
 namespace crowdface::cli {
 
-/// Attachments for synthetic heads: brows, beards, and hair cards for every haircut that a head may
-/// wear. All heads share each attachment, which has a neutral texture.
+/// Attachments for synthetic heads: brows, beards, and hair cards for every haircut that a
+/// registered head may wear. All heads share each attachment, which has a neutral texture.
 class SynthHair {
  public:
   /// Registers a head.
   /// \return  the head's tags for skin, hair colour and hair form, such as "light_skin, brown_hair,
-  /// straight_hair". The hair colour is that of the person's youth. The hair form is "bald" if the
-  /// crown of the head is bald.
+  /// straight_hair". The second tag is the hair colour in the person's youth. The third tag is
+  /// "bald" if the crown of the head is bald.
   std::string add_head(std::uint64_t seed, std::uint64_t index);
 
   /// Adds the files of the folder `attachments`, which is inside the folder of the heads: meshes,
@@ -33,13 +33,14 @@ class SynthHair {
                  const std::vector<MaterialRange>& materials, std::vector<HeadFile>& files) const;
 
  private:
+  /// The properties of a head that decide which haircuts the head may wear.
   struct HairStyle {
     bool female, curly, bald;
     auto operator<=>(const HairStyle&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   /// Returns whether a registered head may wear the haircut.
   bool is_used(const synth::HairCut& cut) const;
-  std::set<HairStyle> used_hair_styles_;
+  std::set<HairStyle> used_hair_styles_;  ///< of the registered heads
 };
 
 }  // namespace crowdface::cli

@@ -9,8 +9,9 @@
 
 namespace crowdface {
 
-/// A file to which the program only appends. After `append` has returned, its bytes survive a power
-/// cut. A write in progress when the process dies may be left incomplete. Thread-safe.
+/// A file to which the program only appends. After `append` has returned, the appended bytes
+/// survive a power cut. If the process dies during `append`, the file may have only some of the
+/// bytes. Thread-safe.
 class AppendFile {
  public:
   /// Creates the file if it does not exist. \throws CannotCreate.
@@ -23,7 +24,7 @@ class AppendFile {
  private:
   std::filesystem::path path_;
   FileDescriptor file_;
-  std::mutex mutex_;
+  std::mutex mutex_;  ///< lets one thread append at a time
 };
 
 }  // namespace crowdface

@@ -17,20 +17,24 @@ struct CompressedRows {
   std::vector<T> items;  ///< group g: the items at offsets[g] … offsets[g + 1] − 1
 
   std::size_t group_count() const { return offsets.size() - 1; }
+  /// The items of one group.
   template <std::integral Number>
   std::span<const T> items_of(Number group) const {
     const T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
     return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
   }
+  /// The items of one group, which the caller may change.
   template <std::integral Number>
   std::span<T> items_of(Number group) {
     T* const first = items.data() + offsets[static_cast<std::size_t>(group)];
     return {first, items.data() + offsets[static_cast<std::size_t>(group) + 1]};
   }
+  /// Allocates memory for these total numbers of groups and items.
   void reserve(std::size_t group_count, std::size_t item_count) {
     offsets.reserve(group_count + 1);
     items.reserve(item_count);
   }
+  /// Adds a group after the last group.
   void add_group(std::span<const T> group) {
     items.insert(items.end(), group.begin(), group.end());
     offsets.push_back(static_cast<std::uint32_t>(items.size()));

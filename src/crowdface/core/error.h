@@ -38,7 +38,7 @@ struct RecoverableError : Error {
   using Error::Error;
 };
 
-/// An error with this exit code. Each exit code has a separate class, so that callers can catch
+/// An error with the exit code kCode. Each exit code has its own class, so that callers can catch
 /// each kind of error separately.
 template <ExitCode kCode>
 struct ErrorWithCode : RecoverableError {

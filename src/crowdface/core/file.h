@@ -85,10 +85,10 @@ class MappedFile {
 void write_file(const std::filesystem::path& path, const std::vector<std::string_view>& pieces);
 void write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// A file to write, as the concatenation of its pieces.
+/// A file to write.
 struct FileToWrite {
   std::filesystem::path path;
-  std::vector<std::string_view> pieces;
+  std::vector<std::string_view> pieces;  ///< the concatenated pieces are the file's content
 };
 /// Like `write_file` for each file, but faster: all files are written before the first is synced
 /// and renamed, and each folder is synced once. If an exception is thrown, some of the files may be

@@ -49,7 +49,7 @@ class FileDescriptor {
   bool close() { return ::close(std::exchange(fd_, -1)) == 0; }
 
  private:
-  int fd_;
+  int fd_;  ///< negative: no file is open
 };
 
 /// Whether an error number means a failure of the machine (disk, memory, too many open files) and
@@ -67,7 +67,7 @@ bool path_leads_to(const std::filesystem::path& path, const FileDescriptor& file
 /// A file opened for reading, with its size in bytes.
 struct OpenedFile {
   FileDescriptor descriptor;
-  std::size_t size;
+  std::size_t size;  ///< in bytes
 };
 /// Opens a regular file.
 /// \throws MissingInput if `path` is not a regular file or cannot be opened; IoError if the cause

@@ -30,8 +30,8 @@ class FileLock {
   ~FileLock();
 
  private:
-  std::filesystem::path path_;
-  FileDescriptor file_;
+  std::filesystem::path path_;  ///< of the lock file
+  FileDescriptor file_;         ///< the open lock file
 };
 
 }  // namespace crowdface

@@ -46,7 +46,7 @@ double orthonormalize(std::span<double> vector, std::size_t count, const Directi
 
 /// Cholesky factor: lower triangular L with L Lᵀ = a, for the leading n by n block of a positive
 /// definite matrix. Entries above the diagonal are neither read nor changed.
-/// \tparam Matrix  rows of contiguous doubles.
+/// \tparam Matrix  such that a[i].data() points to row i, which is stored contiguously.
 template <class Matrix>
 Matrix cholesky(Matrix a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {

@@ -52,7 +52,7 @@ class DirectoryHandle {
 
  private:
   std::filesystem::path path_;
-  FileDescriptor opened_;
+  FileDescriptor opened_;  ///< the directory that was at path_ at construction
 };
 
 }  // namespace crowdface

@@ -14,8 +14,8 @@ namespace crowdface {
 /// A 128-bit XXH3 digest. It detects accidental changes of content but is not cryptographically
 /// secure.
 struct Digest {
-  std::uint64_t high = 0;
-  std::uint64_t low = 0;
+  std::uint64_t high = 0;  ///< the upper 64 bits
+  std::uint64_t low = 0;   ///< the lower 64 bits
   bool operator==(const Digest&) const = default;
   /// 32 lower-case hexadecimal digits.
   std::string hex() const;
@@ -24,10 +24,10 @@ struct Digest {
 /// Parses the output of `Digest::hex`; nothing if the text is not 32 lower-case hexadecimal digits.
 std::optional<Digest> parse_digest(std::string_view hex);
 
+/// Computes the digest of the bytes.
 Digest hash_bytes(std::string_view bytes);
 
-/// Hashes a sequence of values. Each text is preceded by its length, so that different splits of
-/// the same text give different digests.
+/// Computes the digest of a sequence of values.
 class Hasher {
  public:
   Hasher();
@@ -35,6 +35,8 @@ class Hasher {
   Hasher(const Hasher&) = delete;
   Hasher& operator=(const Hasher&) = delete;
 
+  /// Hashes the text's length, then the text, so that "ab", "c" and "a", "bc" give different
+  /// digests.
   Hasher& add(std::string_view text);
   /// Hashes the bytes without their length. If a text is added in pieces, the digest equals
   /// `hash_bytes` of the whole text.
@@ -51,12 +53,13 @@ class Hasher {
     add_integer(values.size());
     return add_raw({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   }
+  /// Returns the digest of all values added so far.
   Digest digest() const;
 
  private:
   Hasher& add_integer(std::uint64_t value);
   struct State;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<State> state_;  ///< state of the XXH3 library
 };
 
 }  // namespace crowdface

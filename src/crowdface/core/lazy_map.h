@@ -31,7 +31,7 @@ class LazyMap {
   }
 
  private:
-  std::mutex mutex_;
+  std::mutex mutex_;  ///< guards values_
   std::map<Key, std::unique_ptr<const Value>> values_;
 };
 

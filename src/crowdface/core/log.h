@@ -9,11 +9,14 @@
 
 namespace crowdface {
 
+/// Which log lines standard error receives: kQuiet: warnings and errors; kNormal: also the lines of
+/// log_info; kVerbose: also the lines of log_debug.
 enum class LogLevel { kQuiet, kNormal, kVerbose };
 
 /// Sets the level of the log lines that standard error receives. Log files always receive all
 /// lines.
 void set_log_level(LogLevel level);
+/// The level that was set last; at first kNormal.
 LogLevel log_level();
 /// Opens one more log file. All later lines are appended to this file and to the earlier log files.
 /// \throws CannotCreate.
@@ -37,7 +40,7 @@ class LogBuffer {
 
  private:
   struct Lines;
-  std::unique_ptr<Lines> lines_;
+  std::unique_ptr<Lines> lines_;  ///< the kept lines
 };
 
 /// Log one or more lines, with unprintable characters escaped (see `printable`).

@@ -28,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// One entry of the handler's table of mappings.
+/// A mapping that the SIGBUS handler watches: one entry of the handler's table.
 struct Watch {
   std::atomic<bool> taken = false;
   std::atomic<char*> begin = nullptr;

@@ -23,10 +23,11 @@ std::optional<std::uint64_t> control_group_memory_limit_bytes(
 /// Peak resident memory of this process so far, in bytes.
 std::uint64_t peak_memory_bytes();
 
-/// After this call `is_out_of_memory` tells whether any `new` has failed. Libraries may catch
+/// After this call, `is_out_of_memory` tells whether any `new` has failed. Libraries may catch
 /// std::bad_alloc and continue with incomplete results, so the program has to ask. Call this
 /// function at program start.
 void watch_for_out_of_memory();
+/// Whether a `new` has failed since the call of watch_for_out_of_memory.
 bool is_out_of_memory();
 
 /// Parses "4 GiB", "512 MiB" or "3 GB" as bytes; nothing if the text is not a size with a unit.

@@ -19,13 +19,14 @@ class ThreadLimit {
 
  private:
   struct Control;
-  std::unique_ptr<Control> control_;
+  std::unique_ptr<Control> control_;  ///< TBB's limit; null: no limit
 };
 
 /// Number of threads that parallel loops currently use.
 int thread_count();
 
 namespace detail {
+/// The parts of parallel_blocks and parallel_for_each that parallel.cpp implements.
 void run_blocks(std::ptrdiff_t count, std::ptrdiff_t block,
                 const std::function<void(std::ptrdiff_t, std::ptrdiff_t)>& body);
 void run_items(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& body);
@@ -68,6 +69,7 @@ class BackgroundTasks {
   BackgroundTasks(const BackgroundTasks&) = delete;
   BackgroundTasks& operator=(const BackgroundTasks&) = delete;
 
+  /// Adds a task; any thread may start it at once.
   void run(std::function<void()> task);
   /// Returns when all tasks are done. \throws the first exception of a task; tasks that had not
   /// started by then are skipped.
@@ -75,7 +77,7 @@ class BackgroundTasks {
 
  private:
   struct Group;
-  std::unique_ptr<Group> group_;
+  std::unique_ptr<Group> group_;  ///< TBB's task group and the tasks that have not started
 };
 
 /// Sum of `term(begin, end)` over the blocks of [0, count), in block order. The result does not

@@ -68,7 +68,6 @@ std::optional<double> Progress::seconds_left() const {
   return seconds_left(finished_steps_);
 }
 
-/// The estimated remaining time. The caller must hold mutex_.
 std::optional<double> Progress::seconds_left(std::size_t finished_steps) const {
   const std::optional<double> rate = rate_.rate();
   if (!rate) return std::nullopt;

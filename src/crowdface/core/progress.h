@@ -15,11 +15,13 @@ namespace crowdface {
 
 /// Returns the seconds since some fixed time.
 using SecondsClock = std::function<double()>;
+/// A clock that changes of the system time do not affect.
 SecondsClock steady_seconds_clock();
 
-/// Shows the progress of a stage: done/total and, once known, rate and remaining time (see
-/// StepRate). On a terminal, the object updates one line in place; otherwise it logs a line every
-/// ten seconds. Silent if the log level is kQuiet. `step` is thread-safe.
+/// Shows the progress of a stage: the numbers of finished steps and of all steps and, once known,
+/// rate and remaining time (see StepRate). On a terminal, the object updates one line in place;
+/// otherwise it logs a line every ten seconds. Silent if the log level is kQuiet. `step` is
+/// thread-safe.
 class Progress {
  public:
   /// \param stage  name of the stage, such as "reading heads".
@@ -33,7 +35,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Counts finished steps.
+  /// Adds to the number of finished steps.
   void step(std::size_t step_count = 1);
   /// Seconds since the construction.
   double seconds() const { return clock_() - start_seconds_; }
@@ -43,17 +45,18 @@ class Progress {
  private:
   /// Shows the progress, unless it was shown a short time ago. The caller must hold mutex_.
   void show(std::size_t finished_steps);
+  /// The estimate for this number of finished steps. The caller must hold mutex_.
   std::optional<double> seconds_left(std::size_t finished_steps) const;
 
   std::string stage_;
   std::size_t total_steps_;
   SecondsClock clock_;
-  double start_seconds_;
+  double start_seconds_;  ///< clock_ at the construction
   std::atomic<std::size_t> finished_steps_{0};
   mutable std::mutex mutex_;
-  StepRate rate_;  ///< guarded by mutex_
-  double last_shown_seconds_;
-  bool has_shown_ = false;  ///< whether `show` has written a line
+  StepRate rate_;              ///< guarded by mutex_
+  double last_shown_seconds_;  ///< clock_ at the last output; at first start_seconds_
+  bool has_shown_ = false;     ///< whether `show` has written a line
 };
 
 /// A function that receives the name of a stage, the number of finished steps and the number of all
@@ -64,7 +67,7 @@ using ProgressListener = std::function<void(const std::string& stage, std::size_
 /// Reports all progress of the process to `listener`; an empty listener ends the reports.
 void set_progress_listener(ProgressListener listener);
 
-/// "3 s", "2 min 5 s", "1 h 10 min".
+/// Formats a time as "3.2 s", "15 s", "2 min 5 s" or "1 h 10 min".
 std::string format_duration(double seconds);
 
 }  // namespace crowdface

@@ -39,7 +39,7 @@ double random_between(const RandomKey& key, double low, double high) {
 }
 
 double random_stratified(const RandomKey& key, std::uint64_t strata) {
-  // The indices k·strata, …, k·strata + strata − 1 are a run. The indices of a run visit all
+  // Call the indices k·strata, …, k·strata + strata − 1 a run. The indices of a run visit all
   // intervals once, in cyclic order. The first interval and the cyclic direction are random; lane
   // kStrataLane gives these two random numbers.
   constexpr std::uint32_t kStrataLane = 0x5A17;

@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// Random numbers as a pure function of (seed, index, purpose, attempt, lane). There is no
+/// The key of a random number. Random numbers are a pure function of a key and a lane. There is no
 /// generator state, so the numbers of a face do not depend on the number of faces, the threads or
 /// the shard, and adding a new purpose leaves the numbers of all other purposes unchanged.
 /// Generator: Philox4x32-10 (Salmon et al. 2011, "Parallel random numbers: as easy as 1, 2, 3").

@@ -6,12 +6,14 @@ namespace crowdface {
 // Version numbers of algorithms. When the output bytes of an algorithm change, raise its constant
 // and regenerate tests/golden. The program then recomputes results of older versions.
 
-/// Version of the skin positions of a face. Part of the hash `settings` of every recipe.
+/// Version of the computation of a face's skin vertices. Part of the hash `settings` of every
+/// recipe.
 inline constexpr int kBlendVersion = 7;
 /// Version of the placement of parts such as eyes and teeth. Included in the `settings` if heads
 /// have parts.
 inline constexpr int kPartsVersion = 5;
-/// Version of the mirror vertices. Included in the `settings` if faces may be mirrored.
+/// Version of the search for each vertex's mirror point. Included in the `settings` if faces may be
+/// mirrored.
 inline constexpr int kMirrorVersion = 1;
 /// Version of the cache entries of heads, and of the faces made from these entries.
 inline constexpr int kPrepareVersion = 6;

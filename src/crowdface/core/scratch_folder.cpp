@@ -18,7 +18,7 @@ ScratchFolder::ScratchFolder() {
   std::string name = (fs::temp_directory_path(error) / "crowdface-XXXXXX").string();
   if (error) {
     throw CannotCreate(concat("no folder for temporary files: ", error.message(),
-                              "; set TMPDIR to one that exists"));
+                              "; set TMPDIR to a folder that exists"));
   }
   if (::mkdtemp(name.data()) == nullptr) throw_with_errno<CannotCreate>(name, "cannot be created");
   path_ = name;

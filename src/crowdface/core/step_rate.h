@@ -25,12 +25,13 @@ class StepRate {
   std::optional<double> rate() const;
 
  private:
+  /// The number of finished steps at one time.
   struct Sample {
     double seconds = 0;
     std::size_t finished_steps = 0;
   };
   std::size_t simultaneous_steps_;
-  double first_seconds_ = 0;
+  double first_seconds_ = 0;  ///< time of the first call of `record`
   /// The samples in the second half of the time that has passed since the first step, and the last
   /// sample before that half.
   std::deque<Sample> samples_;

@@ -49,8 +49,9 @@ inline std::string quoted(const char* text) {
   return quoted(std::string_view(text));
 }
 
-inline constexpr std::size_t kMaxNameLength = 64;
-inline constexpr std::size_t kMaxIdLength = 2 * kMaxNameLength + 22;  ///< form: CROWD_FAMILY_NUMBER
+inline constexpr std::size_t kMaxNameLength = 64;  ///< of names in configs, in bytes
+/// Longest id of a face, in bytes. An id is at most CROWD_FAMILY_NUMBER: two names and a number.
+inline constexpr std::size_t kMaxIdLength = 2 * kMaxNameLength + 22;
 /// Whether `text` can be a file name on any system. The text must have 1 to `max_length`
 /// characters, each a letter (A–Z, a–z), digit, '_', '-' or '.', and must not start with '.'.
 /// "__proto__" is refused because in JavaScript it would set an object's prototype.
@@ -61,6 +62,7 @@ bool is_valid_name(std::string_view text, std::size_t max_length = kMaxNameLengt
 std::optional<std::string> nearest_word(std::string_view word,
                                         const std::vector<std::string>& candidates);
 
+/// Whether a character is a space or a tab.
 inline bool is_blank(char c) {
   return c == ' ' || c == '\t';
 }
@@ -88,6 +90,7 @@ std::vector<std::string> words_of(std::string_view text);
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 namespace detail {
+/// The overloads of `append` append one argument of `concat` to `out`.
 inline void append(std::string& out, std::string_view text) {
   out += text;
 }

@@ -13,6 +13,7 @@ namespace crowdface {
 struct LengthUnit {
   double mm = 10;
   bool operator==(const LengthUnit&) const = default;
+  /// the units that have a name
   static const LengthUnit kMillimetre, kCentimetre, kMetre, kInch, kFoot;
 };
 inline constexpr LengthUnit LengthUnit::kMillimetre{1};
@@ -21,11 +22,11 @@ inline constexpr LengthUnit LengthUnit::kMetre{1000};
 inline constexpr LengthUnit LengthUnit::kInch{25.4};
 inline constexpr LengthUnit LengthUnit::kFoot{304.8};
 
-/// The units that have a name.
+/// All units that have a name.
 inline constexpr std::array kLengthUnits = {LengthUnit::kMillimetre, LengthUnit::kCentimetre,
                                             LengthUnit::kMetre, LengthUnit::kInch,
                                             LengthUnit::kFoot};
-/// The units that a program is likely to export.
+/// mm, cm and m, the units that most programs export.
 inline constexpr std::span kMetricUnits(kLengthUnits.data(), 3);
 /// What a user may write for a unit, for messages.
 inline constexpr std::string_view kUnitChoices = "mm, cm, m, in, ft, or a length such as 243.84 cm";

@@ -42,7 +42,9 @@ struct CrowdDirectory {
   std::filesystem::path review(std::size_t number) const;
   /// The existing review files: review(1), review(2), … up to the first number without a file.
   std::vector<std::filesystem::path> stored_reviews() const;
+  /// The table of all faces, see crowd_table.h.
   std::filesystem::path table() const { return root / "crowd.csv"; }
+  /// Statistics of casting.
   std::filesystem::path casting() const { return root / "casting.json"; }
   std::filesystem::path report() const { return root / "report.json"; }
   std::filesystem::path timings() const { return root / "timings.json"; }
@@ -56,6 +58,7 @@ struct CrowdDirectory {
   std::filesystem::path progress(const Shard& shard) const {
     return shard_path(root / "progress.json", shard);
   }
+  /// The existing progress files of all shards, sorted by name.
   std::vector<std::filesystem::path> progress_files() const {
     return existing_shard_paths(root / "progress.json");
   }
@@ -79,8 +82,9 @@ struct CrowdDirectory {
   /// One USD layer that references the layers of all faces.
   std::filesystem::path stage() const { return root / "crowd.usda"; }
   std::filesystem::path sheets() const { return root / "sheets"; }
-  /// \param part  a level of detail, a shape, or all shapes. '+' separates the id from the part,
-  ///              because no face's id contains '+'.
+  /// Path of a face's mesh file, such as meshes/market_0007+LOD1.glb.
+  /// \param part  a level of detail ("LOD1"), a shape ("jawOpen"), or "shapes"; empty: the whole
+  ///              face. '+' separates the id from the part, because no face's id contains '+'.
   std::filesystem::path mesh(const std::string& id, MeshFormat format,
                              const std::string& part = {}) const;
   /// Folder of arrays that define the polygons for mesh files that contain only positions
@@ -94,6 +98,7 @@ struct CrowdDirectory {
   /// Relative path from the folder of a face's meshes to the folder of files that all faces share
   /// (such as material files): ".." or empty.
   std::string path_from_mesh_to_shared() const { return faces_per_folder > 0 ? ".." : ""; }
+  /// The image with all views of a face.
   std::filesystem::path render(const std::string& id) const {
     return renders() / numbered_subfolder(id) / (id + ".png");
   }
@@ -103,8 +108,10 @@ struct CrowdDirectory {
   std::filesystem::path founder_render(const std::string& family) const {
     return renders() / "founders" / (family + ".png");
   }
+  /// The nearest faces of each face, see likeness_file.h.
   std::filesystem::path likeness() const { return root / "likeness.json"; }
   std::filesystem::path gallery() const { return root / "gallery"; }
+  /// Folder of the scripts from which the gallery reads the meshes of faces.
   std::filesystem::path gallery_faces() const { return gallery() / "data/faces"; }
   std::filesystem::path gallery_face(const std::string& id) const {
     return gallery_faces() / numbered_subfolder(id) / (id + ".js");
@@ -182,7 +189,7 @@ enum class Replace { kRefuse, kForce };
 /// A crowd's config, for comparison with the config.yaml that is already in a folder.
 struct CrowdConfig {
   std::string text;                  ///< content to write to config.yaml
-  std::vector<std::string> reviews;  ///< content of each review file
+  std::vector<std::string> reviews;  ///< content to write to each review file
   /// Returns the keys in which another config.yaml differs from this config; no keys if the other
   /// config.yaml describes the same crowd.
   std::function<std::vector<std::string>(const std::string& other)> differences;

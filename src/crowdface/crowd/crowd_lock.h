@@ -25,8 +25,9 @@ class CrowdLock {
   void require_same_folder() const { root_handle_->require_still_at_path(); }
 
  private:
-  std::unique_ptr<DirectoryHandle> root_handle_;
-  std::unique_ptr<FileLock> crowd_lock_, shard_lock_;
+  std::unique_ptr<DirectoryHandle> root_handle_;  ///< the crowd's folder
+  std::unique_ptr<FileLock> crowd_lock_;  ///< exclusive for the whole crowd, shared for a shard
+  std::unique_ptr<FileLock> shard_lock_;  ///< exclusive; null for the whole crowd
 };
 
 }  // namespace crowdface

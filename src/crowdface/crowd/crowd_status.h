@@ -13,17 +13,18 @@
 
 namespace crowdface {
 
+/// The progress of one shard.
 struct ShardStatus {
   Shard shard;
   ShardState state = ShardState::kWaiting;
-  std::uint64_t face_count = 0;
+  std::uint64_t face_count = 0;           ///< number of planned faces in the shard
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::optional<double> faces_a_second;   ///< faces per second in the last run
   std::optional<double> seconds_left;     ///< set while the shard is working and its speed is known
   /// set while the shard is working: seconds since its last write
   std::optional<double> seconds_since_write;
-  std::string machine;
-  std::string reason;  ///< why the last run ended early
+  std::string machine;  ///< name of the machine of the last run
+  std::string reason;   ///< why the last run ended early
   /// Whether the last run ended early and Slurm will run the shard's task again.
   bool is_requeued = false;
 
@@ -31,6 +32,7 @@ struct ShardStatus {
   std::string_view state_name() const { return is_requeued ? "requeued" : name_of(state); }
 };
 
+/// The progress of a whole crowd.
 struct CrowdStatus {
   bool is_planned = false;  ///< whether the plan exists
   /// whether the report exists (a run writes the report after all faces and sheets)
@@ -49,6 +51,7 @@ struct TaskEnd {
   std::string reason;                      ///< last error in the log
   bool is_requeued = false;                ///< whether the task has asked Slurm for another run
 };
+/// Finds the end of the last attempt in the text of a task's log.
 TaskEnd parse_task_end(std::string_view log);
 
 /// Reads the status from the folder and changes nothing. Needs neither the heads nor locks.

@@ -14,6 +14,7 @@
 
 namespace crowdface {
 
+/// The argument `neck_colours` of table_text for heads without colours at the neck.
 inline const std::vector<Eigen::Array3d> kNoNeckColours;
 
 /// Tags of heads and kinds of attachments, for the columns of the table that describe the person.

@@ -80,7 +80,7 @@ class LedgerReader {
   LedgerLines lines;
 
  private:
-  Hasher line_hash_;  ///< hash of the lines so far
+  Hasher line_hash_;  ///< hash of the lines read so far
 };
 
 }  // namespace

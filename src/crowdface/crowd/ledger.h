@@ -23,8 +23,8 @@ namespace crowdface {
 /// before the ledger gets the item's line.
 struct LedgerEntry {
   struct File {
-    std::string name;  ///< path relative to the crowd's folder, with '/' separators
-    FileDigest content;
+    std::string name;    ///< path relative to the crowd's folder, with '/' separators
+    FileDigest content;  ///< size and hash
     bool operator==(const File&) const = default;
   };
   std::string item;         ///< such as "faces/market_0001" or "report.json"
@@ -51,6 +51,7 @@ struct LedgerLines {
   /// in the last line match the other lines.
   bool is_complete = false;
 };
+/// Parses the text of a ledger file.
 LedgerLines parse_ledger(std::string_view text);
 /// Reads the lines of a ledger file.
 /// \param item  reads only lines of items whose names start with this text; empty: all lines.
@@ -88,6 +89,7 @@ class Ledger {
   /// by `write_file` or `write_files`.
   /// \throws IoError.
   void record_all(std::vector<LedgerEntry> entries);
+  /// Like record_all, for one entry.
   void record(LedgerEntry entry);
   /// Computes the hashes of the files, then records them.
   /// \param names  paths relative to the folder.
@@ -95,6 +97,7 @@ class Ledger {
 
   /// Writes a file and records it; the ledger key is the hash of the content. Does not write if the
   /// file already has this content.
+  /// \param name  path relative to the folder.
   FileDigest write(const std::string& name, const TextPieces& text);
   FileDigest write(const std::string& name, std::string_view bytes);
   /// Records a file that already exists with the right content. The ledger key is the hash of the
@@ -129,19 +132,24 @@ class Ledger {
 
   /// Marks the entry's item as finished: replaces all lines of the item by this entry.
   void set_finished_entry(LedgerEntry entry);
+  /// Removes the files that only outdated lines list.
   void remove_outdated_files() const;
+  /// Computes size and hash of files. \throws IoError if a file does not exist.
   std::vector<LedgerEntry::File> hash_files(const std::vector<std::string>& names) const;
+  /// If `files` differ from the entry's files, records the entry with `files` and a new key.
   void record_remade_entry(LedgerEntry entry, std::vector<LedgerEntry::File> files);
+  /// Passes the lines of the compacted ledger to `take`.
   void write_text(const TextSink& take) const;
 
-  std::filesystem::path root_, own_ledger_;
-  std::vector<std::filesystem::path> other_ledgers_;
-  std::map<std::string, Item> items_;
-  /// files of replaced ledger lines that the newer lines of the same items do not list
+  std::filesystem::path root_, own_ledger_;           ///< the crowd's folder; the file to append to
+  std::vector<std::filesystem::path> other_ledgers_;  ///< the ledgers that are only read
+  std::map<std::string, Item> items_;                 ///< by the item's name
+  /// Files that an earlier line of an item lists and the item's finished entry does not list.
+  /// `compact` removes these files, unless another item lists them.
   std::vector<LedgerEntry::File> replaced_files_;
-  bool has_appended_ = false;  ///< whether this run has appended lines
-  std::mutex mutex_;
-  std::unique_ptr<AppendFile> file_;
+  bool has_appended_ = false;         ///< whether this run has appended lines
+  std::mutex mutex_;                  ///< guards items_, replaced_files_ and has_appended_
+  std::unique_ptr<AppendFile> file_;  ///< own_ledger_, open
 };
 
 }  // namespace crowdface

@@ -14,7 +14,7 @@ namespace crowdface {
 /// The similarities of faces, and the heads' positions on the weight plane, for sheets and gallery.
 struct CrowdLikeness {
   std::vector<PlanePoint> anchors;  ///< one per head: its position on the weight plane
-  Likeness likeness;
+  Likeness likeness;                ///< the nearest faces of each face, and an order of the faces
 };
 
 /// Computes the CrowdLikeness of a crowd that was just cast. Rounds distances to four decimals, as

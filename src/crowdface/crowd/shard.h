@@ -44,6 +44,7 @@ enum class ShardState {
   kInterrupted,  ///< stopped by a signal; the next run continues the shard
   kFailed
 };
+/// The state's name in files and messages, such as "waiting".
 std::string_view name_of(ShardState state);
 
 /// What a shard reports about its latest run, during the run and at its end.
@@ -52,7 +53,7 @@ struct ShardNotes {
   std::uint64_t face_count = 0;           ///< number of faces in the shard
   std::uint64_t finished_face_count = 0;  ///< number of finished faces in the shard
   std::uint64_t made_face_count = 0;      ///< number of faces that this run has made in `seconds`
-  double seconds = 0;
+  double seconds = 0;                     ///< from the start of the run to these notes
   std::string machine;
   std::string reason;  ///< why the run was interrupted or failed
 };

@@ -15,6 +15,7 @@ namespace crowdface {
 /// borders between materials are split into several corners, so that edge collapses preserve these
 /// borders.
 struct SplitMesh {
+  /// A vertex with one of its texture coordinates and one of its materials.
   struct Corner {
     /// `vertex`: row of the position. `uv`: row of the texture coordinate, or kNoIndex. `material`:
     /// index of the material.
@@ -22,7 +23,7 @@ struct SplitMesh {
     auto operator<=>(const Corner&) const = default;  // NOLINT(modernize-use-nullptr)
   };
   std::vector<Corner> corners;  ///< distinct corners, sorted by (vertex, uv, material)
-  /// for each corner, the first of the polygons that share it
+  /// for each corner, the first of the polygons that share the corner
   std::vector<std::uint32_t> face_of_corner;
   std::vector<Triangle> triangles;  ///< indices into `corners`
   /// for each material: the first polygon with this material

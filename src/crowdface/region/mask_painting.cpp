@@ -215,7 +215,10 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
                          int size, const std::string& mesh_name) {
   require(size >= 1 && alpha.rows() == topology.vertex_count && alpha.cols() >= 1, "a mask of ",
           size, " texels for ", alpha.rows(), " vertices");
-  if (topology.corner_uvs.empty()) throw InvalidInput("a mask needs texture coordinates");
+  if (topology.corner_uvs.empty()) {
+    throw InvalidInput(
+        concat(mesh_name, ": expected texture coordinates, which masks need, found none"));
+  }
   const auto vertex_has_priority = [&](std::uint32_t v) {
     return has_priority.empty() || has_priority[v];
   };

@@ -21,13 +21,14 @@ struct PaintedMasks {
   /// 3 · `texels_per_side`² bytes, row by row from v = 1 down
   using ImageBytes = std::vector<std::uint8_t>;
 
-  int texels_per_side = 0;
+  int texels_per_side = 0;  ///< width and height of each image
   /// the images of each tile, by the tile's UDIM number (kFirstTile for an untiled texture)
   std::map<int, std::vector<ImageBytes>> images_by_tile;
 
   /// Whether the file names need <UDIM>: whether there are several tiles, or one tile that is not
   /// kFirstTile.
   bool is_tiled() const;
+  /// Number of images of each tile.
   std::size_t image_count() const {
     return images_by_tile.empty() ? 0 : images_by_tile.begin()->second.size();
   }
@@ -52,6 +53,7 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
                          const RegionWeights::Alpha& alpha, const std::vector<bool>& has_priority,
                          int size, const std::string& mesh_name = "the mesh");
 
+/// Mask images as files, and their paths for a config.
 struct MaskFiles {
   /// Path of each mask image, as it stands in a config; contains <UDIM> if the masks are tiled.
   std::vector<std::filesystem::path> mask_paths;
