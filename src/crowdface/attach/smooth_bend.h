@@ -28,7 +28,7 @@ class SmoothBend {
  private:
   const FittedSkin& skin_;
   const Positions& points_;
-  BendNodes nodes_;
+  BendNodes nodes_;  ///< the patches of skin, and the weights of their motions for each point
 };
 
 }  // namespace crowdface

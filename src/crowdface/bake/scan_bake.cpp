@@ -179,8 +179,8 @@ std::vector<double> ScanBake::measure_scan_optical_densities(
   return confidence;
 }
 
-/// Computes edge_weights_, which fade the scan's colours out towards holes of the scan. The weight
-/// of a vertex depends on its distance to the nearest visible vertex that the scan does not cover.
+/// The weight of a vertex depends on its distance to the nearest visible vertex that the scan does
+/// not cover.
 void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   constexpr double kNone = 0.5;
   const SkinMesh& skin = template_.wrap_template().skin;

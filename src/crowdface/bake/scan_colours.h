@@ -19,7 +19,7 @@ namespace crowdface {
 
 /// The textures of one kind, such as colour maps, that the polygons of a mesh use.
 struct MeshMaps {
-  std::vector<std::unique_ptr<const FilteredTexture>> textures;
+  std::vector<std::unique_ptr<const FilteredTexture>> textures;  ///< one per texture file
   /// for each polygon, an index into `textures`, or kNoIndex; may be empty
   std::vector<std::uint32_t> texture_of_polygon;
   /// for each polygon: lower left corner (u, v) of the unit square of texture space that contains
@@ -68,7 +68,7 @@ class ScanColours {
 
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file
   std::vector<TriangleCorners> triangle_corners_;  ///< one per triangle of the file
-  MeshMaps colours_;
+  MeshMaps colours_;                               ///< the file's colour textures
   /// #V by 3: colours of vertices in linear light; or no rows
   ColourValues vertex_linear_colours_;
   std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< one per material

@@ -46,6 +46,7 @@ class CrowdBlender {
   ///                 these matrices.
   /// \throws BrokenPrecondition if a recipe does not fit the heads or the regions.
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
+  /// Blends the face of a single recipe.
   Positions blend(const Recipe& recipe) const;
 
   /// Changes a face that was blended from the recipe `before` into the face of the recipe `after`.
@@ -59,6 +60,7 @@ class CrowdBlender {
   class FaceBatch;
   class PatchBlender;
 
+  /// Fills patch_regions_ and region_offsets_.
   void find_regions();
   /// Returns the regions whose weight is nonzero at one or more vertices of the patch.
   std::span<const std::uint32_t> regions_of_patch(std::size_t patch) const {
@@ -72,10 +74,11 @@ class CrowdBlender {
   template <class Wanted>
   void blend_patches(const Wanted& wanted, std::span<const Recipe* const> recipes,
                      std::span<Positions> results) const;
+  /// Returns the number of fields of all heads together.
   std::size_t field_count() const { return field_offsets_.back(); }
 
   const HeadSet& heads_;
-  std::vector<HeadSmoothing> levels_;
+  std::vector<HeadSmoothing> levels_;  ///< #heads: the fitted smoothing S̃_L of each head
   FieldPatches patches_;
   const RegionWeights& regions_;
   /// #heads + 1: for each head, the index of its first field among the fields of all heads

@@ -19,7 +19,7 @@ void dequantize(const std::int16_t* numbers, std::size_t count, float step, floa
 /// The matrix whose rows `multiply` adds up. The values are quantized (int16) or unpacked (float).
 template <class Number>
 struct MatrixRows {
-  const Number* values;
+  const Number* values;  ///< first element of the first row
   /// distance from the start of one row to the start of the next row, in elements
   std::size_t stride;
   std::size_t width;  ///< number of elements in a row; a multiple of kPatchPadding

@@ -33,10 +33,10 @@ class BodyPainter {
 
  private:
   const HeadsOnBody& heads_on_body_;
-  Topology topology_;
-  TextureCoordinates uvs_;
+  Topology topology_;                      ///< see `topology`
+  TextureCoordinates uvs_;                 ///< #T by 2, see `topology`
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
-  std::unique_ptr<const SurfaceTexels> texels_;
+  std::unique_ptr<const SurfaceTexels> texels_;  ///< for each texel: the triangle that covers it
   /// the body's colours at the ring of the neck, #rim by 3
   OpticalDensities body_optical_densities_;
   /// Spreads colour differences from the ring over the body, with the method that NeckBend uses for

@@ -66,7 +66,7 @@ constexpr std::array<char, 4> number_type() {
 
 }  // namespace detail
 
-/// An array to write into an entry; points to the numbers in memory.
+/// An array to write into a cache entry; points to the numbers in memory.
 struct EntryArray {
   std::string name;          ///< at most 23 bytes
   std::array<char, 4> type;  ///< see detail::number_type
@@ -108,7 +108,7 @@ class ArrayWriter {
     add<Scalar>(name, matrix.innerSize(), matrix.outerSize(), matrix.data());
   }
 
-  std::vector<EntryArray> arrays;
+  std::vector<EntryArray> arrays;  ///< the collected arrays
 
  private:
   template <class T>
@@ -124,7 +124,7 @@ class ArrayWriter {
   }
 };
 
-/// Writes an entry. \throws CannotCreate, IoError.
+/// Writes a cache entry. \throws CannotCreate, IoError.
 void write_entry(const std::filesystem::path& cache, const CacheKey& key,
                  const std::vector<EntryArray>& arrays);
 
@@ -132,8 +132,9 @@ void write_entry(const std::filesystem::path& cache, const CacheKey& key,
 /// for the displacements that smoothing adds.
 bool are_in_coordinate_range(std::span<const float> values);
 bool are_in_coordinate_range(std::span<const double> values);
-/// `all_below`: whether all numbers are below `end`. `are_indices` also accepts kNoIndex.
+/// Whether all numbers are below `end`.
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
+/// Whether each number is below `end` or is kNoIndex.
 bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end);
 
 /// A memory-mapped cache entry. Its arrays lie in the mapped file and are valid while `file()`
@@ -148,6 +149,7 @@ class CacheEntry {
                                         const std::optional<Digest>& known_checksum = {});
 
   const std::shared_ptr<const MappedFile>& file() const { return file_; }
+  /// The checksum that the end of the file states.
   const Digest& checksum() const { return checksum_; }
 
   /// An array in the file. \throws InvalidInput if the entry has no array with this name and type,
@@ -194,6 +196,7 @@ class CacheEntry {
   friend void write_entry(const std::filesystem::path&, const CacheKey&,
                           const std::vector<EntryArray>&);
 
+  /// The array with this name and with numbers of this type. \throws InvalidInput like `get`.
   template <class Number>
   const StoredArray& find_array(std::string_view name) const {
     const StoredArray& row = find_array(name, detail::number_type<Number>());
@@ -204,6 +207,7 @@ class CacheEntry {
     return row;
   }
   const StoredArray& find_array(std::string_view name, const std::array<char, 4>& type) const;
+  /// Address of the array's first number.
   const char* at(const StoredArray& row) const { return file_->bytes().data() + row.offset; }
   /// If `matches` is false, rejects the entry: it has another version or holds other data.
   void require_match(bool matches) const;
@@ -213,7 +217,7 @@ class CacheEntry {
   std::filesystem::path path_;
   std::shared_ptr<const MappedFile> file_;
   Digest checksum_;
-  std::vector<StoredArray> arrays_;
+  std::vector<StoredArray> arrays_;  ///< the arrays that the file lists
 };
 
 /// Reads values from an entry: `arrays("name", value)` accepts the same types as ArrayWriter. A

@@ -59,15 +59,15 @@ class FaceAttachments {
  private:
   /// An attachment mesh bound to the fitted head.
   struct BoundMesh {
-    const Attachment* item;  ///< the first attachment with this mesh
-    std::unique_ptr<const AttachmentCarrier> carrier;
+    const Attachment* item;                            ///< the first attachment with this mesh
+    std::unique_ptr<const AttachmentCarrier> carrier;  ///< places the mesh on faces
     /// null unless the attachment bends with the skin and there are shapes (expressions)
     std::unique_ptr<const ShapeBend> bend;
   };
 
   const Config& config_;
   const Inputs& inputs_;
-  std::unique_ptr<const FittedSkin> skin_;  ///< null if no attachment is bound
+  std::unique_ptr<const FittedSkin> skin_;  ///< of the fitted head; null if nothing is bound
   std::vector<BoundMesh> bound_meshes_;
   /// for each attachment of the inputs: an index into `bound_meshes_`; nothing if it is not bound
   std::vector<std::optional<std::size_t>> mesh_of_item_;

@@ -62,7 +62,7 @@ class FaceTextures {
   /// The weight of each head in the mean colour of the whole face.
   std::vector<double> head_weights_in_mean_colour(const Recipe& recipe) const;
 
-  std::vector<std::unique_ptr<TextureBlender>> blenders_;
+  std::vector<std::unique_ptr<TextureBlender>> blenders_;  ///< one per kind of blended textures
   /// An image that is made for each face: image `index` of a blender.
   struct Picture {
     const TextureBlender* blender;
@@ -77,7 +77,7 @@ class FaceTextures {
   std::vector<bool> uses_target_colours_only_;
   /// nothing if the heads are not on a body or have no colours at the neck's ring
   std::optional<SeamColours> seam_;
-  std::unique_ptr<const BodyPainter> body_;
+  std::unique_ptr<const BodyPainter> body_;  ///< see body_painter
 };
 
 /// Size, in bytes, of the heads' textures and vertex colours in memory. Texture maps that were

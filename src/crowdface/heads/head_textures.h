@@ -42,6 +42,7 @@ struct HeadTextures {
   Digest digest;
   std::vector<std::string> warnings;  ///< messages about missing files
 
+  /// Whether each face gets textures that are blended from the heads' textures.
   bool are_blended() const { return !names.empty(); }
   bool has_textures() const { return are_blended() || !texture_sets.empty(); }
 };

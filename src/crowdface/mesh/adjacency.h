@@ -32,6 +32,7 @@ struct Components {
   /// Number of the component with the most vertices. On a head, this component is the skin.
   std::uint32_t largest() const;
 };
+/// Finds the connected components of the mesh that has this adjacency.
 Components find_components(const Adjacency& adjacency);
 
 /// Root mean square of the edge lengths of one component, in the unit of the positions; 0 if the

@@ -38,6 +38,7 @@ struct Topology {
 
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }
   Index corner_count() const { return static_cast<Index>(corner_vertices.size()); }
+  /// Adds a polygon at the end. \param uvs  rows of the corners' texture coordinates; or empty
   void add_face(std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> uvs = {});
   /// The vertices of polygon f in order.
   std::span<const std::uint32_t> face(Index f) const {
@@ -70,6 +71,7 @@ struct Mesh {
   TextureCoordinates uvs;  ///< #T by 2, may be empty
 };
 
+/// A head of a HeadSet, which holds the topology of all its heads.
 struct Head {
   std::string name;     ///< file name without extension; unique in the HeadSet
   Positions positions;  ///< #V by 3

@@ -25,7 +25,7 @@ struct FilterInput {
 /// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. The positions of the
 /// probes at any level are linear combinations of the terms, so they need no further filter pass.
 struct RecordedTerms {
-  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> vertices;  ///< vertex indices of the probes
   Columns terms;  ///< #terms by 3·#vertices: row k receives T_k(W) x at the vertices
 };
 

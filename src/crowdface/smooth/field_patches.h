@@ -65,9 +65,9 @@ struct PatchArrays {
   std::span<const std::uint32_t> stored_vertex_counts;
   /// #patches by #heads: see FieldPatch::field_counts
   std::span<const std::uint32_t> field_counts;
-  std::span<const float> quantization_steps, weights;
-  std::span<const std::int16_t> quantized_values;
-  std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
+  std::span<const float> quantization_steps, weights;  ///< see FieldPatch
+  std::span<const std::int16_t> quantized_values;      ///< see FieldPatch
+  std::shared_ptr<const void> memory_owner;            ///< keeps all lists alive
 };
 
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all
@@ -90,6 +90,7 @@ class FieldPatches {
   std::size_t size() const { return patches_.size(); }
   Index vertex_count() const { return static_cast<Index>(arrays_.vertices.size()); }
   std::size_t head_count() const { return heads_; }
+  /// The data of one patch, which lie in `arrays()`.
   FieldPatch operator[](std::size_t patch) const;
   const PatchArrays& arrays() const { return arrays_; }
 
@@ -98,9 +99,9 @@ class FieldPatches {
   struct Patch {
     std::size_t field_count, first_field, first_value, first_weight;
   };
-  PatchArrays arrays_;
-  std::size_t heads_ = 0;  ///< number of heads
-  std::vector<Patch> patches_;
+  PatchArrays arrays_;          ///< the data of all patches
+  std::size_t heads_ = 0;       ///< number of heads
+  std::vector<Patch> patches_;  ///< where each patch's data lies in `arrays_`
 };
 
 /// Orders all vertices along a space-filling curve (hilbert_order). Patches are consecutive ranges

@@ -250,7 +250,7 @@ ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
 std::vector<double> level_function_values(const LevelNodes& nodes,
                                           const Eigen::MatrixXd& coefficients,
                                           std::uint64_t level) {
-  const std::vector<double> weights = nodes.weights(level);
+  const std::vector<double> weights = nodes.interpolation_weights(level);
   std::vector<double> functions(static_cast<std::size_t>(coefficients.cols()), 0.0);
   for (Index p = 0; p < coefficients.cols(); ++p) {
     for (Index n = 0; n < coefficients.rows(); ++n) {

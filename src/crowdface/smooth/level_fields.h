@@ -46,14 +46,15 @@ struct LevelFields {
     return {first_field_of_tile[tile + 1] - begin, quantization_steps.data() + begin,
             quantized_values.data() + begin * kTileValues};
   }
+  /// Returns a coordinate (0 to 2) of a field at a vertex, in the unit of the positions.
   double value(Index field, Index vertex, Index coordinate) const;
 };
 
 /// The quantized fields of a sequence of tiles, stored one tile after another.
 struct QuantizedTiles {
-  std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
-  std::vector<float> quantization_steps;    ///< one for each stored field of a tile
-  std::vector<std::int16_t> quantized_values;
+  std::vector<std::uint32_t> field_counts;     ///< number of fields of each tile
+  std::vector<float> quantization_steps;       ///< one for each stored field of a tile
+  std::vector<std::int16_t> quantized_values;  ///< for each stored field, kTileValues integers
 
   /// Quantizes and appends the fields of one tile.
   /// \param values  `count` fields by kTileValues, finite; further values are ignored.
