@@ -52,7 +52,7 @@ class FittedSkin {
 
   /// A patch of skin around a point: vertex indices of the mesh, and a weight for each vertex.
   struct Patch {
-    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh
     std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance
     double radius = 0;            ///< vertices at this distance or farther have no weight
   };
@@ -84,6 +84,7 @@ class FittedSkin {
     std::vector<double> areas;
     PointGrid grid;  ///< the level's vertices, for nearest-vertex queries
   };
+  /// Adds a level to `levels_`, see Level.
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   /// Adds a level that contains one skin vertex from each cell of a cubic grid with edge length
   /// `spacing`.
@@ -96,10 +97,10 @@ class FittedSkin {
                           Patch& patch) const;
 
   const Topology& topology_;
-  Positions positions_;
+  Positions positions_;                       ///< #V by 3, of the mesh
   std::vector<std::uint32_t> skin_vertices_;  ///< vertex indices of the mesh, ascending
-  double units_per_mm_;
-  VertexFaces vertex_faces_;
+  double units_per_mm_;                       ///< length of one millimetre in the mesh's unit
+  VertexFaces vertex_faces_;                  ///< the polygons at each vertex of the mesh
   NormalFans fans_;         ///< for each vertex, the polygons that determine the vertex's normal
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
   std::vector<double> areas_;  ///< see `areas`

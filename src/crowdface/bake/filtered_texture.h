@@ -34,7 +34,7 @@ class FilteredTexture {
   /// numbers are the mean values over the covered area, multiplied by this fraction.
   struct Level {
     int width = 0, height = 0;
-    std::vector<Eigen::Array4f> texels;
+    std::vector<Eigen::Array4f> texels;  ///< height by width
   };
 
   /// The value of a texel of the texture, covered or not.
@@ -52,7 +52,7 @@ class FilteredTexture {
   /// The value of the nearest texel of the texture, covered or not.
   Eigen::Array3f nearest_texel(double x, double y) const;
 
-  TextureMap map_;
+  TextureMap map_;  ///< the texture itself
   /// the number that each of the 65,536 stored values represents
   std::vector<float> decoded_values_;
   std::vector<bool> covered_;  ///< for each texel: whether the surface covers the texel's centre

@@ -13,6 +13,7 @@
 
 namespace crowdface {
 
+/// Options of ScanBake.
 struct BakeOptions {
   /// Whether to remove shading from the colours. Shading is the variation in brightness that a
   /// function of the surface normal (spherical harmonics) explains.
@@ -52,7 +53,7 @@ class ScanBake {
  private:
   /// The point in which the line along a skin point's normal meets the scan.
   struct ScanPoint {
-    ScanArea area;
+    ScanArea area;  ///< the point, and the area around it that a texel covers
     /// 0 to 1: how reliably this point of the scan shows the skin point. 0 if the point is too far
     /// away, faces another direction, or lies at a hole of the scan.
     double confidence = 0;
@@ -100,7 +101,7 @@ class ScanBake {
   /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
   /// the template instead of the scan.
   struct Colour {
-    Eigen::Vector3d density = Eigen::Vector3d::Zero();
+    Eigen::Vector3d density = Eigen::Vector3d::Zero();  ///< one per channel
     double share_without_scan = 1;  ///< 0: only the scan's colour; 1: only the template's
   };
   /// \param x, y   column and row of the texel in the picture
@@ -109,7 +110,7 @@ class ScanBake {
                    std::uint32_t& guess) const;
 
   const BakeTemplate& template_;
-  const ScanSurface& surface_;
+  const ScanSurface& surface_;  ///< the scan in the template's frame
   const ScanColours& colours_;
   Positions positions_, normals_;  ///< #skin by 3, of the wrapped skin
   double scan_spacing_mm_;         ///< mean distance between neighbouring vertices of the scan

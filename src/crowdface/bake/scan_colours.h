@@ -60,10 +60,10 @@ class ScanColours {
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:
-  /// A triangle of the file: the index of its polygon, and the numbers of three corners of this
-  /// polygon.
+  /// A triangle of the file: a polygon, and the numbers of three corners within this polygon.
   struct TriangleCorners {
-    std::uint32_t face = 0, first = 0, second = 0, third = 0;
+    std::uint32_t face = 0;  ///< index of the polygon
+    std::uint32_t first = 0, second = 0, third = 0;
   };
 
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file

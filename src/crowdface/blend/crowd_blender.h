@@ -57,8 +57,8 @@ class CrowdBlender {
   void update(const Recipe& before, const Recipe& after, Positions& face) const;
 
  private:
-  class FaceBatch;
-  class PatchBlender;
+  class FaceBatch;     ///< faces that are blended together, with their coefficients
+  class PatchBlender;  ///< blends the vertices of one patch for all faces of a batch
 
   /// Fills patch_regions_ and region_offsets_.
   void find_regions();
@@ -79,8 +79,8 @@ class CrowdBlender {
 
   const HeadSet& heads_;
   std::vector<HeadSmoothing> levels_;  ///< #heads: the fitted smoothing S̃_L of each head
-  FieldPatches patches_;
-  const RegionWeights& regions_;
+  FieldPatches patches_;               ///< the fields c_hp of all heads
+  const RegionWeights& regions_;       ///< α, #V by #regions
   /// #heads + 1: for each head, the index of its first field among the fields of all heads
   std::vector<std::size_t> field_offsets_;
   /// indices of each patch's regions (see regions_of_patch), one patch after the other

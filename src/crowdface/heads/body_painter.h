@@ -23,8 +23,9 @@ class BodyPainter {
   ///                 coordinates.
   BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
 
-  /// The body's polygons, with the texture coordinates of the image that `paint` returns.
+  /// The body's polygons. Their corners refer to rows of uvs().
   const Topology& topology() const { return topology_; }
+  /// Texture coordinates of the body in the image that `paint` returns, #T by 2.
   const TextureCoordinates& uvs() const { return uvs_; }
 
   /// Paints the body's texture for one face.
@@ -34,7 +35,7 @@ class BodyPainter {
  private:
   const HeadsOnBody& heads_on_body_;
   Topology topology_;                      ///< see `topology`
-  TextureCoordinates uvs_;                 ///< #T by 2, see `topology`
+  TextureCoordinates uvs_;                 ///< see `uvs`
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
   std::unique_ptr<const SurfaceTexels> texels_;  ///< for each texel: the triangle that covers it
   /// the body's colours at the ring of the neck, #rim by 3

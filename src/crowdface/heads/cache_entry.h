@@ -85,6 +85,7 @@ struct EntryArray {
 /// is written.
 class ArrayWriter {
  public:
+  /// Adds an array with a single element.
   template <class T>
   void operator()(std::string_view name, const T& value) {
     add(name, std::span<const T>(&value, 1));
@@ -93,6 +94,7 @@ class ArrayWriter {
   void operator()(std::string_view name, const std::vector<T>& values) {
     add(name, std::span<const T>(values));
   }
+  /// Adds an array of bytes: 1 for true, 0 for false.
   void operator()(std::string_view name, const std::vector<bool>& values) {
     const auto owner =
         std::make_shared<const std::vector<std::uint8_t>>(values.begin(), values.end());
@@ -111,11 +113,13 @@ class ArrayWriter {
   std::vector<EntryArray> arrays;  ///< the collected arrays
 
  private:
+  /// Appends an array to `arrays`.
   template <class T>
   void add(std::string_view name, std::span<const T> values) {
     using Element = detail::Element<T>;
     add<typename Element::Number>(name, Element::kNumbersPerElement, values.size(), values.data());
   }
+  /// Appends an array to `arrays`. \param columns, rows, data  see EntryArray
   template <class Number>
   void add(std::string_view name, auto columns, auto rows, const void* data) {
     arrays.push_back({std::string(name), detail::number_type<Number>(),
@@ -186,12 +190,13 @@ class CacheEntry {
   void throw_if_truncated() const;
 
  private:
-  /// An array as the file describes it. `offset` is the position of the first number in the file.
+  /// An array as the file describes it; see EntryArray.
   struct StoredArray {
-    char name[24];
-    std::array<char, 4> type;
-    std::uint32_t columns;
-    std::uint64_t rows, offset;
+    char name[24];             ///< ends with a zero byte
+    std::array<char, 4> type;  ///< see detail::number_type
+    std::uint32_t columns;     ///< number of contiguous numbers in one element or row
+    std::uint64_t rows;        ///< number of elements or rows
+    std::uint64_t offset;      ///< position of the first number in the file
   };
   friend void write_entry(const std::filesystem::path&, const CacheKey&,
                           const std::vector<EntryArray>&);
@@ -227,6 +232,7 @@ class ArrayReader {
  public:
   explicit ArrayReader(const CacheEntry& entry) : entry_(entry) {}
 
+  /// Reads an array with a single element.
   template <class T>
   void operator()(std::string_view name, T& value) const {
     const std::span<const T> values = entry_.get<T>(name);
@@ -242,6 +248,7 @@ class ArrayReader {
     const auto found = entry_.get<std::uint8_t>(name);
     values.assign(found.begin(), found.end());
   }
+  /// Sets the span to the array in the mapped file, without a copy.
   template <class T>
   void operator()(std::string_view name, std::span<const T>& values) const {
     values = entry_.get<T>(name);

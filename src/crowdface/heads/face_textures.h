@@ -30,6 +30,7 @@ class FaceTextures {
  public:
   /// \param inputs  must outlive this object.
   FaceTextures(const Config& config, const Inputs& inputs);
+  /// Whether the program makes images for each face (see face_picture_names).
   bool has_textures() const { return !pictures_.empty(); }
   /// Number of images in face_picture_names.
   std::size_t picture_count() const { return pictures_.size(); }
@@ -65,8 +66,8 @@ class FaceTextures {
   std::vector<std::unique_ptr<TextureBlender>> blenders_;  ///< one per kind of blended textures
   /// An image that is made for each face: image `index` of a blender.
   struct Picture {
-    const TextureBlender* blender;
-    std::size_t index;  ///< index among the blender's images
+    const TextureBlender* blender;  ///< makes the image
+    std::size_t index;              ///< index among the blender's images
   };
   std::vector<Picture> pictures_;  ///< in the order of face_picture_names
   const Inputs& inputs_;

@@ -32,7 +32,7 @@ struct StoredLevels {
 /// fitted levels. With `levels: exact`, there are no fitted levels.
 struct PreparedHead {
   Trajectory smoothing_trajectory;  ///< trajectories of the sample points
-  StoredLevels levels;
+  StoredLevels levels;              ///< the fitted levels; empty with `levels: exact`
 };
 
 /// The sizes that a usable entry must have.

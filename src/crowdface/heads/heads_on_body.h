@@ -40,6 +40,7 @@ struct HeadsOnBody {
   /// Whether an attachment is the body's mesh, which is stored like an attachment.
   bool is_body(const Attachment& item) const { return body.get() == &item; }
 
+  /// Whether at least one placed head does not have the common pose.
   bool has_differing_poses() const {
     return std::ranges::any_of(heads,
                                [](const Head& head) { return !head.pose_rotation.isZero(0); });

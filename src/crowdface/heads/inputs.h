@@ -34,9 +34,9 @@ struct HeadsOnBody;  // heads/heads_on_body.h
 struct Attachment {
   std::string name, kind;                        ///< kind: such as "hair" or "glasses"
   AttachmentMove moves = AttachmentMove::kBend;  ///< how the attachment follows the skin
-  ObjFile file;
-  Digest text_digest;  ///< hash of the file's bytes
-  MaterialFiles materials;
+  ObjFile file;                                  ///< the mesh and its file
+  Digest text_digest;                            ///< hash of the file's bytes
+  MaterialFiles materials;  ///< the material files and textures that the mesh uses
   Tint tint = Tint::kNone;  ///< the kind of hair whose colour the attachment takes, if any
 };
 
@@ -120,8 +120,8 @@ struct Inputs {
   std::vector<MeasuredLevel> detail_levels;  ///< from the key `output.lods`
   PointSet points;                           ///< named points that every face gets
   Digest points_digest;                      ///< hash of the points, if there are any
-  Rig rig;
-  AttachmentSet attachments;
+  Rig rig;                                   ///< empty without a rig
+  AttachmentSet attachments;                 ///< attachments that faces may wear
   RegionWeights regions;  ///< #V by #regions: weights α of the vertices in the regions
   /// weight of each vertex in the distance between two faces, from `distance.mask`; empty without a
   /// mask

@@ -18,7 +18,7 @@ struct HeadMesh {
   Topology topology;
   TextureCoordinates uvs;                     ///< #T by 2
   std::vector<std::uint32_t> corner_normals;  ///< see ObjFile
-  Digest digest() const;
+  Digest digest() const;                      ///< hash of all members
 };
 
 /// Fills in positions, materials and groups of a head from the cache. The mesh has its own entry,

@@ -28,6 +28,7 @@ Adjacency build_adjacency(const Topology& topology);
 struct Components {
   std::vector<std::uint32_t> component_of_vertex;  ///< one per vertex: index of its component
   std::vector<std::uint32_t> sizes;                ///< number of vertices in each component
+  /// Number of components.
   Index count() const { return static_cast<Index>(sizes.size()); }
   /// Number of the component with the most vertices. On a head, this component is the skin.
   std::uint32_t largest() const;

@@ -44,6 +44,7 @@ class EdgeDistances {
  private:
   using QueueEntry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
 
+  /// Discards the results of the previous search and puts the sources into the queue.
   void begin(std::span<const std::uint32_t> sources);
   /// Main loop of the search: makes the distances of vertices final, nearest vertex first, until
   /// the queue is empty or `is_done` returns true for a final vertex.

@@ -36,7 +36,9 @@ struct Topology {
   std::vector<std::uint32_t> corner_uvs;
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1: first corner of each polygon
 
+  /// Number of polygons.
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }
+  /// Number of corners of all polygons together.
   Index corner_count() const { return static_cast<Index>(corner_vertices.size()); }
   /// Adds a polygon at the end. \param uvs  rows of the corners' texture coordinates; or empty
   void add_face(std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> uvs = {});

@@ -28,6 +28,7 @@ struct LevelBasis {
   LevelFields fields;  ///< the vector fields c_p, with a vector at each vertex of the mesh
   BasisError error;    ///< measured distances to the exact filter
 
+  /// Number of vector fields c_p.
   Index rank() const { return function_coefficients.cols(); }
 };
 

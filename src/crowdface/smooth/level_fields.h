@@ -37,6 +37,7 @@ struct LevelFields {
   std::span<const std::int16_t> quantized_values;
   std::shared_ptr<const void> memory_owner;  ///< keeps the three lists alive
 
+  /// Number of tiles of a mesh with this many vertices.
   static std::size_t tile_count(std::size_t vertices) {
     return (vertices + kTileVertices - 1) / kTileVertices;
   }

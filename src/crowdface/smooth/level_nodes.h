@@ -24,6 +24,7 @@ class LevelNodes {
   ///                      limit.
   LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_residual = 2e-4);
 
+  /// L_max, the highest level that the nodes represent.
   std::uint64_t max_level() const { return max_level_; }
   /// The levels N_p of the nodes, ascending; all are in 1 … L_max.
   const std::vector<std::uint64_t>& levels() const { return levels_; }

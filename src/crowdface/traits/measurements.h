@@ -24,6 +24,7 @@ const std::vector<TraitLandmark>& trait_landmarks();
 
 /// A measurement of a human face.
 struct Measurement {
+  /// What is measured.
   enum class Kind {
     kDistance,  ///< distance between two landmarks, in millimetres
     /// angle at the second of three landmarks, between the directions to the first and the third,

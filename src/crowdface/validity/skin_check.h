@@ -66,6 +66,7 @@ class SkinCheck {
   };
   /// Returns the data of the target that has these positions.
   Target prepared_target(const Positions& positions) const;
+  /// Compares a face with a prepared target.
   SkinDefects compare(const Positions& positions, const Target& target) const;
 
   /// the skin's triangles, oriented so that their normals point outwards
