@@ -231,7 +231,7 @@ TEST(LevelBasis, HasTheSameBitsOnAnyMachine) {
 
 TEST(LevelBasis, RefusesAToleranceThatSinglePrecisionCannotHold) {
   const Fitted fitted(OperatorKind::kUmbrella);
-  testing::expect_error(ExitCode::kBadData, {"expected levels within", "reached"},
+  testing::expect_error(ExitCode::kBadData, {"smoothing.tolerance: expected", "reached"},
                         [&] { fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, 1e-9); });
 }
 

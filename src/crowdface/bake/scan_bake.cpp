@@ -114,8 +114,8 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
   ScanSurface::ClosestPoint place = surface_.nearest(skin_point.position, skin_point.normal,
                                                      kMinNormalCosine, kMaxDistanceMm, guess);
   if (place.triangle == kNoIndex) return seen;
-  // Approximate the point at which the normal hits the scan: take one step of a fixed-point
-  // iteration that starts at the closest point.
+  // Approximate the point at which the normal hits the scan. If the closest point is farther away
+  // than kCloseMm, take one step of a fixed-point iteration that starts at the closest point.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
     const double height = (place.point - skin_point.position).dot(skin_point.normal);

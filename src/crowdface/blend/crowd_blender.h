@@ -60,7 +60,7 @@ class CrowdBlender {
   class FaceBatch;     ///< faces that are blended together, with their coefficients
   class PatchBlender;  ///< blends the vertices of one patch for all faces of a batch
 
-  /// Fills patch_regions_ and region_offsets_.
+  /// Finds the regions of each patch: fills patch_regions_ and region_offsets_.
   void find_regions();
   /// Returns the regions whose weight is nonzero at one or more vertices of the patch.
   std::span<const std::uint32_t> regions_of_patch(std::size_t patch) const {

@@ -120,7 +120,7 @@ struct Inputs {
   std::vector<MeasuredLevel> detail_levels;  ///< from the key `output.lods`
   PointSet points;                           ///< named points that every face gets
   Digest points_digest;                      ///< hash of the points, if there are any
-  Rig rig;                                   ///< empty without a rig
+  Rig rig;                                   ///< joints and skinning weights; empty: none
   AttachmentSet attachments;                 ///< attachments that faces may wear
   RegionWeights regions;  ///< #V by #regions: weights α of the vertices in the regions
   /// weight of each vertex in the distance between two faces, from `distance.mask`; empty without a

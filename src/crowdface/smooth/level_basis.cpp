@@ -316,8 +316,10 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   }
   basis.error.max = worst.max_error + of_nodes.max;
   if (basis.error.max > tolerance) {
-    throw InvalidInput(concat("expected levels within ", tolerance, ", reached ", basis.error.max,
-                              " with ", nodes.levels().size(), " fields"));
+    throw InvalidInput(concat("smoothing.tolerance: expected fitted smoothing levels within ",
+                              tolerance, " of the exact levels (in file units), reached ",
+                              basis.error.max, " with all ", nodes.levels().size(),
+                              " fields; a larger tolerance or smoothing.levels: exact helps"));
   }
   basis.error.level = tested.levels[worst.level];
   basis.function_coefficients = directions.function_coefficients.leftCols(rank);

@@ -39,7 +39,8 @@ class LevelNodes {
   using Spectrum = std::vector<double>;  ///< values of a function of λ at the grid points
   /// The displacement λ^L − 1 after L = `level` iterations, times the grid point's weight.
   Spectrum displacement(std::uint64_t level) const;
-  /// Sets levels_, orthonormal_basis_, choice_order_ and triangular_factor_.
+  /// Adds nodes until no residual exceeds `max_residual`. Sets levels_, orthonormal_basis_,
+  /// choice_order_ and triangular_factor_.
   /// \param candidates  the levels that may become nodes
   void choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual);
 
