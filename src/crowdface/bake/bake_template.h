@@ -39,7 +39,7 @@ class BakeTemplate {
   /// Messages about missing or unreadable files of the template.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Marks vertices outside the skin.
+  /// The value of skin_rows() for vertices outside the skin.
   static constexpr std::uint32_t kNotSkin = kNoIndex;
   /// For each vertex of the template: its row in the arrays of skin vertices, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
@@ -59,12 +59,12 @@ class BakeTemplate {
 
   const WrapTemplate& wrap_template_;
   std::vector<PictureName> picture_names_;                   ///< #pictures
-  std::map<std::string, std::size_t> pictures_by_material_;  ///< see `pictures_by_material`
-  std::vector<SurfaceTexels> texels_;                        ///< #pictures, see `texels`
-  MeshMaps maps_;                                            ///< the template's colour textures
-  std::vector<const FilteredTexture*> textures_;             ///< #pictures, see `texture`
-  std::vector<std::uint32_t> skin_rows_;                     ///< #V, see `skin_rows`
-  std::vector<PictureVertex> picture_vertices_;              ///< #skin vertices
+  std::map<std::string, std::size_t> pictures_by_material_;  ///< material name → picture index
+  std::vector<SurfaceTexels> texels_;             ///< #pictures: the triangle at each texel
+  MeshMaps maps_;                                 ///< the template's colour textures
+  std::vector<const FilteredTexture*> textures_;  ///< #pictures, nullptr: none
+  std::vector<std::uint32_t> skin_rows_;          ///< #V: row of a skin vertex, or kNotSkin
+  std::vector<PictureVertex> picture_vertices_;   ///< #skin vertices
   std::vector<std::string> warnings_;
 };
 

@@ -39,6 +39,7 @@ class FilteredTexture {
 
   /// The value of a texel of the texture, covered or not.
   Eigen::Array3f stored_value(int x, int y) const;
+  /// Whether the surface covers the centre of a texel.
   bool is_covered(int x, int y) const {
     return covered_[static_cast<std::size_t>(y) * static_cast<std::size_t>(map_.width) +
                     static_cast<std::size_t>(x)];

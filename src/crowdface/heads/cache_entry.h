@@ -90,6 +90,7 @@ class ArrayWriter {
   void operator()(std::string_view name, const T& value) {
     add(name, std::span<const T>(&value, 1));
   }
+  /// Adds an array with the elements of a vector.
   template <class T>
   void operator()(std::string_view name, const std::vector<T>& values) {
     add(name, std::span<const T>(values));
@@ -101,10 +102,12 @@ class ArrayWriter {
     operator()(name, *owner);
     arrays.back().owner = owner;
   }
+  /// Adds an array with the elements of a span.
   template <class T>
   void operator()(std::string_view name, const std::span<const T>& values) {
     add(name, values);
   }
+  /// Adds an array with the numbers of a matrix.
   template <class Scalar, int R, int C, int O>
   void operator()(std::string_view name, const Eigen::Matrix<Scalar, R, C, O>& matrix) {
     add<Scalar>(name, matrix.innerSize(), matrix.outerSize(), matrix.data());
@@ -239,11 +242,13 @@ class ArrayReader {
     entry_.require(values.size() == 1);
     value = values.front();
   }
+  /// Copies the elements of an array into a vector.
   template <class T>
   void operator()(std::string_view name, std::vector<T>& values) const {
     const std::span<const T> found = entry_.get<T>(name);
     values.assign(found.begin(), found.end());
   }
+  /// Reads an array of bytes: each byte except 0 is true.
   void operator()(std::string_view name, std::vector<bool>& values) const {
     const auto found = entry_.get<std::uint8_t>(name);
     values.assign(found.begin(), found.end());
@@ -253,6 +258,7 @@ class ArrayReader {
   void operator()(std::string_view name, std::span<const T>& values) const {
     values = entry_.get<T>(name);
   }
+  /// Copies the numbers of an array into a matrix.
   template <class Scalar, int R, int C, int O>
   void operator()(std::string_view name, Eigen::Matrix<Scalar, R, C, O>& matrix) const {
     matrix = entry_.matrix<Eigen::Matrix<Scalar, R, C, O>>(name);

@@ -78,7 +78,7 @@ class FaceTextures {
   std::vector<bool> uses_target_colours_only_;
   /// nothing if the heads are not on a body or have no colours at the neck's ring
   std::optional<SeamColours> seam_;
-  std::unique_ptr<const BodyPainter> body_;  ///< see body_painter
+  std::unique_ptr<const BodyPainter> body_;  ///< paints the body's texture; null: see body_painter
 };
 
 /// Size, in bytes, of the heads' textures and vertex colours in memory. Texture maps that were

@@ -39,7 +39,7 @@ class FileFingerprint {
 
   std::filesystem::path file_, cache_;  ///< the file to look up; the cache folder
   std::optional<Stamp> stamp_;          ///< the file's stamp at the construction of this object
-  std::optional<Digest> digest_;        ///< see `digest`
+  std::optional<Digest> digest_;        ///< the stored hash; empty if unknown or outdated
 };
 
 }  // namespace crowdface

@@ -35,7 +35,7 @@ struct PreparedHead {
   StoredLevels levels;              ///< the fitted levels; empty with `levels: exact`
 };
 
-/// The sizes that a usable entry must have.
+/// The sizes that the cache entry of a prepared head must have to be usable.
 struct HeadCacheSizes {
   Index vertex_count = 0;  ///< number of vertices of the head
   Index sample_count = 0;  ///< number of sample points with a trajectory

@@ -85,7 +85,7 @@ class FaceTextureSet {
     std::size_t index = 0;  ///< index among the images of its kind
   };
   TextureSet texture_set_;
-  std::vector<ImageIndex> image_indices_;  ///< indexed by the parameter `picture` of `add`
+  std::vector<ImageIndex> image_indices_;  ///< for each value of `picture` in `add`
   int max_px_;                             ///< maximum side length of textures, in texels
 };
 

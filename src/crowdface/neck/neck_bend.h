@@ -31,7 +31,7 @@ class NeckBend {
 
  private:
   struct Factorisation;  ///< the factorised equations for the displacements of `vertices_`
-  std::vector<std::uint32_t> vertices_;  ///< see `vertices`
+  std::vector<std::uint32_t> vertices_;  ///< the vertices that move with the rim, ascending
   std::unique_ptr<const Factorisation> factorisation_;
 };
 
