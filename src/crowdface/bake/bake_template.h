@@ -54,7 +54,7 @@ class BakeTemplate {
   const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:
-  /// Fills picture_vertices_.
+  /// Finds the picture of each skin vertex: fills picture_vertices_.
   void find_picture_vertices(const ObjFile& file, const TextureLayout& layout);
 
   const WrapTemplate& wrap_template_;

@@ -24,7 +24,7 @@ struct BakeOptions {
 struct BakedPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> srgb;  ///< height by width by 3
-  /// height by width: 255 at texels whose colour does not come from the scan, else 0
+  /// height by width: fraction of the texel's colour that does not come from the scan, as 0 … 255
   std::vector<std::uint8_t> mask_without_scan;
   double share_without_scan = 0;  ///< mean of `mask_without_scan` over the covered texels, 0 to 1
 };

@@ -12,9 +12,9 @@
 namespace crowdface {
 
 /// Paints a texture of the body for each face, so that body and face have the same colours at the
-/// ring of the neck. At each vertex of the ring, the body gets the face's optical densities. The
-/// change of density at the ring fades, over the distance `falloff_mm`, to the mean change over the
-/// ring, which the rest of the body gets.
+/// ring of the neck. The painter adds a change to the body's optical densities. At each vertex of
+/// the ring, the sum equals the face's optical density. Farther than `falloff_mm` from the ring,
+/// the change is the mean change over the ring. In between, the change varies smoothly.
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.

@@ -148,6 +148,7 @@ bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end);
 /// lives.
 class CacheEntry {
  public:
+  /// Opens a cache entry and checks its header and its checksum.
   /// \param known_checksum  the file's checksum, if it is known; otherwise the function hashes the
   ///                        file.
   /// \return nothing if the file does not exist.
