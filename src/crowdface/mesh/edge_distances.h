@@ -61,7 +61,7 @@ class EdgeDistances {
   std::vector<std::uint32_t> sources_;
   std::vector<std::uint32_t> reached_;  ///< indices of the settled vertices, nearest first
   std::vector<std::uint32_t> touched_;  ///< indices of the vertices whose distance is finite
-  std::vector<bool> settled_;           ///< #V
+  std::vector<bool> settled_;           ///< #V: whether the distance is final
   std::vector<QueueEntry> queue_;       ///< a heap; the nearest vertex comes first
 };
 
