@@ -101,9 +101,8 @@ std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head
   }
   if (same_vertices && same_faces) {
     return "; it has as many vertices and polygons, but in another order or with other "
-           "connections: "
-           "export it again and keep the vertex order, or wrap the first head onto it (crowdface "
-           "wrap)";
+           "connections: export it again and keep the vertex order, or wrap the first head onto it "
+           "(crowdface wrap)";
   }
   if (same_vertices && triangles(first) == triangles(found)) {
     return found.face_count() > first.face_count()
