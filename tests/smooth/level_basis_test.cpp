@@ -61,7 +61,7 @@ TEST_P(NodesOf, RepresentEveryEigenvectorAtEveryLevel) {
     EXPECT_EQ(nodes.levels().back(), max_level);
     EXPECT_LE(nodes.levels().size(), 40U);
     for (std::uint64_t level = 0; level <= max_level; level += 1 + max_level / 97) {
-      const std::vector<double> weights = nodes.weights(level);
+      const std::vector<double> weights = nodes.interpolation_weights(level);
       const double lowest = GetParam() == OperatorKind::kLazy ? 0 : -1;
       for (double x = lowest; x <= 1; x += 1.0 / 256) {
         double sum = 0;
@@ -80,16 +80,17 @@ TEST_P(NodesOf, AreMetExactlyAndNothingHappensAtZero) {
   for (std::size_t n = 0; n < nodes.levels().size(); ++n) {
     std::vector<double> unit(nodes.levels().size(), 0.0);
     unit[n] = 1;
-    EXPECT_EQ(nodes.weights(nodes.levels()[n]), unit);
+    EXPECT_EQ(nodes.interpolation_weights(nodes.levels()[n]), unit);
   }
-  EXPECT_EQ(nodes.weights(0), std::vector<double>(nodes.levels().size(), 0.0));
-  EXPECT_THROW(nodes.weights(1001), BrokenPrecondition);
+  EXPECT_EQ(nodes.interpolation_weights(0), std::vector<double>(nodes.levels().size(), 0.0));
+  EXPECT_THROW(nodes.interpolation_weights(1001), BrokenPrecondition);
 }
 
 TEST_P(NodesOf, LetNoWeightGrowLarge) {
   const LevelNodes nodes(GetParam(), 20000);
   for (std::uint64_t level = 1; level <= 20000; level += 61) {
-    for (const double weight : nodes.weights(level)) EXPECT_LT(std::abs(weight), 2) << level;
+    for (const double weight : nodes.interpolation_weights(level))
+      EXPECT_LT(std::abs(weight), 2) << level;
   }
 }
 
@@ -230,7 +231,7 @@ TEST(LevelBasis, HasTheSameBitsOnAnyMachine) {
 
 TEST(LevelBasis, RefusesAToleranceThatSinglePrecisionCannotHold) {
   const Fitted fitted(OperatorKind::kUmbrella);
-  testing::expect_error(ExitCode::kBadData, {"expected levels within", "reached"},
+  testing::expect_error(ExitCode::kBadData, {"smoothing.tolerance: expected", "reached"},
                         [&] { fit_level_basis(fitted.filter, fitted.nodes, fitted.fields, 1e-9); });
 }
 

@@ -11,8 +11,8 @@
 
 namespace crowdface {
 
-/// Carries one attachment from the fitted mesh to faces. The constructor computes everything that
-/// depends on the fitted mesh only.
+/// Carries one attachment from the fitted mesh to faces. The fitted mesh is the head to which the
+/// attachment was fitted. The constructor computes everything that depends on the fitted mesh only.
 class AttachmentCarrier {
  public:
   /// \param skin      Skin of the fitted mesh; must outlive this object.
@@ -36,7 +36,7 @@ class AttachmentCarrier {
   std::size_t memory_bytes() const;
 
  private:
-  std::unique_ptr<const SkinGaps> gaps_;
+  std::unique_ptr<const SkinGaps> gaps_;  ///< distances between attachment and fitted skin
   /// only for a bending attachment; otherwise null
   std::unique_ptr<const SmoothBend> bend_;
   /// only for a rigid attachment; otherwise null

@@ -26,8 +26,7 @@ struct BendNodes {
     std::uint32_t node;  ///< index of the node
     float weight;        ///< not normalised: the weights of a point do not sum to one
   };
-  /// one per node: the patch of skin that the node follows
-  std::vector<FittedSkin::Patch> patches;
+  std::vector<FittedSkin::Patch> patches;  ///< for each node: the patch of skin that it follows
   /// for each point of the attachment: the nodes that influence the point
   CompressedRows<NodeWeight> node_weights;
 

@@ -28,7 +28,7 @@ struct NearestSkinPoint {
 class FittedSkin {
  public:
   /// \param topology  Must outlive this object.
-  /// \param mesh      #V by 3.
+  /// \param mesh      #V by 3, the vertex positions.
   /// \param skin      Vertices of the skin, ascending; at least three that are not collinear.
   /// \param units_per_mm  Length of one millimetre in the mesh's unit.
   ///
@@ -41,6 +41,7 @@ class FittedSkin {
   const Positions& mesh_positions() const { return positions_; }
   /// The skin's vertices, as ascending vertex indices of the mesh.
   std::span<const std::uint32_t> vertices() const { return skin_vertices_; }
+  /// The skin's vertices in a grid, for nearest-vertex queries.
   const PointGrid& grid() const { return levels_.front().grid; }
   /// The area of skin around each vertex of the mesh; 0 outside the skin.
   const std::vector<double>& areas() const { return areas_; }
@@ -51,7 +52,7 @@ class FittedSkin {
 
   /// A patch of skin around a point: vertex indices of the mesh, and a weight for each vertex.
   struct Patch {
-    std::vector<std::uint32_t> vertices;
+    std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh
     std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance
     double radius = 0;            ///< vertices at this distance or farther have no weight
   };
@@ -74,14 +75,16 @@ class FittedSkin {
                                 std::uint32_t start, const Eigen::Vector3d& point) const;
 
  private:
-  /// A level of detail of the skin: one vertex in each occupied cell of a grid.
+  /// A level of detail of the skin. The finest level has all vertices of the skin; each coarser
+  /// level has one vertex in each occupied cell of a cubic grid.
   struct Level {
-    double spacing;
-    std::vector<std::uint32_t> vertices;
+    double spacing;  ///< edge length of the grid's cells; in the finest level, vertex_spacing()
+    std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh, ascending
     /// one per mesh vertex: area of skin that the vertex represents in this level
     std::vector<double> areas;
-    PointGrid grid;
+    PointGrid grid;  ///< the level's vertices, for nearest-vertex queries
   };
+  /// Adds a level to `levels_`, see Level.
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   /// Adds a level that contains one skin vertex from each cell of a cubic grid with edge length
   /// `spacing`.
@@ -94,11 +97,11 @@ class FittedSkin {
                           Patch& patch) const;
 
   const Topology& topology_;
-  Positions positions_;
+  Positions positions_;                       ///< #V by 3, of the mesh
   std::vector<std::uint32_t> skin_vertices_;  ///< vertex indices of the mesh, ascending
-  double units_per_mm_;
-  VertexFaces vertex_faces_;
-  NormalFans fans_;
+  double units_per_mm_;                       ///< length of one millimetre in the mesh's unit
+  VertexFaces vertex_faces_;                  ///< the polygons at each vertex of the mesh
+  NormalFans fans_;         ///< for each vertex, the polygons that determine the vertex's normal
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
   std::vector<double> areas_;  ///< see `areas`
   std::vector<Level> levels_;  ///< from fine to coarse; the spacing doubles from level to level

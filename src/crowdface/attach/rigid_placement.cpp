@@ -50,7 +50,6 @@ Positions RigidPlacement::moved_points(const RigidMotion& motion) const {
   return result;
 }
 
-/// Returns `motion` followed by one least-squares step that moves the attachment out of the skin.
 RigidMotion RigidPlacement::push_out_of_skin(
     const RigidMotion& motion, const std::vector<SkinGaps::Violation>& violations) const {
   // Three translations, three rotations and a relative change of scale. All unknowns are lengths:

@@ -26,15 +26,18 @@ class RigidPlacement {
   Positions place(const Positions& face, const Positions& normals) const;
 
  private:
+  /// Returns `motion` followed by one least-squares step that moves the attachment out of the skin.
+  /// \param violations  vertices that are too near to the skin after `motion`
   RigidMotion push_out_of_skin(const RigidMotion& motion,
                                const std::vector<SkinGaps::Violation>& violations) const;
+  /// Returns the points of the attachment after the motion, #P by 3.
   Positions moved_points(const RigidMotion& motion) const;
 
   const FittedSkin& skin_;
-  const Positions& points_;
-  const SkinGaps& gaps_;
-  Socket socket_;
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  const Positions& points_;  ///< #P by 3, of the attachment on the fitted mesh
+  const SkinGaps& gaps_;     ///< distances of the points from the skin of the fitted mesh
+  Socket socket_;            ///< the skin near the attachment, whose motion the attachment follows
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< mean of the points
   double radius_ = 1;  ///< root mean square distance of the points from `centre_`
 };
 

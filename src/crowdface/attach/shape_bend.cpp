@@ -167,8 +167,6 @@ ShapeBend::ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const T
   for (const auto& shares : of_point) nodes_.node_weights.add_group(shares);
 }
 
-/// Removes vertices whose distance along the surface exceeds `limit`, unless too few vertices would
-/// remain.
 void ShapeBend::remove_distant_vertices(const EdgeDistances& along, double limit,
                                         FittedSkin::Patch& patch) {
   FittedSkin::Patch near{{}, {}, patch.radius};

@@ -38,11 +38,13 @@ class ShapeBend {
   std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
+  /// Removes vertices whose distance along the surface exceeds `limit`, unless too few vertices
+  /// would remain.
   /// \param along  distances along the surface from the root of the patch's node
   static void remove_distant_vertices(const EdgeDistances& along, double limit,
                                       FittedSkin::Patch& patch);
 
-  BendNodes nodes_;
+  BendNodes nodes_;  ///< the patches of skin, and the weights of their motions for each point
 };
 
 }  // namespace crowdface

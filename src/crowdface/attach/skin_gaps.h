@@ -20,7 +20,7 @@ class SkinGaps {
 
   /// A vertex that is too near to the skin or inside the skin.
   struct Violation {
-    std::uint32_t vertex;
+    std::uint32_t vertex;            ///< index of the attachment's vertex
     double height;                   ///< distance by which the vertex must move outwards
     Eigen::Vector3d outward_normal;  ///< unit normal of the skin
   };

@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// The texture layout and the colours of a template. One object serves any number of bakes.
 ///
-/// There is one picture (an image to bake) for each texture file that the template's skin uses, and
-/// for each material and UDIM tile of untextured skin.
+/// A picture is an image to bake. There is one picture for each texture file that the template's
+/// skin uses. Untextured skin has one picture for each pair of material and UDIM tile.
 class BakeTemplate {
  public:
   /// \param file, wrap_template  the file and the shape of the template; must outlive this object.
@@ -39,7 +39,7 @@ class BakeTemplate {
   /// Messages about missing or unreadable files of the template.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  /// Marks vertices outside the skin.
+  /// The value of skin_rows() for vertices outside the skin.
   static constexpr std::uint32_t kNotSkin = kNoIndex;
   /// For each vertex of the template: its row in the arrays of skin vertices, or kNotSkin.
   const std::vector<std::uint32_t>& skin_rows() const { return skin_rows_; }
@@ -54,16 +54,17 @@ class BakeTemplate {
   const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:
+  /// Finds the picture of each skin vertex: fills picture_vertices_.
   void find_picture_vertices(const ObjFile& file, const TextureLayout& layout);
 
   const WrapTemplate& wrap_template_;
-  std::vector<PictureName> picture_names_;
-  std::map<std::string, std::size_t> pictures_by_material_;
-  std::vector<SurfaceTexels> texels_;
-  MeshMaps maps_;
-  std::vector<const FilteredTexture*> textures_;  ///< #pictures
-  std::vector<std::uint32_t> skin_rows_;
-  std::vector<PictureVertex> picture_vertices_;
+  std::vector<PictureName> picture_names_;                   ///< #pictures
+  std::map<std::string, std::size_t> pictures_by_material_;  ///< material name → picture index
+  std::vector<SurfaceTexels> texels_;             ///< #pictures: the triangle at each texel
+  MeshMaps maps_;                                 ///< the template's colour textures
+  std::vector<const FilteredTexture*> textures_;  ///< #pictures, nullptr: none
+  std::vector<std::uint32_t> skin_rows_;          ///< #V: row of a skin vertex, or kNotSkin
+  std::vector<PictureVertex> picture_vertices_;   ///< #skin vertices
   std::vector<std::string> warnings_;
 };
 

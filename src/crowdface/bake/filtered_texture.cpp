@@ -147,7 +147,6 @@ Eigen::Array4f FilteredTexture::sample_lanczos(double x, double y) const {
   return with_full_weight(sum);
 }
 
-/// The value of the nearest texel, covered or not.
 Eigen::Array3f FilteredTexture::nearest_texel(double x, double y) const {
   return stored_value(static_cast<int>(std::clamp(x, 0.0, map_.width - 1.0)),
                       static_cast<int>(std::clamp(y, 0.0, map_.height - 1.0)));

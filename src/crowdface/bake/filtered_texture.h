@@ -34,23 +34,29 @@ class FilteredTexture {
   /// numbers are the mean values over the covered area, multiplied by this fraction.
   struct Level {
     int width = 0, height = 0;
-    std::vector<Eigen::Array4f> texels;
+    std::vector<Eigen::Array4f> texels;  ///< height by width
   };
 
+  /// The value of a texel of the texture, covered or not.
   Eigen::Array3f stored_value(int x, int y) const;
+  /// Whether the surface covers the centre of a texel.
   bool is_covered(int x, int y) const {
     return covered_[static_cast<std::size_t>(y) * static_cast<std::size_t>(map_.width) +
                     static_cast<std::size_t>(x)];
   }
+  /// The four numbers of a texel, see Level. Level 0 is the texture itself.
   Eigen::Array4f texel(std::size_t level, int x, int y) const;
+  /// Interpolates the texels of a level linearly. x and y count texels from the upper left corner.
   Eigen::Array4f sample_linear(std::size_t level, double x, double y) const;
+  /// Interpolates the texture with Lanczos weights, or linearly near uncovered texels and borders.
   Eigen::Array4f sample_lanczos(double x, double y) const;
+  /// The value of the nearest texel of the texture, covered or not.
   Eigen::Array3f nearest_texel(double x, double y) const;
 
-  TextureMap map_;
+  TextureMap map_;  ///< the texture itself
   /// the number that each of the 65,536 stored values represents
   std::vector<float> decoded_values_;
-  std::vector<bool> covered_;
+  std::vector<bool> covered_;  ///< for each texel: whether the surface covers the texel's centre
   std::vector<Level> levels_;  ///< levels 1, 2, …; level 0 is the texture itself
 };
 

@@ -114,8 +114,8 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
   ScanSurface::ClosestPoint place = surface_.nearest(skin_point.position, skin_point.normal,
                                                      kMinNormalCosine, kMaxDistanceMm, guess);
   if (place.triangle == kNoIndex) return seen;
-  // Approximate the point at which the normal hits the scan: take one step of a fixed-point
-  // iteration that starts at the closest point.
+  // Approximate the point at which the normal hits the scan. If the closest point is farther away
+  // than kCloseMm, take one step of a fixed-point iteration that starts at the closest point.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
     const double height = (place.point - skin_point.position).dot(skin_point.normal);
@@ -179,8 +179,8 @@ std::vector<double> ScanBake::measure_scan_optical_densities(
   return confidence;
 }
 
-/// Computes edge_weights_, which fade the scan's colours out towards holes of the scan. The weight
-/// of a vertex depends on its distance to the nearest visible vertex that the scan does not cover.
+/// The weight of a vertex depends on its distance to the nearest visible vertex that the scan does
+/// not cover.
 void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   constexpr double kNone = 0.5;
   const SkinMesh& skin = template_.wrap_template().skin;

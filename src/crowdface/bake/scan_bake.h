@@ -13,6 +13,7 @@
 
 namespace crowdface {
 
+/// Options of ScanBake.
 struct BakeOptions {
   /// Whether to remove shading from the colours. Shading is the variation in brightness that a
   /// function of the surface normal (spherical harmonics) explains.
@@ -23,7 +24,7 @@ struct BakeOptions {
 struct BakedPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> srgb;  ///< height by width by 3
-  /// height by width: 255 at texels whose colour does not come from the scan, else 0
+  /// height by width: fraction of the texel's colour that does not come from the scan, as 0 … 255
   std::vector<std::uint8_t> mask_without_scan;
   double share_without_scan = 0;  ///< mean of `mask_without_scan` over the covered texels, 0 to 1
 };
@@ -52,8 +53,10 @@ class ScanBake {
  private:
   /// The point in which the line along a skin point's normal meets the scan.
   struct ScanPoint {
-    ScanArea area;
-    double confidence = 0;  ///< 0 to 1
+    ScanArea area;  ///< the point, and the area around it that a texel covers
+    /// 0 to 1: how reliably this point of the scan shows the skin point. 0 if the point is too far
+    /// away, faces another direction, or lies at a hole of the scan.
+    double confidence = 0;
   };
   /// A point of the wrapped skin: a vertex or a sample point of a texel.
   struct SkinPoint {
@@ -76,16 +79,20 @@ class ScanBake {
   /// \param optical_densities  receives one row for each skin vertex.
   /// \return  the confidence of each row, 0 to 1.
   std::vector<double> measure_scan_optical_densities(OpticalDensities& optical_densities) const;
+  // `confidence` in the functions below: result of measure_scan_optical_densities
+  /// Computes edge_weights_, which fade the scan's colours out towards holes of the scan.
   void compute_edge_weights(const std::vector<double>& confidence);
+  /// Computes shading_densities_ from the scan's optical densities at the skin vertices.
   void estimate_shading(const std::vector<double>& confidence, const OpticalDensities& densities);
-  /// Computes tone_differences_ from the differences at the vertices.
-  /// \param differences  #skin by 3: scan minus template.
+  /// Computes tone_differences_: keeps the differences where the scan has colours, and continues
+  /// them smoothly into the holes of the scan.
+  /// \param differences  #skin by 3: optical density of the scan minus that of the template.
   void compute_tone_differences(const std::vector<double>& confidence,
                                 const OpticalDensities& differences);
 
   /// One texel of a picture.
   struct Texel {
-    const SurfaceTexels::Triangle* triangle = nullptr;
+    const SurfaceTexels::Triangle* triangle = nullptr;  ///< covers the texel
     /// skin vertices at the corners of the triangle, as row indices of `positions_`
     std::array<std::uint32_t, 3> rows = {};
     Eigen::Vector3d to_right_texel;  ///< vector to the next texel on the right
@@ -94,20 +101,23 @@ class ScanBake {
   /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
   /// the template instead of the scan.
   struct Colour {
-    Eigen::Vector3d density = Eigen::Vector3d::Zero();
+    Eigen::Vector3d density = Eigen::Vector3d::Zero();  ///< one per channel
     double share_without_scan = 1;  ///< 0: only the scan's colour; 1: only the template's
   };
+  /// \param x, y   column and row of the texel in the picture
+  /// \param guess  see find_scan_point; receives the triangle that was found
   Colour colour_of(const Texel& texel, std::size_t picture, int x, int y,
                    std::uint32_t& guess) const;
 
   const BakeTemplate& template_;
-  const ScanSurface& surface_;
+  const ScanSurface& surface_;  ///< the scan in the template's frame
   const ScanColours& colours_;
-  Positions positions_, normals_;  ///< #skin by 3
+  Positions positions_, normals_;  ///< #skin by 3, of the wrapped skin
   double scan_spacing_mm_;         ///< mean distance between neighbouring vertices of the scan
   /// one per skin vertex: 0 at the edge of the scan's data, 1 far from this edge
   std::vector<double> edge_weights_;
-  OpticalDensities tone_differences_;  ///< #skin by 3: scan minus template
+  /// #skin by 3: smooth difference of optical densities, scan minus template
+  OpticalDensities tone_differences_;
   /// #skin by 3: density that the scan's baked-in shading adds; no rows if the shading is kept
   OpticalDensities shading_densities_;
 };

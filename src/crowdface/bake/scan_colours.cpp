@@ -189,8 +189,8 @@ ColourRows colours_at_vertices(const Scan& scan, const ScanColours& colours) {
   std::vector<bool> is_done(static_cast<std::size_t>(rows.rows()), false);
   for (std::size_t t = 0; t < scan.triangles.size(); ++t) {
     const Triangle& corners = scan.triangles[t];
-    // Average over a parallelogram whose sides are half as long as two edges of the triangle,
-    // because vertices are farther apart than texels.
+    // Average the texture over the area that a vertex represents: a parallelogram whose sides are
+    // half as long as two edges of the triangle.
     const Eigen::Vector3d first = row3(scan.positions, corners[0]);
     ScanArea area{static_cast<std::uint32_t>(t),
                   {},

@@ -19,7 +19,7 @@ namespace crowdface {
 
 /// The textures of one kind, such as colour maps, that the polygons of a mesh use.
 struct MeshMaps {
-  std::vector<std::unique_ptr<const FilteredTexture>> textures;
+  std::vector<std::unique_ptr<const FilteredTexture>> textures;  ///< one per texture file
   /// for each polygon, an index into `textures`, or kNoIndex; may be empty
   std::vector<std::uint32_t> texture_of_polygon;
   /// for each polygon: lower left corner (u, v) of the unit square of texture space that contains
@@ -60,15 +60,15 @@ class ScanColours {
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:
-  /// A triangle of the file: the index of its polygon, and the numbers of three corners of this
-  /// polygon.
+  /// A triangle of the file: a polygon, and the numbers of three corners within this polygon.
   struct TriangleCorners {
-    std::uint32_t face = 0, first = 0, second = 0, third = 0;
+    std::uint32_t face = 0;  ///< index of the polygon
+    std::uint32_t first = 0, second = 0, third = 0;
   };
 
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file
   std::vector<TriangleCorners> triangle_corners_;  ///< one per triangle of the file
-  MeshMaps colours_;
+  MeshMaps colours_;                               ///< the file's colour textures
   /// #V by 3: colours of vertices in linear light; or no rows
   ColourValues vertex_linear_colours_;
   std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< one per material

@@ -46,6 +46,7 @@ class CrowdBlender {
   ///                 these matrices.
   /// \throws BrokenPrecondition if a recipe does not fit the heads or the regions.
   void blend(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
+  /// Blends the face of a single recipe.
   Positions blend(const Recipe& recipe) const;
 
   /// Changes a face that was blended from the recipe `before` into the face of the recipe `after`.
@@ -56,9 +57,10 @@ class CrowdBlender {
   void update(const Recipe& before, const Recipe& after, Positions& face) const;
 
  private:
-  class FaceBatch;
-  class PatchBlender;
+  class FaceBatch;     ///< faces that are blended together, with their coefficients
+  class PatchBlender;  ///< blends the vertices of one patch for all faces of a batch
 
+  /// Finds the regions of each patch: fills patch_regions_ and region_offsets_.
   void find_regions();
   /// Returns the regions whose weight is nonzero at one or more vertices of the patch.
   std::span<const std::uint32_t> regions_of_patch(std::size_t patch) const {
@@ -72,12 +74,13 @@ class CrowdBlender {
   template <class Wanted>
   void blend_patches(const Wanted& wanted, std::span<const Recipe* const> recipes,
                      std::span<Positions> results) const;
+  /// Returns the number of fields of all heads together.
   std::size_t field_count() const { return field_offsets_.back(); }
 
   const HeadSet& heads_;
-  std::vector<HeadSmoothing> levels_;
-  FieldPatches patches_;
-  const RegionWeights& regions_;
+  std::vector<HeadSmoothing> levels_;  ///< #heads: the fitted smoothing S̃_L of each head
+  FieldPatches patches_;               ///< the fields c_hp of all heads
+  const RegionWeights& regions_;       ///< α, #V by #regions
   /// #heads + 1: for each head, the index of its first field among the fields of all heads
   std::vector<std::size_t> field_offsets_;
   /// indices of each patch's regions (see regions_of_patch), one patch after the other

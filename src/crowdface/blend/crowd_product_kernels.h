@@ -19,7 +19,7 @@ void dequantize(const std::int16_t* numbers, std::size_t count, float step, floa
 /// The matrix whose rows `multiply` adds up. The values are quantized (int16) or unpacked (float).
 template <class Number>
 struct MatrixRows {
-  const Number* values;
+  const Number* values;  ///< first element of the first row
   /// distance from the start of one row to the start of the next row, in elements
   std::size_t stride;
   std::size_t width;  ///< number of elements in a row; a multiple of kPatchPadding
@@ -33,6 +33,7 @@ struct MatrixRows {
 /// \param columns, products  1 to kMaxColumns; as many columns as products.
 void multiply(const MatrixRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
+/// Like the overload above, but multiplies quantized values.
 void multiply(const MatrixRows<std::int16_t>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 
@@ -42,8 +43,8 @@ void add_product(const MatrixRows<float>& rows, std::span<const float* const> co
 
 /// A range of vertices of the mesh with consecutive numbers.
 struct VertexRun {
-  std::uint32_t first = 0;
-  std::uint32_t count = 0;
+  std::uint32_t first = 0;  ///< index of the first vertex
+  std::uint32_t count = 0;  ///< number of vertices
 };
 
 /// Writes results = base + added at the vertices of the runs. Uses streaming stores, which bypass

@@ -111,7 +111,7 @@ Trajectory sample_smoothing_trajectory(const ChebyshevFilter& filter, const Leve
   Trajectory trajectory =
       Trajectory::Zero(static_cast<Index>(levels.size()), 3 * static_cast<Index>(samples.size()));
   for (std::size_t l = 0; l < levels.size(); ++l) {
-    const std::vector<double> weights = nodes.weights(levels[l]);
+    const std::vector<double> weights = nodes.interpolation_weights(levels[l]);
     for (std::size_t s = 0; s < samples.size(); ++s) {
       const std::uint32_t row = filter.row_of_vertex()[samples[s]];
       for (Index c = 0; c < 3; ++c) {

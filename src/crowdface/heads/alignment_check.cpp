@@ -114,7 +114,7 @@ std::string objection_to_pose(const HeadPose& pose, const std::string& head) {
     return concat(
         "head ", head,
         " is mirrored: left and right are swapped relative to the others; mirror it back (scale "
-        "it by -1 along one axis and flip its faces; faces.align: none skips this check)");
+        "it by -1 along one axis and flip its polygons; faces.align: none skips this check)");
   }
   if (pose.scale > kOtherUnit || pose.scale < 1 / kOtherUnit) {
     return concat("head ", head, ": expected heads in one unit, found ",

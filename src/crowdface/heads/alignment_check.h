@@ -36,6 +36,7 @@ bool needs_rigid_alignment(const HeadSet& heads, const Components& components);
 /// Warns about heads that are rotated, shifted or scaled relative to the other heads. Blending
 /// would treat such a difference in pose as detail. With `check`, heads stay as they are; with
 /// `rigid`, each head is first aligned with the first head.
+/// \return the warnings, one per head that differs.
 /// \throws InvalidInput if a head is mirrored or has another unit, and with `check` also if a head
 ///         is rotated by more than 45 degrees.
 std::vector<std::string> align_heads(HeadSet& heads, const Components& components, Align align);

@@ -12,9 +12,9 @@
 namespace crowdface {
 
 /// Paints a texture of the body for each face, so that body and face have the same colours at the
-/// ring of the neck. At each vertex of the ring, the body gets the face's optical densities. The
-/// change of density at the ring fades, over the distance `falloff_mm`, to the mean change over the
-/// ring, which the rest of the body gets.
+/// ring of the neck. The painter adds a change to the body's optical densities. At each vertex of
+/// the ring, the sum equals the face's optical density. Farther than `falloff_mm` from the ring,
+/// the change is the mean change over the ring. In between, the change varies smoothly.
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
@@ -23,8 +23,9 @@ class BodyPainter {
   ///                 coordinates.
   BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
 
-  /// The body's polygons, with the texture coordinates of the image that `paint` returns.
+  /// The body's polygons. Their corners refer to rows of uvs().
   const Topology& topology() const { return topology_; }
+  /// Texture coordinates of the body in the image that `paint` returns, #T by 2.
   const TextureCoordinates& uvs() const { return uvs_; }
 
   /// Paints the body's texture for one face.
@@ -33,10 +34,10 @@ class BodyPainter {
 
  private:
   const HeadsOnBody& heads_on_body_;
-  Topology topology_;
-  TextureCoordinates uvs_;
+  Topology topology_;                      ///< see `topology`
+  TextureCoordinates uvs_;                 ///< see `uvs`
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
-  std::unique_ptr<const SurfaceTexels> texels_;
+  std::unique_ptr<const SurfaceTexels> texels_;  ///< for each texel: the triangle that covers it
   /// the body's colours at the ring of the neck, #rim by 3
   OpticalDensities body_optical_densities_;
   /// Spreads colour differences from the ring over the body, with the method that NeckBend uses for

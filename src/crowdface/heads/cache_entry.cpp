@@ -141,7 +141,7 @@ void CacheEntry::require(bool holds) const {
 
 void CacheEntry::throw_if_truncated() const {
   if (file_->was_truncated())
-    throw InvalidInput(concat(path_.string(), ": cache entry is being truncated"));
+    throw InvalidInput(concat(path_.string(), ": cache entry is shorter than when it was opened"));
 }
 
 void CacheEntry::require_match(bool matches) const {

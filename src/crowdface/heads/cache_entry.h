@@ -66,7 +66,7 @@ constexpr std::array<char, 4> number_type() {
 
 }  // namespace detail
 
-/// An array to write into an entry; points to the numbers in memory.
+/// An array to write into a cache entry; points to the numbers in memory.
 struct EntryArray {
   std::string name;          ///< at most 23 bytes
   std::array<char, 4> type;  ///< see detail::number_type
@@ -85,37 +85,44 @@ struct EntryArray {
 /// is written.
 class ArrayWriter {
  public:
+  /// Adds an array with a single element.
   template <class T>
   void operator()(std::string_view name, const T& value) {
     add(name, std::span<const T>(&value, 1));
   }
+  /// Adds an array with the elements of a vector.
   template <class T>
   void operator()(std::string_view name, const std::vector<T>& values) {
     add(name, std::span<const T>(values));
   }
+  /// Adds an array of bytes: 1 for true, 0 for false.
   void operator()(std::string_view name, const std::vector<bool>& values) {
     const auto owner =
         std::make_shared<const std::vector<std::uint8_t>>(values.begin(), values.end());
     operator()(name, *owner);
     arrays.back().owner = owner;
   }
+  /// Adds an array with the elements of a span.
   template <class T>
   void operator()(std::string_view name, const std::span<const T>& values) {
     add(name, values);
   }
+  /// Adds an array with the numbers of a matrix.
   template <class Scalar, int R, int C, int O>
   void operator()(std::string_view name, const Eigen::Matrix<Scalar, R, C, O>& matrix) {
     add<Scalar>(name, matrix.innerSize(), matrix.outerSize(), matrix.data());
   }
 
-  std::vector<EntryArray> arrays;
+  std::vector<EntryArray> arrays;  ///< the collected arrays
 
  private:
+  /// Appends an array to `arrays`.
   template <class T>
   void add(std::string_view name, std::span<const T> values) {
     using Element = detail::Element<T>;
     add<typename Element::Number>(name, Element::kNumbersPerElement, values.size(), values.data());
   }
+  /// Appends an array to `arrays`. \param columns, rows, data  see EntryArray
   template <class Number>
   void add(std::string_view name, auto columns, auto rows, const void* data) {
     arrays.push_back({std::string(name), detail::number_type<Number>(),
@@ -124,7 +131,7 @@ class ArrayWriter {
   }
 };
 
-/// Writes an entry. \throws CannotCreate, IoError.
+/// Writes a cache entry. \throws CannotCreate, IoError.
 void write_entry(const std::filesystem::path& cache, const CacheKey& key,
                  const std::vector<EntryArray>& arrays);
 
@@ -132,14 +139,16 @@ void write_entry(const std::filesystem::path& cache, const CacheKey& key,
 /// for the displacements that smoothing adds.
 bool are_in_coordinate_range(std::span<const float> values);
 bool are_in_coordinate_range(std::span<const double> values);
-/// `all_below`: whether all numbers are below `end`. `are_indices` also accepts kNoIndex.
+/// Whether all numbers are below `end`.
 bool all_below(std::span<const std::uint32_t> numbers, std::uint64_t end);
+/// Whether each number is below `end` or is kNoIndex.
 bool are_indices(std::span<const std::uint32_t> numbers, std::uint64_t end);
 
 /// A memory-mapped cache entry. Its arrays lie in the mapped file and are valid while `file()`
 /// lives.
 class CacheEntry {
  public:
+  /// Opens a cache entry and checks its header and its checksum.
   /// \param known_checksum  the file's checksum, if it is known; otherwise the function hashes the
   ///                        file.
   /// \return nothing if the file does not exist.
@@ -148,6 +157,7 @@ class CacheEntry {
                                         const std::optional<Digest>& known_checksum = {});
 
   const std::shared_ptr<const MappedFile>& file() const { return file_; }
+  /// The checksum that the end of the file states.
   const Digest& checksum() const { return checksum_; }
 
   /// An array in the file. \throws InvalidInput if the entry has no array with this name and type,
@@ -184,16 +194,18 @@ class CacheEntry {
   void throw_if_truncated() const;
 
  private:
-  /// An array as the file describes it. `offset` is the position of the first number in the file.
+  /// An array as the file describes it; see EntryArray.
   struct StoredArray {
-    char name[24];
-    std::array<char, 4> type;
-    std::uint32_t columns;
-    std::uint64_t rows, offset;
+    char name[24];             ///< ends with a zero byte
+    std::array<char, 4> type;  ///< see detail::number_type
+    std::uint32_t columns;     ///< number of contiguous numbers in one element or row
+    std::uint64_t rows;        ///< number of elements or rows
+    std::uint64_t offset;      ///< position of the first number in the file
   };
   friend void write_entry(const std::filesystem::path&, const CacheKey&,
                           const std::vector<EntryArray>&);
 
+  /// The array with this name and with numbers of this type. \throws InvalidInput like `get`.
   template <class Number>
   const StoredArray& find_array(std::string_view name) const {
     const StoredArray& row = find_array(name, detail::number_type<Number>());
@@ -204,6 +216,7 @@ class CacheEntry {
     return row;
   }
   const StoredArray& find_array(std::string_view name, const std::array<char, 4>& type) const;
+  /// Address of the array's first number.
   const char* at(const StoredArray& row) const { return file_->bytes().data() + row.offset; }
   /// If `matches` is false, rejects the entry: it has another version or holds other data.
   void require_match(bool matches) const;
@@ -213,7 +226,7 @@ class CacheEntry {
   std::filesystem::path path_;
   std::shared_ptr<const MappedFile> file_;
   Digest checksum_;
-  std::vector<StoredArray> arrays_;
+  std::vector<StoredArray> arrays_;  ///< the arrays that the file lists
 };
 
 /// Reads values from an entry: `arrays("name", value)` accepts the same types as ArrayWriter. A
@@ -223,25 +236,30 @@ class ArrayReader {
  public:
   explicit ArrayReader(const CacheEntry& entry) : entry_(entry) {}
 
+  /// Reads an array with a single element.
   template <class T>
   void operator()(std::string_view name, T& value) const {
     const std::span<const T> values = entry_.get<T>(name);
     entry_.require(values.size() == 1);
     value = values.front();
   }
+  /// Copies the elements of an array into a vector.
   template <class T>
   void operator()(std::string_view name, std::vector<T>& values) const {
     const std::span<const T> found = entry_.get<T>(name);
     values.assign(found.begin(), found.end());
   }
+  /// Reads an array of bytes: each byte except 0 is true.
   void operator()(std::string_view name, std::vector<bool>& values) const {
     const auto found = entry_.get<std::uint8_t>(name);
     values.assign(found.begin(), found.end());
   }
+  /// Sets the span to the array in the mapped file, without a copy.
   template <class T>
   void operator()(std::string_view name, std::span<const T>& values) const {
     values = entry_.get<T>(name);
   }
+  /// Copies the numbers of an array into a matrix.
   template <class Scalar, int R, int C, int O>
   void operator()(std::string_view name, Eigen::Matrix<Scalar, R, C, O>& matrix) const {
     matrix = entry_.matrix<Eigen::Matrix<Scalar, R, C, O>>(name);

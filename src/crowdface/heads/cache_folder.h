@@ -31,16 +31,17 @@ inline constexpr std::string_view kPreparedKind = "prepared", kReadKind = "read"
 
 /// The entries of a cache, their number and their total size.
 struct CacheContents {
-  std::vector<std::filesystem::path> entries;
-  std::size_t prepared_head_count = 0;  ///< number of entries with a prepared head
-  std::size_t loaded_head_count = 0;    ///< number of entries with the parsed file of a head
-  std::uintmax_t bytes = 0;
+  std::vector<std::filesystem::path> entries;  ///< paths of the entries' files
+  std::size_t prepared_head_count = 0;         ///< number of entries with a prepared head
+  std::size_t loaded_head_count = 0;           ///< number of entries with the parsed file of a head
+  std::uintmax_t bytes = 0;                    ///< total size of all entries
 };
-/// Lists the entries; finds none if the folder does not exist.
+/// Lists the entries of a cache folder. A folder that does not exist counts as empty.
 /// \throws MissingInput if the folder cannot be read.
 CacheContents list_cache(const std::filesystem::path& cache);
 
-/// Removes all entries, and the temporary files that killed runs left. Removes no other file.
+/// Removes all entries of a cache folder, and the temporary files that killed runs left. Removes no
+/// other file.
 /// \return the number of removed entries and temporary files.
 std::size_t clear_cache(const std::filesystem::path& cache);
 

@@ -18,8 +18,8 @@
 
 namespace crowdface {
 
-/// Opens an entry. With `skips_hash_of_unchanged_files`, an unchanged entry is not hashed again
-/// (see FileFingerprint).
+/// Opens a cache entry. With `skips_hash_of_unchanged_files`, the function does not hash an
+/// unchanged entry again (see FileFingerprint).
 /// \return nothing if there is no such entry or no cache.
 /// \throws InvalidInput like CacheEntry::open.
 std::optional<CacheEntry> open_entry(const CacheFolder& cache, const CacheKey& key);
@@ -60,7 +60,7 @@ std::vector<EntryArray> arrays_of(const Value& value, const Visit& visit) {
   return std::move(arrays.arrays);
 }
 
-/// Writes an entry, if there is a cache.
+/// Writes a cache entry, if there is a cache.
 /// \param what  replaces WHAT in the warning "WHAT cannot be stored in the cache".
 /// \return whether the entry was written.
 bool store(const CacheFolder& cache, const CacheKey& key, const std::vector<EntryArray>& arrays,

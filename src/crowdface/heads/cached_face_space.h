@@ -8,8 +8,8 @@
 
 namespace crowdface {
 
-/// Makes a FaceSpace (see the constructor of FaceSpace). Reads the tables of the FaceSpace from the
-/// cache if the cache has them.
+/// Makes a FaceSpace. Reads the tables of the FaceSpace from the cache if the cache has them.
+/// \param heads, weights, bands  see the constructor of FaceSpace
 FaceSpace cached_face_space(const CacheFolder& cache, HeadsAtSamples heads,
                             const std::vector<double>& weights, std::size_t bands);
 

@@ -20,6 +20,7 @@ Digest statistics_key(const Digest& row_order, const Topology& topology,
 /// Returns the statistics from the cache. If the cache lacks the statistics, calls `make()` and
 /// stores the result.
 /// \param vertices  number of vertices of the mesh
+/// \param heads     number of heads
 SurfaceStatistics cached_statistics(const CacheFolder& cache, const Digest& key,
                                     std::size_t vertices, std::size_t heads,
                                     const std::function<SurfaceStatistics()>& make);

@@ -301,7 +301,8 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
   std::size_t count = 0;
   const HeadFile* most = heads[0];
   for (const HeadFile* head : heads) {
-    // Corners of quads that are cut along other diagonals are not those of separate vertices.
+    // Skip a head with the first head's polygons but with other diagonals: its corners do not
+    // correspond to the first head's corners.
     const bool has_first = head->mesh == heads[0]->mesh;
     if (!has_first && has_same_polygons(heads[0]->mesh->topology, head->mesh->topology)) continue;
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> numbers;

@@ -18,7 +18,7 @@ namespace crowdface {
 
 /// An attachment placed on a face.
 struct PlacedAttachment {
-  const Attachment* item;
+  const Attachment* item;            ///< the placed attachment
   std::optional<HairColour> colour;  ///< see ColouredAttachment
   Positions positions;               ///< the attachment's vertices on the face
   /// displacements of the attachment's vertices, one item for each shape (expression) of the face
@@ -28,6 +28,7 @@ struct PlacedAttachment {
   /// for a body with a separate texture for each face: the texture as a PNG file; otherwise empty
   std::string_view texture_png = {};
 
+  /// The attachment with its colour.
   ColouredAttachment look() const { return {item, colour}; }
 };
 
@@ -59,16 +60,16 @@ class FaceAttachments {
  private:
   /// An attachment mesh bound to the fitted head.
   struct BoundMesh {
-    const Attachment* item;  ///< the first attachment with this mesh
-    std::unique_ptr<const AttachmentCarrier> carrier;
+    const Attachment* item;                            ///< the first attachment with this mesh
+    std::unique_ptr<const AttachmentCarrier> carrier;  ///< places the mesh on faces
     /// null unless the attachment bends with the skin and there are shapes (expressions)
     std::unique_ptr<const ShapeBend> bend;
   };
 
   const Config& config_;
   const Inputs& inputs_;
-  std::unique_ptr<const FittedSkin> skin_;  ///< null if no attachment is bound
-  std::vector<BoundMesh> bound_meshes_;
+  std::unique_ptr<const FittedSkin> skin_;  ///< of the fitted head; null if nothing is bound
+  std::vector<BoundMesh> bound_meshes_;     ///< each mesh once
   /// for each attachment of the inputs: an index into `bound_meshes_`; nothing if it is not bound
   std::vector<std::optional<std::size_t>> mesh_of_item_;
 };

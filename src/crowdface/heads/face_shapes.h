@@ -25,7 +25,7 @@ class FaceShapes {
   /// \param crossing  optional output, see `crossing_counts` of ShapeTransfer::transfer_to_face
   std::vector<Displacements> shapes_of_face(const Recipe& recipe, const Positions& face,
                                             std::vector<Index>* crossing = nullptr) const;
-  /// The shapes of an input head.
+  /// The shapes (expressions) of an input head.
   std::vector<Displacements> shapes_of_head(Index head) const;
 
   /// Returns the shape with which a corrective shape must be applied (see find_prerequisites);

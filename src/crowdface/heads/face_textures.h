@@ -30,6 +30,7 @@ class FaceTextures {
  public:
   /// \param inputs  must outlive this object.
   FaceTextures(const Config& config, const Inputs& inputs);
+  /// Whether the program makes images for each face (see face_picture_names).
   bool has_textures() const { return !pictures_.empty(); }
   /// Number of images in face_picture_names.
   std::size_t picture_count() const { return pictures_.size(); }
@@ -62,11 +63,11 @@ class FaceTextures {
   /// The weight of each head in the mean colour of the whole face.
   std::vector<double> head_weights_in_mean_colour(const Recipe& recipe) const;
 
-  std::vector<std::unique_ptr<TextureBlender>> blenders_;
+  std::vector<std::unique_ptr<TextureBlender>> blenders_;  ///< one per kind of blended textures
   /// An image that is made for each face: image `index` of a blender.
   struct Picture {
-    const TextureBlender* blender;
-    std::size_t index;  ///< index among the blender's images
+    const TextureBlender* blender;  ///< makes the image
+    std::size_t index;              ///< index among the blender's images
   };
   std::vector<Picture> pictures_;  ///< in the order of face_picture_names
   const Inputs& inputs_;
@@ -77,7 +78,7 @@ class FaceTextures {
   std::vector<bool> uses_target_colours_only_;
   /// nothing if the heads are not on a body or have no colours at the neck's ring
   std::optional<SeamColours> seam_;
-  std::unique_ptr<const BodyPainter> body_;
+  std::unique_ptr<const BodyPainter> body_;  ///< paints the body's texture; null: see body_painter
 };
 
 /// Size, in bytes, of the heads' textures and vertex colours in memory. Texture maps that were

@@ -34,11 +34,12 @@ class FileFingerprint {
  private:
   /// Device, inode, size, and the times mtime and ctime in nanoseconds.
   using Stamp = std::array<std::int64_t, 5>;
+  /// The present stamp of a file; nothing if the file system does not tell it.
   static std::optional<Stamp> stamp_of(const std::filesystem::path& file);
 
-  std::filesystem::path file_, cache_;
-  std::optional<Stamp> stamp_;  ///< the file's stamp at the construction of this object
-  std::optional<Digest> digest_;
+  std::filesystem::path file_, cache_;  ///< the file to look up; the cache folder
+  std::optional<Stamp> stamp_;          ///< the file's stamp at the construction of this object
+  std::optional<Digest> digest_;        ///< the stored hash; empty if unknown or outdated
 };
 
 }  // namespace crowdface

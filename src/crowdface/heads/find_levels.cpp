@@ -92,8 +92,8 @@ void require_ring(const Inputs& inputs, const DetailLevel& level) {
   if (kept == static_cast<std::ptrdiff_t>(rim.size())) return;
   throw InvalidInput(concat("output.lods: a level of ", level.share * 100, " % keeps ", kept,
                             " of the ", rim.size(),
-                            " vertices of neck.rim; levels keep a ring "
-                            "that is an open border"));
+                            " vertices of neck.rim; levels keep all vertices of a ring only if the "
+                            "ring is an open border"));
 }
 
 /// Makes a level of detail, and measures its error on the heads and their shapes.

@@ -12,7 +12,7 @@ namespace crowdface {
 /// \param cache  keeps the levels; empty: no cache
 void find_levels(const Config& config, const CacheFolder& cache, Inputs& inputs);
 
-/// A readable line for each level; empty if there are none.
+/// A readable text with one line for each level of detail; empty if there are none.
 std::string describe_detail_levels(const Inputs& inputs);
 
 }  // namespace crowdface

@@ -19,7 +19,7 @@ namespace crowdface {
 /// The smoothing levels of one head, approximated by fields. The fields may lie in a memory-mapped
 /// cache file, so that they use no memory of the process.
 struct StoredLevels {
-  LevelFields fields;
+  LevelFields fields;  ///< empty with `levels: exact`
   /// the file that holds the fields; null if they lie in memory
   std::shared_ptr<const MappedFile> mapped_file;
   /// For `levels: basis`: coefficients of the level functions φ_p(L), one row per node and one
@@ -32,20 +32,20 @@ struct StoredLevels {
 /// fitted levels. With `levels: exact`, there are no fitted levels.
 struct PreparedHead {
   Trajectory smoothing_trajectory;  ///< trajectories of the sample points
-  StoredLevels levels;
+  StoredLevels levels;              ///< the fitted levels; empty with `levels: exact`
 };
 
-/// The sizes that a usable entry must have.
+/// The sizes that the cache entry of a prepared head must have to be usable.
 struct HeadCacheSizes {
-  Index vertex_count = 0;
+  Index vertex_count = 0;  ///< number of vertices of the head
   Index sample_count = 0;  ///< number of sample points with a trajectory
   /// number of levels per trajectory
   Index levels_per_smoothing_trajectory = 0;
   /// number of levels at which the level functions are interpolated (LevelNodes); unused unless
   /// `levels` is kBasis
   Index level_node_count = 0;
-  std::uint64_t max_level = 0;
-  LevelRepresentation levels = LevelRepresentation::kBasis;
+  std::uint64_t max_level = 0;                               ///< L_max, see Inputs::max_level
+  LevelRepresentation levels = LevelRepresentation::kBasis;  ///< the config's `levels`
 };
 
 /// Finds a prepared head in the cache. Its fields stay in the memory-mapped file. \return nothing

@@ -96,14 +96,13 @@ std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head
   reverse_faces(reversed);
   if (same_vertices && has_same_polygons(first, reversed)) {
     return "; its polygons have the reverse order of corners, so that one of the two heads is "
-           "mirrored: mirror it back (scale it by -1 along one axis, and flip its faces), or "
-           "export "
-           "both with the same axes";
+           "mirrored: mirror it back (scale it by -1 along one axis, and flip its polygons), or "
+           "export both with the same axes";
   }
   if (same_vertices && same_faces) {
-    return "; it has as many vertices and faces, but in another order or with other connections: "
-           "export it again and keep the vertex order, or wrap the first head onto it (crowdface "
-           "wrap)";
+    return "; it has as many vertices and polygons, but in another order or with other "
+           "connections: export it again and keep the vertex order, or wrap the first head onto it "
+           "(crowdface wrap)";
   }
   if (same_vertices && triangles(first) == triangles(found)) {
     return found.face_count() > first.face_count()
@@ -121,7 +120,7 @@ std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head
                : "; some of its vertices were joined: export it without welding or merging";
   }
   return concat("; it has ", found.vertex_count, " vertices and ", found.face_count(),
-                " faces, the first ", first.vertex_count, " and ", first.face_count(),
+                " polygons, the first ", first.vertex_count, " and ", first.face_count(),
                 part_of_head(first_head.file.positions, head.file.positions),
                 ": it is another mesh; to fit the first head's mesh to a scan, use crowdface wrap; "
                 "hair, glasses and the like belong in the config's section attachments");

@@ -12,7 +12,7 @@ namespace crowdface {
 /// A head as read from its file. The topology, texture coordinates and corner normals are in
 /// `mesh`; the same members of `file` are empty.
 struct HeadFile {
-  ObjFile file;
+  ObjFile file;                    ///< the content of the file, except the members in `mesh`
   Digest text_digest;              ///< hash of the file's bytes
   Digest mesh_digest;              ///< HeadMesh::digest of `mesh`
   std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh

@@ -17,6 +17,7 @@ namespace crowdface {
 
 /// The texture files of one kind that a head's materials name.
 struct HeadTextureFiles {
+  /// A texture file.
   struct File {
     std::filesystem::path path;  ///< an existing file
     std::filesystem::path name;  ///< path as in the material file; may contain <UDIM>
@@ -34,6 +35,7 @@ struct FoundTextureFiles {
   std::vector<std::array<std::int32_t, 2>> tile_of_polygon;
   std::vector<std::string> warnings;  ///< without duplicates; each warning names its heads
 
+  /// Whether at least one head has a texture of this kind.
   bool has_files() const;
   /// Whether two heads have different textures.
   bool heads_have_different_textures() const;

@@ -42,6 +42,7 @@ struct HeadTextures {
   Digest digest;
   std::vector<std::string> warnings;  ///< messages about missing files
 
+  /// Whether each face gets textures that are blended from the heads' textures.
   bool are_blended() const { return !names.empty(); }
   bool has_textures() const { return are_blended() || !texture_sets.empty(); }
 };
@@ -78,13 +79,14 @@ class FaceTextureSet {
                                     const std::vector<HeadTextures>& maps, int max_px);
 
  private:
+  /// Identifies an image of the face.
   struct ImageIndex {
     TextureKind kind = TextureKind::kColour;
     std::size_t index = 0;  ///< index among the images of its kind
   };
   TextureSet texture_set_;
-  std::vector<ImageIndex> image_indices_;  ///< indexed by the parameter `picture` of `add`
-  int max_px_;
+  std::vector<ImageIndex> image_indices_;  ///< for each value of `picture` in `add`
+  int max_px_;                             ///< maximum side length of textures, in texels
 };
 
 /// Adds a head's own normal and roughness maps to its texture set.

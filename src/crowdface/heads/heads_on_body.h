@@ -28,17 +28,19 @@ struct HeadsOnBody {
     /// the matching vertex of the body's ring
     double max_bend_mm = 0;
   };
-  Seam seam;
-  std::vector<Head> heads;
+  Seam seam;                        ///< the neck ring in which all faces end
+  std::vector<Head> heads;          ///< #heads
   Eigen::Vector3d seam_centre;      ///< centre of the seam between heads and body
   Positions mean_before_placement;  ///< mean of the heads before they were placed on the body
-  double mm_per_unit = 1;
+  double mm_per_unit = 1;           ///< millimetres per file unit
   /// The body, if renders or mesh files contain it or if each face gets a texture of the body.
   /// Otherwise null.
   std::shared_ptr<const Attachment> body;
   Rim body_rim;  ///< for each vertex of the heads' ring, the body's vertex; empty without `body`
+  /// Whether an attachment is the body's mesh, which is stored like an attachment.
   bool is_body(const Attachment& item) const { return body.get() == &item; }
 
+  /// Whether at least one placed head does not have the common pose.
   bool has_differing_poses() const {
     return std::ranges::any_of(heads,
                                [](const Head& head) { return !head.pose_rotation.isZero(0); });

@@ -32,12 +32,12 @@ struct HeadsOnBody;  // heads/heads_on_body.h
 
 /// A mesh that faces may wear, such as hair or glasses, and the material files of this mesh.
 struct Attachment {
-  std::string name, kind;
+  std::string name, kind;                        ///< kind: such as "hair" or "glasses"
   AttachmentMove moves = AttachmentMove::kBend;  ///< how the attachment follows the skin
-  ObjFile file;
-  Digest text_digest;  ///< hash of the file's bytes
-  MaterialFiles materials;
-  Tint tint = Tint::kNone;
+  ObjFile file;                                  ///< the mesh and its file
+  Digest text_digest;                            ///< hash of the file's bytes
+  MaterialFiles materials;  ///< the material files and textures that the mesh uses
+  Tint tint = Tint::kNone;  ///< the kind of hair whose colour the attachment takes, if any
 };
 
 /// An attachment, and the colour that a face gives to this attachment.
@@ -97,8 +97,8 @@ struct MeasuredLevel {
 
 /// All inputs of a job, checked: heads, their topology, masks, and data computed from these.
 struct Inputs {
-  std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
-  HeadSet head_set;
+  std::filesystem::path cache;      ///< folder that caches the results; empty: no cache
+  HeadSet head_set;                 ///< the heads after alignment and placement on a body
   Positions mean_head;              ///< vertex-wise mean of the heads
   std::vector<ObjFile> head_files;  ///< #heads; topology and positions have moved to `head_set`
   std::vector<Digest> head_file_digests;  ///< #heads, hashes of the head files' bytes
@@ -107,22 +107,22 @@ struct Inputs {
   std::vector<ColourRows> vertex_colours;
   Digest colours_digest;       ///< hash of `vertex_colours`, if there are any
   PolygonMaterials materials;  ///< material of each polygon of the first head
-  Adjacency adjacency;
-  Components components;
-  PartList parts;  ///< empty for `parts: none`
+  Adjacency adjacency;         ///< of the heads' topology
+  Components components;       ///< of the heads' topology: skin, eyeballs, teeth, …
+  PartList parts;              ///< eyeballs, teeth and other parts; empty for `parts: none`
   /// like `components`, but all components of skin are merged into the largest one
   Components skin_components;
   std::shared_ptr<const MirrorMap> mirror_map;  ///< null unless the config asks for mirrored faces
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body;
-  ShapeSet shapes;
+  ShapeSet shapes;                           ///< expressions (blend shapes)
   Digest shapes_digest;                      ///< hash of the shapes, if there are any
   std::vector<MeasuredLevel> detail_levels;  ///< from the key `output.lods`
-  PointSet points;
-  Digest points_digest;  ///< hash of the points, if there are any
-  Rig rig;
-  AttachmentSet attachments;
-  RegionWeights regions;
+  PointSet points;                           ///< named points that every face gets
+  Digest points_digest;                      ///< hash of the points, if there are any
+  Rig rig;                                   ///< joints and skinning weights; empty: none
+  AttachmentSet attachments;                 ///< attachments that faces may wear
+  RegionWeights regions;  ///< #V by #regions: weights α of the vertices in the regions
   /// weight of each vertex in the distance between two faces, from `distance.mask`; empty without a
   /// mask
   std::vector<double> distance_weights;
@@ -131,8 +131,8 @@ struct Inputs {
   std::vector<Digest> head_digests;  ///< #heads, hashes of the positions in `head_set`
   /// #heads, hashes of the positions that the heads had before they were placed on a body
   std::vector<Digest> head_digests_before_placement;
-  Digest topology_digest;
-  Digest mask_digest;  ///< hash of the masks' weights α
+  Digest topology_digest;  ///< hash of the heads' topology
+  Digest mask_digest;      ///< hash of the masks' weights α
   /// colour textures, if they are blended or rendered; otherwise empty
   HeadTextures textures;
   std::vector<HeadTextures> other_textures;  ///< blended textures of all kinds except colour

@@ -163,8 +163,9 @@ void warn_of_visible_bends(const Config& config, const std::vector<HeadsOnBody::
         concat(inputs.head_set.heads[h].name, " (", format_fixed(heads[h].max_bend_mm, 1), " mm)"));
   }
   if (bent.empty()) return;
-  inputs.warn(concat("neck: the rings of ", join(bent), " are farther from the body's ring than ",
-                     format_fixed(most, 1), " mm, which a falloff of ", config.neck.falloff_mm,
+  inputs.warn(concat("neck: the bend of the neck may be visible, because the rings of ", join(bent),
+                     " are farther from the body's ring than ", format_fixed(most, 1),
+                     " mm, the largest distance that a falloff of ", config.neck.falloff_mm,
                      " mm hides; a larger neck.falloff makes the bend smoother"));
 }
 

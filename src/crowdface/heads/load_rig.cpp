@@ -95,9 +95,10 @@ struct Fit {
 Fit fit_by_id(const GltfRig& rig, const Config& config, const Inputs& inputs) {
   Fit fit{from_gltf(config.faces), match_by_id(rig, inputs.head_set.topology.vertex_count), {}};
   if (fit.match.missing > 0) {
-    refuse_file(config.rig, concat("its _VERTEX_ID lacks ", fit.match.missing, " of the ",
-                                   inputs.head_set.topology.vertex_count,
-                                   " vertices of the heads; does it contain the whole mesh?"));
+    refuse_file(config.rig,
+                concat("its _VERTEX_ID lacks ", fit.match.missing, " of the ",
+                       inputs.head_set.topology.vertex_count,
+                       " vertices of the heads; does the file contain the whole mesh?"));
   }
   fit.mesh.resize(inputs.head_set.topology.vertex_count, 3);
   for (Index v = 0; v < fit.mesh.rows(); ++v) {

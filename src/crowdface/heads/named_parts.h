@@ -14,8 +14,9 @@ namespace crowdface {
 /// `inputs.parts` and `inputs.skin_components`. A name without a matching component is a problem.
 void find_named_parts(const Config& config, Inputs& inputs, Problems& problems);
 
-/// `skin_of`: for each vertex, whether it is skin. `skin_vertices`: the skin vertices, ascending.
+/// For each vertex of the heads, whether the vertex belongs to the skin.
 std::vector<bool> skin_of(const Inputs& inputs);
+/// Indices of the vertices that belong to the skin, ascending.
 std::vector<std::uint32_t> skin_vertices(const Inputs& inputs);
 
 /// The axes of the heads, as configured.

@@ -26,7 +26,7 @@ struct PreparedHeads {
   /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
   /// on which the samples' mirror images depend.
   FaceSamples trajectory_samples;
-  std::vector<Trajectory> trajectories;  ///< #heads; at the vertices `trajectory_samples`
+  std::vector<Trajectory> trajectories;  ///< #heads; of the `trajectory_samples`
   std::vector<StoredLevels> levels;      ///< #heads; with `levels: exact`, all are empty
   /// the nodes to which the rows of StoredLevels::function_coefficients belong, for all heads
   std::shared_ptr<const LevelNodes> nodes;

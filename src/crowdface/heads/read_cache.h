@@ -16,9 +16,9 @@ namespace crowdface {
 /// The data that heads with the same mesh share.
 struct HeadMesh {
   Topology topology;
-  TextureCoordinates uvs;
+  TextureCoordinates uvs;                     ///< #T by 2
   std::vector<std::uint32_t> corner_normals;  ///< see ObjFile
-  Digest digest() const;
+  Digest digest() const;                      ///< hash of all members
 };
 
 /// Fills in positions, materials and groups of a head from the cache. The mesh has its own entry,
@@ -32,10 +32,10 @@ std::optional<Digest> fill_head_from_cache(const CacheFolder& cache, const Diges
 /// \param mesh_digest  hash of the mesh
 std::optional<HeadMesh> find_mesh(const CacheFolder& cache, const Digest& mesh_digest);
 
-/// Write cache entries: cache_head for a head, cache_mesh for the mesh that heads share.
-/// \throws CannotCreate, IoError.
+/// Writes the cache entry of a head. \throws CannotCreate, IoError.
 void cache_head(const std::filesystem::path& cache, const Digest& text_digest,
                 const Digest& mesh_digest, const ObjFile& head);
+/// Writes the cache entry of a mesh that heads share. \throws CannotCreate, IoError.
 void cache_mesh(const std::filesystem::path& cache, const HeadMesh& mesh);
 
 /// The cache key of a head as read from its file (kind kReadKind).

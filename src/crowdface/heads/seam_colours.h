@@ -28,7 +28,8 @@ class SeamColours {
   Eigen::Array3d mean_colour(const std::vector<double>& weights) const;
 
  private:
-  /// The weighted mean of the heads' optical densities at the first `rows` entries of `vertices_`.
+  /// The weighted mean of the heads' optical densities at the first `rows` entries of `vertices_`,
+  /// #rows by 3.
   OpticalDensities blend(const std::vector<double>& weights, Index rows) const;
 
   /// the vertices of the band: first the vertices of the neck ring, then all others

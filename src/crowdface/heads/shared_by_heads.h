@@ -10,13 +10,12 @@
 
 namespace crowdface {
 
-/// Stores the results of build_adjacency and find_components in the inputs, from the cache if
-/// possible.
+/// Sets the adjacency and the components of the inputs, from the cache if possible.
 /// \param inputs  must have the topology and its hash
 void find_neighbours(Inputs& inputs);
 
-/// Returns the `region_weights` of the config's masks, from the cache if possible. If the config
-/// has no regions, returns `whole_head_weights`.
+/// Returns the vertex weights of the regions that the config's masks paint, from the cache if
+/// possible. If the config has no regions, returns `whole_head_weights`.
 /// \param inputs  `inputs.parts` must be set
 RegionWeights load_regions(const Config& config, const Inputs& inputs);
 

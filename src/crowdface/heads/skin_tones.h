@@ -21,8 +21,8 @@ class HeadColourWeights {
   std::vector<double> weights_of(const Recipe& recipe) const;
 
  private:
-  std::size_t head_count_;  ///< number of heads
-  std::vector<double> region_area_fractions_;
+  std::size_t head_count_;                     ///< number of heads
+  std::vector<double> region_area_fractions_;  ///< each region's fraction of the frontal skin area
 };
 
 }  // namespace crowdface

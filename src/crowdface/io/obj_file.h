@@ -31,7 +31,7 @@ struct ObjFile {
   /// material files are in the folder of `path`.
   std::filesystem::path material_base;
 
-  /// A path in the folder that contains the material files.
+  /// A path whose folder contains the material files: `material_base` or, if it is empty, `path`.
   const std::filesystem::path& material_path() const {
     return material_base.empty() ? path : material_base;
   }

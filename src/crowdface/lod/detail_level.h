@@ -33,8 +33,8 @@ struct DetailLevel {
 
 /// Statistics of the distances from the vertices of the whole mesh to the surface of a level.
 struct LevelError {
-  double max = 0;
-  double root_mean_square = 0;
+  double max = 0;               ///< largest distance
+  double root_mean_square = 0;  ///< root mean square of the distances
 };
 
 /// Makes levels of detail by edge collapse on the mean head (quadric error metrics, Garland &

@@ -19,7 +19,7 @@ struct NearestLevelTriangles {
   /// for each of the `vertices`, the nearest triangle, as indices of the level's vertices
   std::vector<Triangle> triangles;
 };
-/// Finds the triangle of the level that is nearest to each vertex outside the level.
+/// Finds the nearest triangle of the level for each vertex that the level does not contain.
 ///
 /// \param typical_positions  #V by 3: the head on which the distances are measured.
 NearestLevelTriangles find_level_triangles(const Topology& whole, const Adjacency& adjacency,

@@ -28,10 +28,12 @@ Adjacency build_adjacency(const Topology& topology);
 struct Components {
   std::vector<std::uint32_t> component_of_vertex;  ///< one per vertex: index of its component
   std::vector<std::uint32_t> sizes;                ///< number of vertices in each component
+  /// Number of components.
   Index count() const { return static_cast<Index>(sizes.size()); }
   /// Number of the component with the most vertices. On a head, this component is the skin.
   std::uint32_t largest() const;
 };
+/// Finds the connected components of the mesh that has this adjacency.
 Components find_components(const Adjacency& adjacency);
 
 /// Root mean square of the edge lengths of one component, in the unit of the positions; 0 if the

@@ -9,12 +9,13 @@ namespace crowdface {
 
 /// The similarity transform x ↦ scale · R · x + t.
 struct Similarity {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< R
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< t
   double scale = 1;
 
   /// Rotation angle in degrees, in [0, 180].
   double angle_degrees() const;
+  /// The transformed positions.
   Positions apply(const Eigen::Ref<const Positions>& positions) const;
 };
 
@@ -22,6 +23,7 @@ struct Similarity {
 /// the rotation that minimises Σ |a_i − R b_i|². R is never a reflection. Source: Kabsch 1976.
 Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& covariance);
 
+/// Whether fit_similarity keeps the scale 1 (kRigid) or also fits the scale (kUniform).
 enum class ScaleFit { kRigid, kUniform };
 
 /// Finds the transform that brings each row of `from` closest to the row of `to` with the same

@@ -33,6 +33,7 @@ class DisjointSets {
   void release(std::uint32_t item) { parent_[item] = item; }
 
  private:
+  /// for each item, another item of its set, nearer to the set's root; a root is its own parent
   std::vector<std::uint32_t> parent_;
 };
 

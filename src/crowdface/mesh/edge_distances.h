@@ -44,6 +44,7 @@ class EdgeDistances {
  private:
   using QueueEntry = std::tuple<double, std::uint32_t, std::uint32_t>;  // distance, source, vertex
 
+  /// Discards the results of the previous search and puts the sources into the queue.
   void begin(std::span<const std::uint32_t> sources);
   /// Main loop of the search: makes the distances of vertices final, nearest vertex first, until
   /// the queue is empty or `is_done` returns true for a final vertex.
@@ -60,7 +61,7 @@ class EdgeDistances {
   std::vector<std::uint32_t> sources_;
   std::vector<std::uint32_t> reached_;  ///< indices of the settled vertices, nearest first
   std::vector<std::uint32_t> touched_;  ///< indices of the vertices whose distance is finite
-  std::vector<bool> settled_;           ///< #V
+  std::vector<bool> settled_;           ///< #V: whether the distance is final
   std::vector<QueueEntry> queue_;       ///< a heap; the nearest vertex comes first
 };
 

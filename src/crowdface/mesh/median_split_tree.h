@@ -13,6 +13,7 @@ namespace crowdface {
 /// store the boxes of the nodes. Casting plans and mesh operations use this tree instead of Embree,
 /// because the last bits of Embree's results depend on the processor. Rendering uses Embree.
 struct MedianSplitTree {
+  /// A node of the tree, which holds a range of the points.
   struct Node {
     std::uint32_t begin, end;  ///< range in `order`; begin is a multiple of the leaf size
     /// Index of the second child, 0 in a leaf; the first child is the next node.

@@ -23,7 +23,7 @@ struct MirrorPlane {
 /// mirror points and the plane are determined once, on the mean head, so that mirroring is the same
 /// linear map of positions for all heads.
 struct MirrorMap {
-  MirrorPlane plane;
+  MirrorPlane plane;  ///< the plane between the left and the right half of the mean head
   /// one per vertex: the vertex indices of the triangle that contains its mirror point
   std::vector<Triangle> corners;
   /// for each vertex, the barycentric coordinates of its mirror point in the triangle; {1, 0, 0} if

@@ -51,6 +51,7 @@ class NormalFans {
 /// (see NormalFans); (0, 0, 1) where the sum vanishes. For many meshes of one topology, making one
 /// NormalFans and calling NormalFans::normals is faster.
 Positions vertex_normals(const Topology& topology, const Positions& positions);
+/// Like the overload above. \param fans  made from `topology`
 Positions vertex_normals(const NormalFans& fans, const Topology& topology,
                          const Positions& positions);
 

@@ -10,8 +10,8 @@ namespace crowdface {
 /// `second_corner` and `second_corner` + 1. The point is corner 0, plus s times the vector from
 /// corner 0 to the second corner, plus t times the vector from corner 0 to the third corner.
 struct PolygonSample {
-  std::size_t second_corner = 1;
-  double s = 0, t = 0;  ///< not negative; s + t is at most 1
+  std::size_t second_corner = 1;  ///< number of the triangle's second corner in the polygon
+  double s = 0, t = 0;            ///< not negative; s + t is at most 1
 };
 
 /// A sample point in a polygon: point `number` of a low-discrepancy sequence in the unit square

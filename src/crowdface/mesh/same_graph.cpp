@@ -345,7 +345,8 @@ std::optional<std::vector<HalfEdge>> polygon_borders(const Triangles& triangles,
       }
     }
   }
-  // A polygon of n corners has n - 2 triangles.
+  // `surplus` counts, for each polygon, its border edges minus its triangles: 2 for a polygon
+  // without a hole or an inner vertex, because a polygon of n corners has n - 2 triangles.
   std::vector<int> surplus(triangles.size(), 0);
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
     for (const HalfEdge& half_edge : half_edges_of(triangles[t])) {

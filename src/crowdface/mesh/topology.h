@@ -36,8 +36,11 @@ struct Topology {
   std::vector<std::uint32_t> corner_uvs;
   std::vector<std::uint32_t> face_offsets = {0};  ///< #F + 1: first corner of each polygon
 
+  /// Number of polygons.
   Index face_count() const { return static_cast<Index>(face_offsets.size()) - 1; }
+  /// Number of corners of all polygons together.
   Index corner_count() const { return static_cast<Index>(corner_vertices.size()); }
+  /// Adds a polygon at the end. \param uvs  rows of the corners' texture coordinates; or empty
   void add_face(std::span<const std::uint32_t> vertices, std::span<const std::uint32_t> uvs = {});
   /// The vertices of polygon f in order.
   std::span<const std::uint32_t> face(Index f) const {
@@ -70,6 +73,7 @@ struct Mesh {
   TextureCoordinates uvs;  ///< #T by 2, may be empty
 };
 
+/// A head of a HeadSet, which holds the topology of all its heads.
 struct Head {
   std::string name;     ///< file name without extension; unique in the HeadSet
   Positions positions;  ///< #V by 3

@@ -44,8 +44,8 @@ float winding_sign(const Topology& topology, const Positions& positions) {
 }
 
 bool is_inside_out(const Topology& topology, const Positions& positions) {
-  // the magnitude of outward_flux_fraction is 1 for a sphere, and about 0.3 for an open surface
-  // such as the front of a head
+  // Polygons clearly face inwards if outward_flux_fraction is below −kMinInwardShare. The fraction
+  // is −1 for an inside-out sphere, and about −0.3 for an inside-out front of a head.
   constexpr double kMinInwardShare = 0.2;
   constexpr double kFlat = 0.8;  // |Σ area vectors| / Σ |area vectors|: 0 if closed, 1 if flat
   const Positions areas = face_area_vectors(topology, positions);

@@ -5,8 +5,8 @@
 
 namespace crowdface {
 
-/// Returns −1 if the polygons of the surface mainly face the mean of the vertices, as on a mirrored
-/// surface. Returns +1 otherwise.
+/// Returns −1 if the polygons of the surface mainly face towards the mean of the vertices, as on a
+/// mirrored surface. Returns +1 otherwise.
 float winding_sign(const Topology& topology, const Positions& positions);
 
 /// Reverses the orientation of all polygons: each polygon keeps its first corner; its other corners

@@ -17,6 +17,7 @@ namespace crowdface {
 Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const Eigen::Vector3d& up,
                double mm);
 
+/// Whether the order of the vertices in the body's rim is known.
 enum class RimOrder {
   kFree,   ///< the body's rim may start at any vertex and run in either direction
   kGiven,  ///< vertex i of the body's rim belongs to vertex i of the heads' rim

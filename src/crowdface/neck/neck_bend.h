@@ -30,8 +30,8 @@ class NeckBend {
   Positions bend(const Positions& rim_moves) const;
 
  private:
-  struct Factorisation;
-  std::vector<std::uint32_t> vertices_;
+  struct Factorisation;  ///< the factorised equations for the displacements of `vertices_`
+  std::vector<std::uint32_t> vertices_;  ///< the vertices that move with the rim, ascending
   std::unique_ptr<const Factorisation> factorisation_;
 };
 

@@ -9,9 +9,9 @@ namespace crowdface {
 /// The ring of vertices in which all faces end, with the ring's positions and normals, and the
 /// bending of the skin above the ring. Thread-safe.
 struct Seam {
-  Rim rim;
+  Rim rim;                       ///< the ring, as vertex indices of the heads
   Positions positions, normals;  ///< #rim by 3; unit normals
-  NeckBend neck_bend;
+  NeckBend neck_bend;            ///< bends the skin above the ring
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.
   void bend_to_seam(Positions& mesh) const;

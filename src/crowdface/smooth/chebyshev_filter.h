@@ -25,7 +25,7 @@ struct FilterInput {
 /// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. The positions of the
 /// probes at any level are linear combinations of the terms, so they need no further filter pass.
 struct RecordedTerms {
-  std::vector<std::uint32_t> vertices;
+  std::vector<std::uint32_t> vertices;  ///< vertex indices of the probes
   Columns terms;  ///< #terms by 3·#vertices: row k receives T_k(W) x at the vertices
 };
 
@@ -41,6 +41,7 @@ class ChebyshevFilter {
   ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions);
 
   Index vertex_count() const { return static_cast<Index>(tiling_.vertex_of_row.size()); }
+  /// Returns the kind of the smoothing operator that the filter applies.
   OperatorKind kind() const { return kind_; }
   /// Returns the vertex of each row.
   std::span<const std::uint32_t> vertex_of_row() const { return tiling_.vertex_of_row; }
@@ -62,7 +63,7 @@ class ChebyshevFilter {
 
  private:
   OperatorKind kind_;
-  Tiling tiling_;
+  Tiling tiling_;  ///< determines the order of the rows
 };
 
 /// Evaluates several polynomials of one vector field in one pass, in double precision:

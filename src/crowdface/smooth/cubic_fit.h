@@ -14,9 +14,9 @@ namespace crowdface {
 /// millimetres where the head moves by centimetres (docs/method.md), so this fit only serves
 /// comparisons.
 struct CubicFit {
-  static constexpr int kRank = 4;
-  std::uint64_t max_level = 1;
-  LevelFields fields;  ///< c_0 … c_3
+  static constexpr int kRank = 4;  ///< number of fields c_p
+  std::uint64_t max_level = 1;     ///< L_max
+  LevelFields fields;              ///< c_0 … c_3
 };
 
 /// The fit uses the levels that levels_dense_at_start returns for this number of steps, as in the

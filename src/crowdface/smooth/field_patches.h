@@ -47,6 +47,7 @@ struct FieldPatch {
   /// Number of 16-bit values stored for each field: 3 coordinates at each of the
   /// `stored_vertex_count` vertices, rounded up to a multiple of kPatchPadding.
   std::size_t values_per_field() const { return values_per_field(stored_vertex_count); }
+  /// Like values_per_field(), for a given number of skeleton vertices.
   static std::size_t values_per_field(std::size_t stored_vertex_count) {
     return (3 * stored_vertex_count + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
   }
@@ -65,9 +66,9 @@ struct PatchArrays {
   std::span<const std::uint32_t> stored_vertex_counts;
   /// #patches by #heads: see FieldPatch::field_counts
   std::span<const std::uint32_t> field_counts;
-  std::span<const float> quantization_steps, weights;
-  std::span<const std::int16_t> quantized_values;
-  std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
+  std::span<const float> quantization_steps, weights;  ///< see FieldPatch
+  std::span<const std::int16_t> quantized_values;      ///< see FieldPatch
+  std::shared_ptr<const void> memory_owner;            ///< keeps all lists alive
 };
 
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all
@@ -87,20 +88,24 @@ class FieldPatches {
   static std::optional<FieldPatches> from_arrays(PatchArrays arrays, Index vertex_count,
                                                  std::span<const Index> head_field_counts);
 
+  /// Number of patches.
   std::size_t size() const { return patches_.size(); }
   Index vertex_count() const { return static_cast<Index>(arrays_.vertices.size()); }
   std::size_t head_count() const { return heads_; }
+  /// The data of one patch, which lie in `arrays()`.
   FieldPatch operator[](std::size_t patch) const;
   const PatchArrays& arrays() const { return arrays_; }
 
  private:
   /// The number of fields of a patch, and where the patch's data begins in the lists of `arrays_`.
   struct Patch {
-    std::size_t field_count, first_field, first_value, first_weight;
+    std::size_t field_count;  ///< see FieldPatch::field_count
+    /// index of the patch's first entry in `quantization_steps`, `quantized_values` and `weights`
+    std::size_t first_field, first_value, first_weight;
   };
-  PatchArrays arrays_;
-  std::size_t heads_ = 0;  ///< number of heads
-  std::vector<Patch> patches_;
+  PatchArrays arrays_;          ///< the data of all patches
+  std::size_t heads_ = 0;       ///< number of heads
+  std::vector<Patch> patches_;  ///< where each patch's data lies in `arrays_`
 };
 
 /// Orders all vertices along a space-filling curve (hilbert_order). Patches are consecutive ranges

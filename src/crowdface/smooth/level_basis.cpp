@@ -250,7 +250,7 @@ ProbeError probe_error(const Columns& exact, const Eigen::MatrixXd& functions,
 std::vector<double> level_function_values(const LevelNodes& nodes,
                                           const Eigen::MatrixXd& coefficients,
                                           std::uint64_t level) {
-  const std::vector<double> weights = nodes.weights(level);
+  const std::vector<double> weights = nodes.interpolation_weights(level);
   std::vector<double> functions(static_cast<std::size_t>(coefficients.cols()), 0.0);
   for (Index p = 0; p < coefficients.cols(); ++p) {
     for (Index n = 0; n < coefficients.rows(); ++n) {
@@ -316,8 +316,10 @@ LevelBasis fit_level_basis(const ChebyshevFilter& filter, const LevelNodes& node
   }
   basis.error.max = worst.max_error + of_nodes.max;
   if (basis.error.max > tolerance) {
-    throw InvalidInput(concat("expected levels within ", tolerance, ", reached ", basis.error.max,
-                              " with ", nodes.levels().size(), " fields"));
+    throw InvalidInput(concat("smoothing.tolerance: expected fitted smoothing levels within ",
+                              tolerance, " of the exact levels (in file units), reached ",
+                              basis.error.max, " with all ", nodes.levels().size(),
+                              " fields; a larger tolerance or smoothing.levels: exact helps"));
   }
   basis.error.level = tested.levels[worst.level];
   basis.function_coefficients = directions.function_coefficients.leftCols(rank);

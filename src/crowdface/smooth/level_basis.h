@@ -20,14 +20,15 @@ struct BasisError {
 /// Represents all levels of one head by a few vector fields c_p: S_L x ≈ x + Σ_p φ_p(L) c_p(x).
 /// Level L is the head after L smoothing iterations; level 0 is the head itself.
 struct LevelBasis {
-  std::uint64_t max_level = 1;
+  std::uint64_t max_level = 1;  ///< L_max, the highest level that the basis represents
   /// #nodes by rank, coefficients of the level functions:
   /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the interpolation weights of
   /// LevelNodes
   Eigen::MatrixXd function_coefficients;
   LevelFields fields;  ///< the vector fields c_p, with a vector at each vertex of the mesh
-  BasisError error;
+  BasisError error;    ///< measured distances to the exact filter
 
+  /// Number of vector fields c_p.
   Index rank() const { return function_coefficients.cols(); }
 };
 
@@ -36,7 +37,7 @@ struct LevelBasis {
 std::vector<double> level_function_values(const LevelNodes& nodes,
                                           const Eigen::MatrixXd& coefficients, std::uint64_t level);
 
-/// The result of one filter pass over a head.
+/// One head filtered to the levels of all nodes (LevelNodes); the result of filter_nodes.
 struct NodeFields {
   /// For each node n with its level N_n: the displacements S_{N_n} x − x of all vertices by N_n
   /// smoothing iterations, in the filter's row order.
@@ -47,7 +48,7 @@ struct NodeFields {
   RecordedTerms probe_terms;
 };
 
-/// Filters one head to the levels of all nodes in one pass, in single precision.
+/// Smooths one head to the levels of all nodes in one pass of the filter, in single precision.
 NodeFields filter_nodes(const ChebyshevFilter& filter, const LevelNodes& nodes,
                         const Positions& positions);
 

@@ -37,6 +37,7 @@ struct LevelFields {
   std::span<const std::int16_t> quantized_values;
   std::shared_ptr<const void> memory_owner;  ///< keeps the three lists alive
 
+  /// Number of tiles of a mesh with this many vertices.
   static std::size_t tile_count(std::size_t vertices) {
     return (vertices + kTileVertices - 1) / kTileVertices;
   }
@@ -46,14 +47,15 @@ struct LevelFields {
     return {first_field_of_tile[tile + 1] - begin, quantization_steps.data() + begin,
             quantized_values.data() + begin * kTileValues};
   }
+  /// Returns a coordinate (0 to 2) of a field at a vertex, in the unit of the positions.
   double value(Index field, Index vertex, Index coordinate) const;
 };
 
 /// The quantized fields of a sequence of tiles, stored one tile after another.
 struct QuantizedTiles {
-  std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
-  std::vector<float> quantization_steps;    ///< one for each stored field of a tile
-  std::vector<std::int16_t> quantized_values;
+  std::vector<std::uint32_t> field_counts;     ///< number of fields of each tile
+  std::vector<float> quantization_steps;       ///< one for each stored field of a tile
+  std::vector<std::int16_t> quantized_values;  ///< for each stored field, kTileValues integers
 
   /// Quantizes and appends the fields of one tile.
   /// \param values  `count` fields by kTileValues, finite; further values are ignored.

@@ -123,7 +123,7 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
   }
 }
 
-std::vector<double> LevelNodes::weights(std::uint64_t level) const {
+std::vector<double> LevelNodes::interpolation_weights(std::uint64_t level) const {
   require(level <= max_level_, "level ", level, " is above the largest, ", max_level_);
   std::vector<double> result(levels_.size(), 0.0);
   if (level == 0) return result;

@@ -24,24 +24,29 @@ class LevelNodes {
   ///                      limit.
   LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_residual = 2e-4);
 
+  /// L_max, the highest level that the nodes represent.
   std::uint64_t max_level() const { return max_level_; }
   /// The levels N_p of the nodes, ascending; all are in 1 … L_max.
   const std::vector<std::uint64_t>& levels() const { return levels_; }
 
-  /// Returns the weights w_p(L) for all p. If L is a node, its weight is exactly 1 and all other
-  /// weights are exactly 0. If L = 0, all weights are exactly 0.
+  /// Returns the weight w_p(L) of each node p in the interpolation of the level L = `level`. If L
+  /// is the level of a node, this node has exactly the weight 1 and all others have exactly 0. If
+  /// L = 0, all weights are exactly 0.
   /// \throws BrokenPrecondition if level > max_level().
-  std::vector<double> weights(std::uint64_t level) const;
+  std::vector<double> interpolation_weights(std::uint64_t level) const;
 
  private:
   using Spectrum = std::vector<double>;  ///< values of a function of λ at the grid points
   /// The displacement λ^L − 1 after L = `level` iterations, times the grid point's weight.
   Spectrum displacement(std::uint64_t level) const;
+  /// Adds nodes until no residual exceeds `max_residual`. Sets levels_, orthonormal_basis_,
+  /// choice_order_ and triangular_factor_.
+  /// \param candidates  the levels that may become nodes
   void choose_nodes(const std::vector<std::uint64_t>& candidates, double max_residual);
 
-  std::uint64_t max_level_;
+  std::uint64_t max_level_;                         ///< L_max
   std::vector<double> eigenvalues_, grid_weights_;  ///< λ at each grid point, and its weight
-  std::vector<std::uint64_t> levels_;
+  std::vector<std::uint64_t> levels_;               ///< N_p, ascending
   /// Gram-Schmidt basis of the nodes' displacements. Element q belongs to the node that was chosen
   /// as number q. Element q is the component of this node's displacement that is orthogonal to
   /// elements 0 … q − 1, normalized.

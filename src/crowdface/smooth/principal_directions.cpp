@@ -186,7 +186,7 @@ TestedLevels make_tested_levels(const LevelNodes& nodes) {
   const auto count = static_cast<Index>(nodes.levels().size());
   tested.node_weights.resize(static_cast<Index>(tested.levels.size()), count);
   for (std::size_t l = 0; l < tested.levels.size(); ++l) {
-    const std::vector<double> weights = nodes.weights(tested.levels[l]);
+    const std::vector<double> weights = nodes.interpolation_weights(tested.levels[l]);
     for (Index n = 0; n < count; ++n) {
       tested.node_weights(static_cast<Index>(l), n) = weights[static_cast<std::size_t>(n)];
     }

@@ -12,16 +12,17 @@ namespace crowdface {
 /// are: 129 levels evenly spaced in √L, the successor of each of these levels (so that even and odd
 /// levels occur), and the nodes.
 struct TestedLevels {
-  std::vector<std::uint64_t> levels;
-  Eigen::MatrixXd node_weights;  ///< #levels by #nodes
+  std::vector<std::uint64_t> levels;  ///< the tested levels, ascending
+  Eigen::MatrixXd node_weights;       ///< #levels by #nodes: LevelNodes::interpolation_weights
 };
+/// Makes the list of the tested levels for these nodes.
 TestedLevels make_tested_levels(const LevelNodes& nodes);
 
 /// Displacements of some vertices at the node levels (LevelNodes): coordinate c of vertex v at node
 /// n is displacements[(v·#nodes + n)·3 + c].
 struct NodeDisplacements {
   Index node_count = 0;
-  std::vector<double> displacements;
+  std::vector<double> displacements;  ///< #vertices by #nodes by 3
   Index vertex_count() const { return static_cast<Index>(displacements.size()) / (3 * node_count); }
 };
 
@@ -36,8 +37,8 @@ struct PrincipalDirections {
   /// d_n holds the displacements of all vertices at the smoothing level of node n.
   Eigen::MatrixXd field_coefficients;
   Eigen::MatrixXd level_functions;  ///< #levels by #nodes: φ_p at the tested levels
-  /// #levels by #nodes + 1: largest error over the sampled vertices if only the first 0, 1, …
-  /// directions are used.
+  /// #levels by (#nodes + 1): entry (l, r) is the largest error of any sampled vertex at the tested
+  /// level l if only the first r directions are used
   Eigen::MatrixXd max_errors;
   Index rank = 0;  ///< smallest number of leading directions that together meet the tolerance
 };

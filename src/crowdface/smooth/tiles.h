@@ -36,6 +36,7 @@ struct Tile {
   /// neighbour lists (local rows), each in the operator's order
   std::vector<std::uint32_t> neighbours;
 
+  /// Number of local rows: own rows and halo.
   std::uint32_t local_count() const { return row_count + static_cast<std::uint32_t>(halo.size()); }
 };
 

@@ -24,6 +24,7 @@ const std::vector<TraitLandmark>& trait_landmarks();
 
 /// A measurement of a human face.
 struct Measurement {
+  /// What is measured.
   enum class Kind {
     kDistance,  ///< distance between two landmarks, in millimetres
     /// angle at the second of three landmarks, between the directions to the first and the third,
@@ -37,7 +38,7 @@ struct Measurement {
   std::string_view name;    ///< key in configs, such as "nose_width"
   std::string_view symbol;  ///< the landmarks' symbols, such as "al-al"
   Kind kind;
-  std::string_view definition;
+  std::string_view definition;  ///< description for the user
   /// The landmarks for each side of the face, as indices into trait_landmarks(). If the measurement
   /// needs two landmarks, the third index repeats the second. Measurements taken on the left and on
   /// the right have two entries; their value is the mean of both. Other measurements have one

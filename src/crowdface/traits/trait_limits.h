@@ -24,7 +24,7 @@ struct TraitBound {
 /// but reports then include the measurement.
 struct TraitLimit {
   std::size_t trait = 0;  ///< the measurement, as an index into measurements()
-  std::optional<TraitBound> at_least = {}, at_most = {};
+  std::optional<TraitBound> at_least = {}, at_most = {};  ///< nothing: no such bound
   bool operator==(const TraitLimit&) const = default;
 };
 /// Limits sorted by trait, with at most one limit for each trait.
@@ -32,8 +32,8 @@ using TraitLimits = std::vector<TraitLimit>;
 
 /// The normal distribution of one measurement, as a table gives it.
 struct TraitTarget {
-  std::size_t trait = 0;
-  double mean = 0, deviation = 0;
+  std::size_t trait = 0;           ///< the measurement, as an index into measurements()
+  double mean = 0, deviation = 0;  ///< standard deviation; both in the measurement's unit
   bool operator==(const TraitTarget&) const = default;
 };
 
@@ -51,6 +51,7 @@ class TraitDistributions {
   explicit TraitDistributions(const std::vector<std::vector<std::optional<double>>>& heads,
                               std::vector<TraitTarget> table = {});
 
+  /// Returns whether the value of the measurement is known for at least one head.
   bool is_available(std::size_t trait) const { return !sorted_values_[trait].empty(); }
   /// Returns the values of the heads, ascending.
   ///
@@ -62,18 +63,21 @@ class TraitDistributions {
   /// table's normal distribution (normal_quantile). Otherwise the quantile is interpolated linearly
   /// between the values of the heads: 0 gives the smallest value, 1 the largest value.
   double quantile(std::size_t trait, double fraction) const;
+  /// Returns the value of a bound in the measurement's unit: converts a quantile to a value.
   double bound_value(std::size_t trait, const TraitBound& bound) const {
     return bound.is_quantile ? quantile(trait, bound.value) : bound.value;
   }
+  /// Returns the mean of the trait over the heads.
   double mean(std::size_t trait) const;
   /// Returns the standard deviation of the trait over the heads; 0 if there is only one head.
   double deviation(std::size_t trait) const;
+  /// Returns whether the value of a face's measurement lies within the limit.
   bool meets(const TraitLimit& limit, double value) const;
 
  private:
   /// #measurements: for each measurement, the values of the heads, ascending
   std::vector<std::vector<double>> sorted_values_;
-  /// normal distributions that replace those of the heads
+  /// the table's normal distributions, which replace the heads' distributions of some measurements
   std::vector<TraitTarget> target_distributions_;
 };
 

@@ -14,7 +14,7 @@ namespace crowdface {
 /// An axis-aligned box in single precision. The coordinates are rounded outwards, so that the box
 /// contains the exact box.
 struct Box {
-  std::array<float, 3> low, high;
+  std::array<float, 3> low, high;  ///< smallest and largest coordinates
 };
 
 /// Returns whether two boxes overlap.
@@ -37,6 +37,7 @@ struct LeafCorners {
 /// other boxes are empty and overlap no box.
 struct LeafBoxes {
   static constexpr std::size_t kMaxTriangles = LeafCorners::kMaxTriangles;
+  /// smallest and largest coordinates of each box, as [axis][triangle]
   std::array<std::array<float, kMaxTriangles>, 3> low, high;
 
   LeafBoxes() = default;

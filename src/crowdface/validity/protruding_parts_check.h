@@ -27,8 +27,8 @@ class ProtrudingPartsCheck {
   /// first the triangles of the skin, then the triangles of the parts
   std::vector<Triangle> triangles_;
   std::uint32_t skin_count_ = 0;  ///< number of triangles of the skin
-  TriangleTree tree_;
-  ViewSetup view_setup_;
+  TriangleTree tree_;             ///< of `triangles_`
+  ViewSetup view_setup_;          ///< viewers that may see the parts
 };
 
 }  // namespace crowdface

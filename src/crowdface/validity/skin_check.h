@@ -10,12 +10,12 @@
 
 namespace crowdface {
 
-/// The directions from which the visible area of the skin's back side is measured, and the length
-/// of one unit of the positions.
+/// The viewers for which visible areas of a face are measured, and the length of one unit of the
+/// positions.
 struct ViewSetup {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;
-  double mm_per_unit = 1;
+  double mm_per_unit = 1;  ///< millimetres per unit of the positions
 };
 
 /// Defects of a face's skin compared with its target's skin.
@@ -57,21 +57,24 @@ class SkinCheck {
   std::uint64_t comparison_memory_bytes() const;
 
  private:
+  /// The data of a target with which faces are compared.
   struct Target {
-    TargetTriangles triangles;
-    NewIntersections intersections;
+    TargetTriangles triangles;       ///< the target's triangles, to measure local defects of faces
+    NewIntersections intersections;  ///< knows the target's own intersections
     /// visible area of the back side of the target's skin, in the square of the positions' unit
     double exposed_back_area;
   };
+  /// Returns the data of the target that has these positions.
   Target prepared_target(const Positions& positions) const;
+  /// Compares a face with a prepared target.
   SkinDefects compare(const Positions& positions, const Target& target) const;
 
   /// the skin's triangles, oriented so that their normals point outwards
   std::vector<Triangle> triangles_;
-  TriangleTree tree_;
-  VertexFaces triangles_at_vertex_;
-  ViewSetup view_setup_;
-  std::map<Index, Target> targets_;
+  TriangleTree tree_;                ///< of `triangles_`
+  VertexFaces triangles_at_vertex_;  ///< for each vertex, indices into `triangles_`
+  ViewSetup view_setup_;             ///< viewers that may see the skin's back side
+  std::map<Index, Target> targets_;  ///< by index of the target head
 };
 
 }  // namespace crowdface

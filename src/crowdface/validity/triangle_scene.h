@@ -49,6 +49,7 @@ class TriangleScene {
                              std::uint32_t start, std::uint32_t guess) const;
 
  private:
+  /// Two nodes of the tree, as indices into its `nodes`; both may be the same node.
   struct NodePair {
     std::uint32_t a, b;
   };
@@ -56,6 +57,7 @@ class TriangleScene {
   bool are_leaves(const NodePair& pair) const {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
+  /// Adds to `into` the pairs of children of the two nodes whose boxes overlap.
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
   /// Returns pairs of nodes, one for each parallel task. Together, the subtrees of the pairs
   /// contain all pairs of leaves that overlap.
@@ -63,6 +65,7 @@ class TriangleScene {
   /// Calls use(one, other) for each pair of leaves below the nodes `from` whose boxes overlap.
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
+  /// Returns the pairs of near_pairs() for which keep(pair) is true, ascending.
   template <class Keep>
   std::vector<TrianglePair> filtered_pairs(const Keep& keep) const;
   /// Compares the triangles of one leaf with the triangles of another leaf. Appends to `found` the
@@ -77,8 +80,8 @@ class TriangleScene {
   const std::vector<Triangle>& triangles_;
   const TriangleTree& tree_;
   const Positions& positions_;
-  std::vector<LeafBoxes> leaves_;
-  std::vector<Box> boxes_;  ///< the bounding box of each node of the tree
+  std::vector<LeafBoxes> leaves_;  ///< for each leaf of the tree, the boxes of its triangles
+  std::vector<Box> boxes_;         ///< the bounding box of each node of the tree
 };
 
 }  // namespace crowdface

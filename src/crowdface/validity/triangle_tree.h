@@ -29,6 +29,7 @@ struct TriangleTree : MedianSplitTree {
                double normal_offset = 0);
 
   std::size_t leaf_count() const { return corners.size(); }
+  /// Returns the number of a leaf, which is its index into `corners`.
   static std::uint32_t leaf_number(const Node& node) { return node.begin / kLeafSize; }
   /// Returns the indices of the triangles in a leaf.
   std::span<const std::uint32_t> leaf(std::size_t number) const {

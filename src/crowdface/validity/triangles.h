@@ -37,7 +37,7 @@ class TargetTriangles {
   /// A triangle of the target, described by orthonormal coordinates in the triangle's plane: the
   /// corners are (0, 0), (length, 0) and (apex_x, apex_y).
   struct PlanarTriangle {
-    Triangle corners;
+    Triangle corners;        ///< vertex indices
     Eigen::Vector3d normal;  ///< the length of this vector is twice the triangle's area
     double length, apex_x, apex_y;
   };

@@ -35,9 +35,9 @@ struct FittedMesh {
   };
   Topology topology;
   TextureCoordinates uvs;                             ///< #T by 2
-  std::vector<std::array<std::uint32_t, 3>> anchors;  ///< three base-mesh vertices per vertex
-  Positions weights;              ///< #V by 3, one weight for each anchor of a vertex
-  Positions offsets;              ///< #V by 3, decimetres
+  std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V: three vertices of the base mesh
+  Positions weights;              ///< #V by 3: weights of the three anchors in the mean
+  Positions offsets;              ///< #V by 3, decimetres: added to the mean of the anchors
   std::vector<Picture> pictures;  ///< one for each alternative material
   AssetLicence licence;
 
