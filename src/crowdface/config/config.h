@@ -101,6 +101,7 @@ enum class SheetLabel {
 };
 /// The order of the faces on contact sheets. With kLikeness, similar faces are side by side.
 enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
+/// A file format of contact sheets.
 enum class SheetFormat { kPng, kExr, kPdf };
 
 /// A config file after reading and checking. Names of heads, regions and bands are replaced by
@@ -130,8 +131,8 @@ struct Config {
     std::vector<std::string> names;            ///< name of each head, made from its file's path
     /// unit of the heads' positions; required in the config, never guessed
     LengthUnit units = LengthUnit::kCentimetre;
-    Axis up = {1, 1};
-    Axis front = {2, 1};
+    Axis up = {1, 1};     ///< direction from chin to crown; the default is +y
+    Axis front = {2, 1};  ///< direction in which the faces look; the default is +z
     Align align = Align::kCheck;
     std::vector<std::vector<std::string>> tags;     ///< for each head, its tags
     std::vector<std::optional<double>> ages_years;  ///< for each head, its age, if it is known
@@ -149,7 +150,7 @@ struct Config {
     double max_size_mm = 240;  ///< largest size (wavelength) of detail that smoothing can remove
     /// largest number of smoothing iterations; if set, max_size_mm has no effect
     std::optional<std::uint64_t> max_iterations;
-    Boundary boundary = Boundary::kFixed;
+    Boundary boundary = Boundary::kFixed;  ///< whether smoothing moves open mesh boundaries
     OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< value of the key `operator`
     LevelRepresentation levels = LevelRepresentation::kBasis;
     /// with `levels: basis`: largest distance between a vertex of a smoothed head and the vertex's
@@ -158,6 +159,7 @@ struct Config {
   } smoothing;
 
   struct Blending {
+    /// how the weights of target and sources are normalised (Eq. 3)
     Normalization normalization = Normalization::kPartition;
     /// how lips and other nearly touching parts of the skin are treated
     ContactHandling contacts = ContactHandling::kAuto;
@@ -167,7 +169,7 @@ struct Config {
   /// group, or as "component N".
   struct Parts {
     bool follow_skin = true;  ///< false with `parts: none`: everything is blended like skin
-    PartShape shape = PartShape::kTarget;
+    PartShape shape = PartShape::kTarget;  ///< where rigid parts get their shape from
     /// Names of the components that are blended (skin), move rigidly (rigid), or have vertices that
     /// follow the skin (bound). crowdface classifies all other components.
     std::vector<std::string> skin, rigid, bound;
@@ -224,8 +226,8 @@ struct Config {
   /// An attachment that a face may wear, such as hair or glasses. Each attachment is a separate
   /// mesh.
   struct Attachment : AttachmentItem {
-    std::filesystem::path file;  ///< OBJ file of the attachment's mesh
-    AttachmentMove moves = AttachmentMove::kBend;
+    std::filesystem::path file;                    ///< OBJ file of the attachment's mesh
+    AttachmentMove moves = AttachmentMove::kBend;  ///< how the attachment follows the skin
   };
   struct Attachments {
     /// The head to which all items were fitted, from the key `fitted_to`. If there is no head, the
@@ -311,9 +313,8 @@ struct Config {
     double scale_mm = 6;  ///< distance that the last colour of the colour scale represents
   };
   struct ContactSheet {
-    int columns = 6;
-    int rows = 4;
-    int cell = 256;  ///< width and height of one view in pixels
+    int columns = 6, rows = 4;  ///< number of faces per row and per column of a page
+    int cell = 256;             ///< width and height of one view in pixels
     std::vector<View> views = {View::kFront};
     std::vector<SheetLabel> labels = {SheetLabel::kId};
     SheetOrder order = SheetOrder::kPlan;
@@ -352,6 +353,7 @@ struct Config {
   /// names of the regions. Users can lock each pair, and a child can inherit each pair from a
   /// parent.
   std::vector<std::string> region_band_names() const;
+  /// Returns the names by which the plan refers to heads, regions, bands, attachments and traits.
   PlanNames plan_names() const;
   /// Returns the measurements that the config mentions, as ascending indices into measurements().
   std::vector<std::size_t> named_traits() const;

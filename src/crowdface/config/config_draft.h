@@ -14,6 +14,7 @@ namespace crowdface {
 /// A config of which some sections have been read. Sections are read in the order of root_keys, and
 /// each section may use the values of earlier sections.
 struct ConfigDraft {
+  /// \param out  becomes `complaints`; must outlive this object.
   explicit ConfigDraft(Complaints& out);
 
   Config config;

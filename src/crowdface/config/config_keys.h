@@ -29,9 +29,9 @@ struct StarterLines {
 /// not contain the key, the function returns nothing.
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
-/// One row, which describes one key, of the tables in docs/config.md.
+/// A row of a table in docs/config.md. The row describes one key.
 struct KeyRow {
-  std::string section, key;
+  std::string section, key;     ///< path of the section that contains the key, name of the key
   std::string accepted_values;  ///< the values that the key accepts
   std::string default_value;    ///< the default value, or "required"; empty if the key has neither
   bool affects_recipes = true;  ///< see Key::affects_recipes
@@ -128,8 +128,8 @@ std::vector<std::string> names_of(const Keys<Section>& keys) {
   return texts_of(keys, [](const Key<Section>& key) { return key.name; });
 }
 
-/// Returns the lines of `comment_above`, then "key: value   # comment_beside". A line break
-/// precedes each line.
+/// Returns the text of one key in a starter config: the lines of `comment_above`, then
+/// "key: value   # comment_beside". A line break precedes each line.
 std::string starter_lines(std::string_view key, const StarterLines& lines);
 
 /// Reads a mapping with these keys into the section.
@@ -220,9 +220,12 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   return text;
 }
 
-/// Returns a function that writes a section with these keys into a starter config.
+/// Returns the Starter of a section: of a key whose value is a mapping with these keys. The value
+/// that the Starter gives to the section consists of the starter lines of `keys`. If no key has
+/// starter lines, the starter config does not contain the section.
 ///
-/// \param keys  must outlive the returned function.
+/// \param keys           must outlive the returned function.
+/// \param comment_above  comment on the lines before the section; empty: none.
 template <class Section>
 Starter starter_section(const Keys<Section>& keys, const std::string& comment_above = {}) {
   return [=, &keys](const StarterFacts& facts) -> std::optional<StarterLines> {
@@ -291,6 +294,7 @@ Key<Section> section_key(std::string_view name, Member Section::*member, const K
           }};
 }
 
+/// Makes a key whose value is one of the words of the enumeration `Value` (see words_of).
 template <class Section, class Value>
 Key<Section> word_key(std::string_view name, Value Section::*member,
                       std::string_view required_example = {}) {

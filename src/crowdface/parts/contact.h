@@ -31,7 +31,7 @@ class PartContact {
 
   /// The height of a vertex of the part above the skin of a head.
   struct Height {
-    double height = 0;        ///< signed distance from the skin; negative: inside
+    double height = 0;        ///< signed distance from the skin; negative: inside the skin
     Eigen::Vector3d outward;  ///< outward unit normal of the skin
   };
   /// Returns the height of a point of the part above the nearest skin.
@@ -77,8 +77,10 @@ class PartContact {
     double height_margin;
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
+  /// Sets Pair::search_starts of all pairs.
   void find_search_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                           const std::vector<Head>& heads);
+  /// Orders the pairs by cluster, and sets `clusters_`.
   void find_clusters(const Positions& positions, const std::vector<Head>& heads);
   /// Returns the height of `point` above the plane of the pair's triangle.
   double approximate_height(const Pair& pair, const Eigen::Vector3d& point,

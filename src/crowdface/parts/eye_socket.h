@@ -59,6 +59,7 @@ class EyeSocket {
   /// \param scaled_motion  Result of `fit`, scaled to the wanted size.
   RigidMotion fit_translation(std::size_t target, const RigidMotion& skin_motion,
                               const RigidMotion& scaled_motion, const Positions& face) const;
+  /// Returns the centre of the eyeball in the head with the index `target`.
   Eigen::Vector3d centre(std::size_t target) const { return ball_radii_[target].centre(); }
 
  private:

@@ -179,7 +179,7 @@ PartFollower::PartFollower(const HeadSet& heads, const PartList& parts, const He
   state->anchors = Anchors(heads.topology, state->around, mean, skin.grid, std::move(bound));
   state->offsets.resize(heads.heads.size());
   parallel_for_each(heads.heads.size(), [&](std::size_t i) {
-    state->offsets[i] = state->anchors.offsets(heads.heads[i].positions);
+    state->offsets[i] = state->anchors.measure_offsets(heads.heads[i].positions);
   });
   state_ = std::move(state);
 }

@@ -121,7 +121,7 @@ class Clearance {
 
   std::vector<EdgePoint> points_;    ///< points of the low profile, then of the high profile
   std::vector<Segment> low_, high_;  ///< segments of the two profiles
-  Eigen::Vector3d up_, inward_;
+  Eigen::Vector3d up_, inward_;      ///< directions of the section, see GapSection
 };
 
 }  // namespace crowdface

@@ -39,6 +39,7 @@ class SkinContacts {
   /// Returns the vertices that fit_gaps may move.
   std::vector<std::uint32_t> movable_vertices() const;
 
+  /// The allowed range of a gap, in the heads' unit.
   struct Range {
     double min, max;
   };

@@ -116,11 +116,11 @@ class CrowdRenders {
 
   PicturedMesh mesh_;
   const FaceTextures* textures_;
-  std::vector<Camera> cameras_;
+  std::vector<Camera> cameras_;  ///< one per view
   FaceRenderer renderer_;
   const Inputs& inputs_;
   bool shows_textures_;
-  int max_texels_;
+  int max_texels_;  ///< largest width and height of a texture in rendered images
   AttachmentSurfaces attachment_surfaces_;
   const GalleryMeshes* gallery_ = nullptr;
 };

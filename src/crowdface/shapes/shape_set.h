@@ -45,7 +45,9 @@ std::size_t own_shape_bytes(const ShapeSet& shapes);
 /// \param extent  Diagonal of the skin's bounding box.
 Shape make_shape(std::string name, const Positions& neutral, const Positions& mesh, double extent);
 
+/// Stores the displacements of one head's own version of an expression in single precision.
 OwnShape make_own_shape(const Displacements& moves);
+/// Inverse of make_own_shape.
 Displacements displacements_of(const OwnShape& shape);
 
 /// Returns the mean, over all heads, of one shape's displacements. The result contains every vertex
