@@ -74,7 +74,8 @@ std::string objection_to_array(const fs::path& file) {
 /// Returns a message that names the files that may contain a mesh but are not in `heads`, with the
 /// reasons. Empty if there are no such files.
 /// \param where  the folder or the pattern, for the message.
-/// \param to_read_all  advice on how to read all heads; used if a file not in `heads` may be a head.
+/// \param to_read_all  advice on how to read all heads; used if a file not in `heads` may be a
+/// head.
 std::string left_out_message(const std::string& where, const std::vector<fs::path>& files,
                              const std::vector<fs::path>& heads, const std::string& to_read_all) {
   const bool are_arrays = !heads.empty() && lower_case(heads[0].extension().string()) == ".npy";

@@ -41,8 +41,8 @@ std::size_t other_blank_length(std::string_view text) {
 }
 
 /// Returns the offset of the first blank that is not a space (see other_blank_length) but stands
-/// where YAML needs a space: at the start or the end of a line, or beside ':'. Returns npos if there
-/// is none. Ignores comments and quoted text. Inside names, such blanks are allowed.
+/// where YAML needs a space: at the start or the end of a line, or beside ':'. Returns npos if
+/// there is none. Ignores comments and quoted text. Inside names, such blanks are allowed.
 std::size_t find_other_blank(std::string_view line) {
   char quote = '\0';
   bool is_after_space = true, needs_space = true;

@@ -176,9 +176,9 @@ constexpr double kMaxSlitMm = 11;
 /// Heights on the mean face, relative to the eyes: of the bridge of the nose and of its tip, which
 /// is below the eyes.
 constexpr double kBridgeMm = 5, kTipMm = -34;
-/// The bridge of the nose is searched from kBridgeSearchMm below to kBridgeSearchMm above its height
-/// on the mean face; kTipSearchMm is the same for the tip of the nose. kMouthSpreadMm: unit of the
-/// distance in the mouth's height penalty, see mouth_and_chin.
+/// The bridge of the nose is searched from kBridgeSearchMm below to kBridgeSearchMm above its
+/// height on the mean face; kTipSearchMm is the same for the tip of the nose. kMouthSpreadMm: unit
+/// of the distance in the mouth's height penalty, see mouth_and_chin.
 constexpr double kBridgeSearchMm = 10, kTipSearchMm = 14, kMouthSpreadMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.

@@ -27,8 +27,8 @@ class Anchors {
   Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
           const PointGrid& skin, std::vector<std::uint32_t> vertices_to_bind);
 
-  /// Measures, for each bound vertex of a head, the offset of the vertex from its anchor point on the
-  /// skin, in the coordinate frame that rotates with this skin.
+  /// Measures, for each bound vertex of a head, the offset of the vertex from its anchor point on
+  /// the skin, in the coordinate frame that rotates with this skin.
   std::vector<Eigen::Vector3d> measure_offsets(const Positions& head) const;
   /// Places each bound vertex of `result` at the given offset in the vertex's coordinate frame on
   /// `result`. Where the surrounding skin has not moved, a vertex keeps exactly its position on

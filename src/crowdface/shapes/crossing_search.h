@@ -63,8 +63,8 @@ class CrossingSearch {
     /// pairs of triangles that are a few edges apart, tested only if their normals differ
     std::uint64_t tested_if_normals_differ_mask;
   };
-  /// Sets `leaf_pairs_`. The parameters are those of the constructor, except that `triangles` refers
-  /// to rows of `points`, the positions of `vertices_`.
+  /// Sets `leaf_pairs_`. The parameters are those of the constructor, except that `triangles`
+  /// refers to rows of `points`, the positions of `vertices_`.
   void find_leaf_pairs(const std::vector<Triangle>& triangles, const Positions& points,
                        double max_distance, double max_facing_distance);
   /// Computes the boxes and normals of one leaf from `boxes.points`.

@@ -149,8 +149,8 @@ struct PreparedShapes {
   /// \param ball  Shape of the eyeball on the mean head.
   /// \param mean  The mean head.
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
-  /// Looks up the region weights of skin and parts. Masks do not cover lashes and eyeballs, so these
-  /// get the weights of the nearest skin.
+  /// Looks up the region weights of skin and parts. Masks do not cover lashes and eyeballs, so
+  /// these get the weights of the nearest skin.
   void look_up_regions(const RegionWeights& regions);
   /// Fills all members of `prepared` except those that add_shape_sets measures.
   /// \param moves  Displacements of the shape.
