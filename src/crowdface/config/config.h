@@ -151,8 +151,8 @@ struct Config {
     /// largest number of smoothing iterations; if set, max_size_mm has no effect
     std::optional<std::uint64_t> max_iterations;
     Boundary boundary = Boundary::kFixed;  ///< whether smoothing moves open mesh boundaries
-    OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< value of the key `operator`
-    LevelRepresentation levels = LevelRepresentation::kBasis;
+    OperatorKind operator_kind = OperatorKind::kUmbrella;      ///< value of the key `operator`
+    LevelRepresentation levels = LevelRepresentation::kBasis;  ///< how smoothed heads are stored
     /// with `levels: basis`: largest distance between a vertex of a smoothed head and the vertex's
     /// approximation by displacement fields
     double tolerance_mm = 0.05;
@@ -219,6 +219,7 @@ struct Config {
     bool show_body = false;   ///< whether pictures show the body
     bool write_body = false;  ///< whether GLB and USD files contain the body
 
+    /// Returns whether all faces get the same neck ring.
     bool is_set() const { return !body.empty() || neck_head || uses_mean_neck; }
     bool needs_body_mesh() const { return !body_texture.empty() || show_body || write_body; }
   } neck;
@@ -245,7 +246,7 @@ struct Config {
   } attachments;
 
   struct Textures {
-    TextureBlend blend = TextureBlend::kAuto;
+    TextureBlend blend = TextureBlend::kAuto;  ///< which textures a new face gets
     /// number of texels of a texture's longer side; none: the size of the largest texture of
     /// any head
     std::optional<std::uint64_t> size;
@@ -257,7 +258,7 @@ struct Config {
   } textures;
 
   struct Plane {
-    Layout layout = Layout::kCircle;
+    Layout layout = Layout::kCircle;  ///< how the heads' anchors are placed on the weight plane
     /// anchors by head, which replace the anchors of the layout; with kManual, every head needs an
     /// anchor
     std::map<Eigen::Index, PlanePoint> anchors;
@@ -267,7 +268,7 @@ struct Config {
 
   /// Which vertices count when the distance between two faces is measured.
   struct Distance {
-    ComparedArea area = ComparedArea::kFront;
+    ComparedArea area = ComparedArea::kFront;  ///< part of the skin that counts
     /// path of a mask file: an image (the path may contain <UDIM>) or a table of vertex weights;
     /// the first channel gives the weight of each vertex
     std::optional<std::string> mask;
@@ -291,7 +292,7 @@ struct Config {
   TraitTable quantile_table;
 
   struct Reviews {
-    std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> files;  ///< the review files
     /// the text of each file; the keys `count` and `min_distance` are added if they are missing and
     /// their values are known
     std::vector<std::string> texts;
@@ -307,6 +308,7 @@ struct Config {
   /// The mesh with which each face is compared, vertex by vertex: the face's target (kTarget), the
   /// nearest face of the crowd (kNearest), or `file`. A colour map shows the distances.
   struct MeshComparison {
+    /// kNothing: faces are not compared; kFile: `file`; for the other values see above
     enum class Reference { kNothing, kTarget, kNearest, kFile } reference = Reference::kNothing;
     /// a mesh, or the folder of another crowd whose faces have the same ids
     std::filesystem::path file;
@@ -318,7 +320,7 @@ struct Config {
     std::vector<View> views = {View::kFront};
     std::vector<SheetLabel> labels = {SheetLabel::kId};
     SheetOrder order = SheetOrder::kPlan;
-    MeshComparison compare;
+    MeshComparison compare;  ///< mesh from which the sheet shows each face's distances
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
     /// number of faces whose expressions (blend shapes) are shown on separate pages
     int face_count_on_shape_pages = 0;
@@ -329,7 +331,7 @@ struct Config {
     CellSize plain_cell_size() const;
   };
   struct Output {
-    std::filesystem::path directory;
+    std::filesystem::path directory;  ///< the crowd's folder
     /// mesh formats to write, without duplicates; may be empty
     std::vector<MeshFormat> meshes = {MeshFormat::kObj};
     /// for each level of detail: percentage of the mesh's triangles that the level keeps;

@@ -17,8 +17,8 @@ struct ConfigDraft {
   /// \param out  becomes `complaints`; must outlive this object.
   explicit ConfigDraft(Complaints& out);
 
-  Config config;
-  Complaints& complaints;
+  Config config;                 ///< contains the sections read so far
+  Complaints& complaints;        ///< receives every complaint about the config
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
   std::vector<std::filesystem::path> stored_reviews;  ///< see ConfigOverrides
   std::optional<std::uint64_t> former_face_count;     ///< see ConfigOverrides

@@ -39,6 +39,7 @@ struct KeyRow {
 
 template <class Section>
 struct Key;
+/// Returns the documentation rows of these keys (defined below).
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);
@@ -67,14 +68,17 @@ struct Key {
   /// false: no recipe depends on the value or on the files that the value names
   bool affects_recipes = true;
 
+  /// Returns a copy of this key with this function `make_starter_lines`.
   Key with_starter_lines(const Starter& make_lines) const {
     Key key = *this;
     key.make_starter_lines = make_lines;
     return key;
   }
+  /// Returns a copy of this key that always has these lines in a starter config.
   Key with_starter_lines(const StarterLines& lines) const {
     return with_starter_lines([=](const StarterFacts&) { return lines; });
   }
+  /// Returns a copy of this key with this text in docs/config.md.
   Key with_accepted_values(const std::string& values) const {
     Key key = *this;
     key.accepted_values = values;
@@ -308,6 +312,7 @@ const Keys<Config::Distance>& distance_keys();
 const Keys<DiversityOptions>& diversity_keys();
 const Keys<SamplingOptions>& sampling_keys();
 const Keys<Config::Output>& output_keys();
+/// This function and the following functions make the top-level keys whose values are sections.
 Key<Config> faces_key();
 Key<Config> regions_key();
 Key<Config> shapes_key();
@@ -367,6 +372,7 @@ Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
 }
 /// Reads the value of the key `review`, and the review files that this value names.
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
+/// Writes the value of the key `review`: the list of the review files.
 std::string write_review(const Config& config, const WriteContext& context);
 
 }  // namespace crowdface

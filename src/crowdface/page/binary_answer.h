@@ -32,6 +32,7 @@ class BinaryAnswer {
   std::string bytes() const;
 
  private:
+  /// Returns the name of an element type, as the JSON key `arrays` contains it.
   template <class T>
   static constexpr std::string_view element_type_name() {
     if constexpr (std::is_same_v<T, float>) return "f32";

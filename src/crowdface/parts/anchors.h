@@ -86,6 +86,7 @@ class PartWeights {
                        Positions& result) const;
 
  private:
+  /// The weight of a rigid part's motion at a bound vertex.
   struct PartWeight {
     std::uint32_t vertex, part;  ///< a bound vertex, and the index of a rigid part
     /// weight of the part's motion at the vertex; the weights of a vertex sum to at most one

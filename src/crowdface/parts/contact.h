@@ -59,6 +59,7 @@ class PartContact {
   /// largest number of start vertices of one search for the nearest skin
   static constexpr std::size_t kMaxSearchStarts = 3;
   using SearchStarts = std::array<std::uint32_t, kMaxSearchStarts>;
+  /// A vertex of the part, and a triangle of the skin near this vertex.
   struct Pair {
     std::uint32_t vertex;  ///< vertex of the part
     Triangle corners;      ///< triangle of the skin
@@ -72,9 +73,10 @@ class PartContact {
   /// Pairs that are close together. The height of the middle pair, minus `height_margin`, is a
   /// lower bound for the heights of all pairs of the cluster.
   struct Cluster {
-    std::size_t begin, end;  ///< range of `pairs_`
+    std::size_t begin, end;  ///< the cluster consists of `pairs_[begin]` to `pairs_[end - 1]`
     /// estimated upper bound of the height of the middle pair minus the height of any other pair
     double height_margin;
+    /// Returns the index of the middle pair.
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
   /// Sets Pair::search_starts of all pairs.

@@ -65,6 +65,7 @@ class EyeSocket {
  private:
   /// Whether the optimisation may change the size of the eyeball.
   enum class SizeMode { kFree, kKept };
+  /// A lid vertex on a face.
   struct LidPoint {
     Eigen::Vector3d point;  ///< position on the face
     std::uint32_t index;    ///< index into `Lids::vertices`

@@ -52,7 +52,7 @@ class MirroredWalk {
   /// Corresponding edges of two mirrored polygons: `here` on the first side, `there` on the second
   /// side.
   struct FacePair {
-    FaceEdge here, there;
+    FaceEdge here, there;  ///< on the first side, and on the second side
   };
 
   /// Returns the polygon that contains the directed edge, if there is one.

@@ -60,7 +60,7 @@ class SkinContacts {
   /// Derivatives of the heights and depths of a group's profile points with respect to the
   /// amplitude of one section. The points have the same order as in Profiles.
   struct PointMotions {
-    std::vector<double> heights, depths;
+    std::vector<double> heights, depths;  ///< one derivative per profile point
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {
@@ -77,7 +77,7 @@ class SkinContacts {
     /// coordinates of all points: first the points of the group's first section, then the points of
     /// its second section, and so on
     std::vector<double> heights, depths;
-    std::vector<std::size_t> begins;  ///< index of each section's first point
+    std::vector<std::size_t> begins;  ///< for each section: index of its first point
     /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposite_pairs;
 
@@ -106,7 +106,7 @@ class SkinContacts {
   /// kernel.
   struct AmplitudeChange {
     std::size_t section;  ///< index within the group
-    double amount;
+    double amount;        ///< number to add to the amplitude
   };
   /// Finds the amplitude of each section's kernel (see KernelValue) such that the gaps of the
   /// displaced skin are in their ranges; skin_contacts.cpp explains the method. Updates the heights

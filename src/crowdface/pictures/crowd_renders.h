@@ -30,7 +30,7 @@ struct PicturedCrowd {
   const Inputs& inputs;
   const CrowdDirectory& directory;
   const CrowdRenders& renders;
-  const FaceShapes& shapes;
+  const FaceShapes& shapes;  ///< expressions of the faces
   const std::vector<FacePlan>& faces;
   const Likeness& likeness;
 };
@@ -122,7 +122,7 @@ class CrowdRenders {
   bool shows_textures_;
   int max_texels_;  ///< largest width and height of a texture in rendered images
   AttachmentSurfaces attachment_surfaces_;
-  const GalleryMeshes* gallery_ = nullptr;
+  const GalleryMeshes* gallery_ = nullptr;  ///< null: render_files makes no gallery scripts
 };
 
 /// Reads a rendered image from the crowd's folder. \throws MissingInput, InvalidInput.

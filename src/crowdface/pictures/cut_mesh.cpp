@@ -16,7 +16,8 @@ class EdgePoints {
  public:
   explicit EdgePoints(const Rows& rows) : rows_(rows) {}
 
-  /// \return the row of the new point in `all()`.
+  /// Returns the row in `all()` of the point at the fraction `share` of the edge. Adds the point if
+  /// the edge has no point yet.
   std::uint32_t at(std::uint32_t from, std::uint32_t to, double share) {
     if (from > to) {  // both directions of an edge give the same bits
       std::swap(from, to);

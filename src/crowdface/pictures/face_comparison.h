@@ -35,6 +35,8 @@ class FaceComparison {
  private:
   /// Reads the vertex positions of a face from the crowd's folder.
   Positions mesh_of(std::size_t face) const;
+  /// Returns the mesh to compare with a face; nothing if the config compares no faces, or if the
+  /// crowd has only this face.
   std::optional<Positions> compared_mesh(std::size_t face) const;
 
   const PicturedCrowd& crowd_;

@@ -55,6 +55,7 @@ class PicturedMesh {
   VertexColours add_body(const VertexColours& face, const BlendedPicture* body) const;
 
  private:
+  /// The body, joined to the mesh of the face.
   struct Body {
     Topology topology;       ///< polygons of the face, then polygons of the body
     TextureCoordinates uvs;  ///< texture coordinates of the face, then those of the body

@@ -57,6 +57,7 @@ class FrameField {
     /// W of the term R·W
     Eigen::Matrix3d similarity_weight_matrix;
   };
+  /// The weight of a node's map at a vertex.
   struct NodeWeight {
     std::uint32_t node;
     double weight;  ///< the weights of all nodes for one vertex sum to one
@@ -69,7 +70,7 @@ class FrameField {
   static Node node_at(const Positions& neutral, std::span<const std::uint32_t> patch, double radius,
                       std::uint32_t vertex);
 
-  const Positions* neutral_ = nullptr;
+  const Positions* neutral_ = nullptr;  ///< template at rest, #V by 3
   /// vertices of the skin that determine the similarity transform of the whole skin
   std::vector<std::uint32_t> sampled_skin_;
   std::vector<double> equal_weights_;  ///< all 1, one per vertex of sampled_skin_

@@ -135,6 +135,7 @@ class LidClosure {
     double along_opening;  ///< coordinate along EyeAxes::along
     double height;         ///< coordinate along EyeAxes::up
   };
+  /// A vertex of the skin around the eye that the shape moves.
   struct LidVertex {
     std::uint32_t row, vertex;  ///< row in the shape's displacements, and the vertex of this row
     std::uint32_t skin_index;   ///< index into TemplateEye::skin_vertices
