@@ -235,7 +235,8 @@ struct Config {
     /// items were fitted to the mesh `file` (with the heads' topology) or, without `file`, to the
     /// mean of the heads.
     std::optional<Eigen::Index> fitted_head;
-    std::filesystem::path file;  ///< see `fitted_head`; empty: none
+    std::filesystem::path
+        file;  ///< mesh to which all items were fitted, see `fitted_head`; empty: none
     std::vector<Attachment> items;
     /// by kind: fraction of the faces that wear no item of the kind (key `none`)
     std::map<std::string, double> fraction_without_item_by_kind;
@@ -268,7 +269,7 @@ struct Config {
 
   /// Which vertices count when the distance between two faces is measured.
   struct Distance {
-    ComparedArea area = ComparedArea::kFront;  ///< part of the skin that counts
+    ComparedArea area = ComparedArea::kFront;  ///< part of the skin that distances compare
     /// path of a mask file: an image (the path may contain <UDIM>) or a table of vertex weights;
     /// the first channel gives the weight of each vertex
     std::optional<std::string> mask;

@@ -195,7 +195,7 @@ constexpr double kMaxMiddleOffsetMm = 4, kMaxEyeOffsetMm = 20;
 constexpr double kFineMm = 5;      ///< edges up to this length resolve the lips
 constexpr double kMaxEdgeMm = 18;  ///< longer edges do not show a face
 struct MouthAndChin {
-  double mouth = 0, chin = 0;  ///< heights
+  double mouth = 0, chin = 0;  ///< heights of mouth and chin
 };
 
 /// Finds mouth and chin together. The mouth is a hollow of the profile between two convex lips. The

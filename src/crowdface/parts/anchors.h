@@ -39,7 +39,7 @@ class Anchors {
                       Positions& result) const;
 
  private:
-  using Frame = std::array<Eigen::Vector3d, 3>;  ///< orthonormal axes
+  using Frame = std::array<Eigen::Vector3d, 3>;  ///< a coordinate frame: three orthonormal axes
   /// A vertex of the skin around a triangle.
   struct RingVertex {
     std::uint32_t vertex;

@@ -80,8 +80,8 @@ class EyeSocket {
                             SizeMode size_mode, const Positions& face) const;
 
   Lids lids_;
-  std::vector<BallRadii> ball_radii_;       ///< #heads
-  std::vector<std::vector<double>> gaps_;   ///< #heads by #rim vertices
+  std::vector<BallRadii> ball_radii_;       ///< for each head: the radii of its eyeball
+  std::vector<std::vector<double>> gaps_;   ///< for each head: see gaps()
   std::vector<double> smallest_gaps_;       ///< #lid vertices: smallest gap in all heads
   std::vector<std::uint32_t> rim_indices_;  ///< #lid vertices: index in the rim, or kNoIndex
 };

@@ -64,7 +64,8 @@ class SkinContacts {
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {
-    std::size_t begin = 0, end = 0;       ///< range of sections
+    std::size_t begin = 0,
+                end = 0;  ///< the group consists of `sections_[begin]` to `sections_[end - 1]`
     std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
     /// for each vertex: the kernels of the nearby sections, evaluated at the vertex
     CompressedRows<KernelValue> kernels;
@@ -131,7 +132,7 @@ class SkinContacts {
   std::vector<GapSection> sections_;
   std::vector<Clearance> clearances_;  ///< one per section
   std::vector<SectionGroup> section_groups_;
-  std::vector<std::vector<double>> head_gaps_;  ///< #heads by #sections
+  std::vector<std::vector<double>> head_gaps_;  ///< for each head: the gap at each section
 };
 
 }  // namespace crowdface

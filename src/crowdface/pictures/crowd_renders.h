@@ -37,7 +37,7 @@ struct PicturedCrowd {
 
 /// The files made for the pictures of one face, as bytes.
 struct FacePictures {
-  std::string png;                            ///< all views, side by side
+  std::string png;                            ///< PNG file of all views, side by side
   std::optional<std::string> gallery_script;  ///< see GalleryMeshes; empty without a gallery
 };
 

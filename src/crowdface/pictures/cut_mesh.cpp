@@ -29,7 +29,7 @@ class EdgePoints {
     if (is_new) points_.push_back((1 - share) * rows_.row(from) + share * rows_.row(to));
     return found->second;
   }
-  /// The original rows, followed by the new points.
+  /// The constructor's rows, followed by the new points.
   Rows all() const {
     Rows all(rows_.rows() + static_cast<Index>(points_.size()), rows_.cols());
     all.topRows(rows_.rows()) = rows_;

@@ -68,7 +68,7 @@ class LidClosure {
   /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
   /// are known, and divided by the mesh's scale relative to the template.
   struct LidTargets {
-    std::vector<Gap> gaps;  ///< #sections
+    std::vector<Gap> gaps;  ///< one per section
     /// One entry per lid vertex. `ball_distances`: distance from the eyeball with the shape
     /// applied. `distance_changes`: the distance with the shape applied minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;

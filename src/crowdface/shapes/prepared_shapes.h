@@ -26,7 +26,7 @@ namespace crowdface {
 struct PreparedEye {
   std::size_t part;  ///< index into the rigid parts
   TemplateEye template_eye;
-  std::vector<BallRadii> balls;  ///< #heads
+  std::vector<BallRadii> balls;  ///< for each head: the radii of its eyeball
 };
 
 /// How a shape moves one rigid part.
@@ -78,7 +78,7 @@ struct PreparedShape {
   /// all heads use one set
   std::vector<FloatPositions> head_moves;
   std::vector<PreparedPart> parts;
-  std::vector<PreparedLids> lids;  ///< #eyes
+  std::vector<PreparedLids> lids;  ///< one per eye
   std::vector<LidFollower> lid_followers;
   SkinOverParts skin_over_parts;
   SkinCrossings::SearchedSkin searched_skin;
@@ -111,7 +111,7 @@ struct PreparedShapes {
   RegionWeights::Alpha vertex_region_weights;
   /// preserves gaps between skin surfaces that almost touch, such as the lips
   GapPreserver gap_preserver;
-  RegionWeights::Alpha contact_region_weights;  ///< #gaps by #regions
+  RegionWeights::Alpha contact_region_weights;  ///< region weights at each gap, #gaps by #regions
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the bounding box of the template's skin
   /// vertex indices of gums and teeth: of all parts except eyeballs, without the vertices near an
