@@ -74,7 +74,7 @@ class PartContact {
   /// lower bound for the heights of all pairs of the cluster.
   struct Cluster {
     std::size_t begin, end;  ///< the cluster consists of `pairs_[begin]` to `pairs_[end - 1]`
-    /// estimated upper bound of the height of the middle pair minus the height of any other pair
+    /// estimated upper bound of the height by which the middle pair is above any other pair
     double height_margin;
     /// Returns the index of the middle pair.
     std::size_t middle() const { return begin + (end - begin) / 2; }

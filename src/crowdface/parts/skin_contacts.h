@@ -87,7 +87,10 @@ class SkinContacts {
     double gap(std::size_t section) const;
   };
 
-  /// Places sections along the gap of one group of facing pairs.
+  /// Adds sections (see GapSection) along the gap of one group of facing pairs.
+  ///
+  /// \param mean    The mean head, #V by 3.
+  /// \param extent  Extent of the whole skin.
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
   /// Computes which vertices move when the gaps of a section group are corrected, and the kernel

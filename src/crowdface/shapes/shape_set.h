@@ -20,7 +20,7 @@ struct Shape {
 /// One head's own version of an expression.
 struct OwnShape {
   std::vector<std::uint32_t> vertices;  ///< indices of the moved vertices, ascending
-  FloatPositions moves;                 ///< displacements of these vertices, #vertices by 3
+  FloatPositions moves;                 ///< displacements of `vertices`, #vertices by 3
 };
 
 /// Expressions in the topology of a crowd's heads: one set for a template, or one set for each

@@ -31,7 +31,7 @@ class SkinCrossings {
 
   /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
   struct SearchedSkin {
-    CrossingSearch search;  ///< search over the triangles of this skin
+    CrossingSearch search;  ///< searches the triangles of the skin that may touch other skin
     /// for each triangle of `search`: whether the triangle is at an intersection that the template,
     /// or a head, already has in this shape. Intersections between two of these triangles are
     /// ignored on faces.
