@@ -235,8 +235,8 @@ struct Config {
     /// items were fitted to the mesh `file` (with the heads' topology) or, without `file`, to the
     /// mean of the heads.
     std::optional<Eigen::Index> fitted_head;
-    std::filesystem::path
-        file;  ///< mesh to which all items were fitted, see `fitted_head`; empty: none
+    /// mesh to which all items were fitted, see `fitted_head`; empty: none
+    std::filesystem::path file;
     std::vector<Attachment> items;
     /// by kind: fraction of the faces that wear no item of the kind (key `none`)
     std::map<std::string, double> fraction_without_item_by_kind;

@@ -26,8 +26,8 @@ struct ConfigDraft {
   std::filesystem::path ignored_reviews_folder;       ///< see ConfigOverrides
   std::vector<std::string> warnings;                  ///< see ConfigReading
   /// Whether the sections for heads, tags, regions and smoothing are valid. A complaint about a
-  /// section sets its flag to false. Values in other sections that refer to it are then not
-  /// checked, so that one mistake gives only one message.
+  /// section sets its flag to false. Values in other sections that refer to this section are then
+  /// not checked, so that one mistake gives only one message.
   bool are_heads_known = false;
   bool are_tags_known = true;
   bool are_regions_known = true;

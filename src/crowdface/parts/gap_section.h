@@ -76,8 +76,8 @@ class Clearance {
     /// Two neighbouring points of the low profile (see GapSection), as indices into the list of all
     /// profile points: first the points of the low profile, then those of the high profile.
     std::array<std::uint32_t, 2> low_indices;
-    std::array<std::uint32_t, 2>
-        high_indices;  ///< two neighbouring points of the high profile, likewise
+    /// two neighbouring points of the high profile, likewise
+    std::array<std::uint32_t, 2> high_indices;
     std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 
     /// Returns the height of the high point above the low point.

@@ -64,8 +64,8 @@ class SkinContacts {
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {
-    std::size_t begin = 0,
-                end = 0;  ///< the group consists of `sections_[begin]` to `sections_[end - 1]`
+    /// the group consists of `sections_[begin]` to `sections_[end - 1]`
+    std::size_t begin = 0, end = 0;
     std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
     /// for each vertex: the kernels of the nearby sections, evaluated at the vertex
     CompressedRows<KernelValue> kernels;

@@ -67,8 +67,8 @@ class PointCarrier {
                                        const PartList& parts, std::span<const std::uint32_t> skin);
 
   const PointSet& points_;
-  std::vector<std::vector<Anchor>>
-      anchors_;  ///< what each point of each mesh follows, #meshes by #names
+  /// what each point of each mesh follows, #meshes by #names
+  std::vector<std::vector<Anchor>> anchors_;
 };
 
 }  // namespace crowdface
