@@ -53,7 +53,7 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   }
 }
 
-/// Makes a key whose value is stored in the base class AttachmentItem.
+/// Makes a key of an attachment. The value is stored in a member of the base class AttachmentItem.
 template <class Member>
 Key<Attachment> of_item(std::string_view name, Member AttachmentItem::*member,
                         const Codec<Member>& codec, std::string_view required = {}) {
@@ -136,8 +136,8 @@ std::vector<std::string> kinds_of(const Attachments& attachments) {
   return kinds;
 }
 
-/// Reads the value of a key `none`: for kinds of attachments, the fraction of the faces that wear no
-/// item of the kind.
+/// Reads the value of a key `none`: for kinds of attachments, the fraction of the faces that wear
+/// no item of the kind.
 void read_fractions_without_item(const YamlNode& node, const Attachments& attachments,
                                  std::map<std::string, double>& fractions, ConfigDraft& draft) {
   draft.complaints.expect_map(node, "a mapping from kinds to shares, {hair: 0.1}");
@@ -238,8 +238,8 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
     scale_quotas(of_kind.first, of_kind.second, attachments, draft);
 }
 
-/// Returns a function that writes a mapping from words to shares. For an empty mapping, it writes
-/// an empty text, so that the key is left out.
+/// Returns a function that writes a mapping from words to shares. For an empty mapping, the
+/// function returns an empty text, so that the key is left out.
 template <class Section>
 auto write_shares(std::map<std::string, double> Section::*shares) {
   return [=](const Section& section, const WriteContext&) {

@@ -213,15 +213,15 @@ std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
     std::size_t heads;  ///< smallest number of heads for which `distance` is proposed
     const char* distance;
   };
-  constexpr std::size_t kEnough = 5;
+  constexpr std::size_t kHeadsFor1Mm = 5;  // smallest number of heads for a distance of 1 mm
   constexpr Proposal kProposals[] = {
-      {8, "1.2 mm"}, {kEnough, "1 mm"}, {4, "0.8 mm"}, {3, "0.5 mm"}};
+      {8, "1.2 mm"}, {kHeadsFor1Mm, "1 mm"}, {4, "0.8 mm"}, {3, "0.5 mm"}};
   const auto* found = std::ranges::find_if(
       kProposals, [&](const Proposal& proposal) { return heads >= proposal.heads; });
   if (found == std::end(kProposals)) return std::nullopt;
   return StarterLines{
       found->distance, "",
-      heads >= kEnough
+      heads >= kHeadsFor1Mm
           ? "No two people come nearer than this to each other: below 1 mm they look like one "
             "person.\nA large crowd needs a smaller distance (crowdface plan --estimate), a group "
             "of "

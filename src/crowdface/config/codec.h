@@ -58,14 +58,14 @@ Codec<double> positive_length(double high_mm);
 Codec<double> nonzero(const Codec<double>& codec, const std::string& expected);
 /// Codec for a range, given as `[low, high]` or as one value, which is then both ends.
 Codec<Range> range(const Codec<double>& value_codec);
-/// Codec for the factor on left-right differences, from 0 to kMaxAsymmetry.
+/// Codec for a range of the factor on a face's left-right differences, from 0 to kMaxAsymmetry.
 Codec<Range> asymmetry();
 /// Codec for an age from −1 (young) to 1 (old), for an age in years ("70 years"), or for a range.
 /// Refuses ages below 0 if no head has the tag `young`, and ages above 0 if no head has the tag
 /// `old`. Refuses an age in years if the age of any head is unknown, or if the age is outside the
 /// range of the heads' ages.
 Codec<AgeRange> age();
-/// Codec for the extrapolation factor e, from −kMaxExtrapolation to kMaxExtrapolation.
+/// Codec for a range of the extrapolation factor e, from −kMaxExtrapolation to kMaxExtrapolation.
 Codec<Range> extrapolation();
 /// Codec for a smoothness, given as a fraction (0 to 1), as a size with a unit, or as a range of
 /// fractions or sizes.

@@ -101,6 +101,7 @@ enum class SheetLabel {
 };
 /// The order of the faces on contact sheets. With kLikeness, similar faces are side by side.
 enum class SheetOrder { kPlan, kFamily, kGroup, kLikeness };
+/// A file format of contact sheets.
 enum class SheetFormat { kPng, kExr, kPdf };
 
 /// A config file after reading and checking. Names of heads, regions and bands are replaced by
@@ -130,8 +131,8 @@ struct Config {
     std::vector<std::string> names;            ///< name of each head, made from its file's path
     /// unit of the heads' positions; required in the config, never guessed
     LengthUnit units = LengthUnit::kCentimetre;
-    Axis up = {1, 1};
-    Axis front = {2, 1};
+    Axis up = {1, 1};     ///< direction from chin to crown; the default is +y
+    Axis front = {2, 1};  ///< direction in which the faces look; the default is +z
     Align align = Align::kCheck;
     std::vector<std::vector<std::string>> tags;     ///< for each head, its tags
     std::vector<std::optional<double>> ages_years;  ///< for each head, its age, if it is known
@@ -149,15 +150,16 @@ struct Config {
     double max_size_mm = 240;  ///< largest size (wavelength) of detail that smoothing can remove
     /// largest number of smoothing iterations; if set, max_size_mm has no effect
     std::optional<std::uint64_t> max_iterations;
-    Boundary boundary = Boundary::kFixed;
-    OperatorKind operator_kind = OperatorKind::kUmbrella;  ///< value of the key `operator`
-    LevelRepresentation levels = LevelRepresentation::kBasis;
+    Boundary boundary = Boundary::kFixed;  ///< whether smoothing moves open mesh boundaries
+    OperatorKind operator_kind = OperatorKind::kUmbrella;      ///< value of the key `operator`
+    LevelRepresentation levels = LevelRepresentation::kBasis;  ///< how smoothed heads are stored
     /// with `levels: basis`: largest distance between a vertex of a smoothed head and the vertex's
     /// approximation by displacement fields
     double tolerance_mm = 0.05;
   } smoothing;
 
   struct Blending {
+    /// how the weights of target and sources are normalised (Eq. 3)
     Normalization normalization = Normalization::kPartition;
     /// how lips and other nearly touching parts of the skin are treated
     ContactHandling contacts = ContactHandling::kAuto;
@@ -167,7 +169,7 @@ struct Config {
   /// group, or as "component N".
   struct Parts {
     bool follow_skin = true;  ///< false with `parts: none`: everything is blended like skin
-    PartShape shape = PartShape::kTarget;
+    PartShape shape = PartShape::kTarget;  ///< where rigid parts get their shape from
     /// Names of the components that are blended (skin), move rigidly (rigid), or have vertices that
     /// follow the skin (bound). crowdface classifies all other components.
     std::vector<std::string> skin, rigid, bound;
@@ -217,6 +219,7 @@ struct Config {
     bool show_body = false;   ///< whether pictures show the body
     bool write_body = false;  ///< whether GLB and USD files contain the body
 
+    /// Returns whether all faces get the same neck ring.
     bool is_set() const { return !body.empty() || neck_head || uses_mean_neck; }
     bool needs_body_mesh() const { return !body_texture.empty() || show_body || write_body; }
   } neck;
@@ -224,15 +227,16 @@ struct Config {
   /// An attachment that a face may wear, such as hair or glasses. Each attachment is a separate
   /// mesh.
   struct Attachment : AttachmentItem {
-    std::filesystem::path file;  ///< OBJ file of the attachment's mesh
-    AttachmentMove moves = AttachmentMove::kBend;
+    std::filesystem::path file;                    ///< OBJ file of the attachment's mesh
+    AttachmentMove moves = AttachmentMove::kBend;  ///< how the attachment follows the skin
   };
   struct Attachments {
     /// The head to which all items were fitted, from the key `fitted_to`. If there is no head, the
     /// items were fitted to the mesh `file` (with the heads' topology) or, without `file`, to the
     /// mean of the heads.
     std::optional<Eigen::Index> fitted_head;
-    std::filesystem::path file;  ///< see `fitted_head`; empty: none
+    /// mesh to which all items were fitted, see `fitted_head`; empty: none
+    std::filesystem::path file;
     std::vector<Attachment> items;
     /// by kind: fraction of the faces that wear no item of the kind (key `none`)
     std::map<std::string, double> fraction_without_item_by_kind;
@@ -243,7 +247,7 @@ struct Config {
   } attachments;
 
   struct Textures {
-    TextureBlend blend = TextureBlend::kAuto;
+    TextureBlend blend = TextureBlend::kAuto;  ///< which textures a new face gets
     /// number of texels of a texture's longer side; none: the size of the largest texture of
     /// any head
     std::optional<std::uint64_t> size;
@@ -255,7 +259,7 @@ struct Config {
   } textures;
 
   struct Plane {
-    Layout layout = Layout::kCircle;
+    Layout layout = Layout::kCircle;  ///< how the heads' anchors are placed on the weight plane
     /// anchors by head, which replace the anchors of the layout; with kManual, every head needs an
     /// anchor
     std::map<Eigen::Index, PlanePoint> anchors;
@@ -265,7 +269,7 @@ struct Config {
 
   /// Which vertices count when the distance between two faces is measured.
   struct Distance {
-    ComparedArea area = ComparedArea::kFront;
+    ComparedArea area = ComparedArea::kFront;  ///< part of the skin that distances compare
     /// path of a mask file: an image (the path may contain <UDIM>) or a table of vertex weights;
     /// the first channel gives the weight of each vertex
     std::optional<std::string> mask;
@@ -289,7 +293,7 @@ struct Config {
   TraitTable quantile_table;
 
   struct Reviews {
-    std::vector<std::filesystem::path> files;
+    std::vector<std::filesystem::path> files;  ///< the review files
     /// the text of each file; the keys `count` and `min_distance` are added if they are missing and
     /// their values are known
     std::vector<std::string> texts;
@@ -305,19 +309,19 @@ struct Config {
   /// The mesh with which each face is compared, vertex by vertex: the face's target (kTarget), the
   /// nearest face of the crowd (kNearest), or `file`. A colour map shows the distances.
   struct MeshComparison {
+    /// kNothing: faces are not compared; kFile: `file`; for the other values see above
     enum class Reference { kNothing, kTarget, kNearest, kFile } reference = Reference::kNothing;
     /// a mesh, or the folder of another crowd whose faces have the same ids
     std::filesystem::path file;
     double scale_mm = 6;  ///< distance that the last colour of the colour scale represents
   };
   struct ContactSheet {
-    int columns = 6;
-    int rows = 4;
-    int cell = 256;  ///< width and height of one view in pixels
+    int columns = 6, rows = 4;  ///< number of faces per row and per column of a page
+    int cell = 256;             ///< width and height of one view in pixels
     std::vector<View> views = {View::kFront};
     std::vector<SheetLabel> labels = {SheetLabel::kId};
     SheetOrder order = SheetOrder::kPlan;
-    MeshComparison compare;
+    MeshComparison compare;  ///< mesh from which the sheet shows each face's distances
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
     /// number of faces whose expressions (blend shapes) are shown on separate pages
     int face_count_on_shape_pages = 0;
@@ -328,7 +332,7 @@ struct Config {
     CellSize plain_cell_size() const;
   };
   struct Output {
-    std::filesystem::path directory;
+    std::filesystem::path directory;  ///< the crowd's folder
     /// mesh formats to write, without duplicates; may be empty
     std::vector<MeshFormat> meshes = {MeshFormat::kObj};
     /// for each level of detail: percentage of the mesh's triangles that the level keeps;
@@ -352,6 +356,7 @@ struct Config {
   /// names of the regions. Users can lock each pair, and a child can inherit each pair from a
   /// parent.
   std::vector<std::string> region_band_names() const;
+  /// Returns the names by which the plan refers to heads, regions, bands, attachments and traits.
   PlanNames plan_names() const;
   /// Returns the measurements that the config mentions, as ascending indices into measurements().
   std::vector<std::size_t> named_traits() const;

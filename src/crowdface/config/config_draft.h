@@ -14,10 +14,11 @@ namespace crowdface {
 /// A config of which some sections have been read. Sections are read in the order of root_keys, and
 /// each section may use the values of earlier sections.
 struct ConfigDraft {
+  /// \param out  becomes `complaints`; must outlive this object.
   explicit ConfigDraft(Complaints& out);
 
-  Config config;
-  Complaints& complaints;
+  Config config;                 ///< contains the sections read so far
+  Complaints& complaints;        ///< receives every complaint about the config
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
   std::vector<std::filesystem::path> stored_reviews;  ///< see ConfigOverrides
   std::optional<std::uint64_t> former_face_count;     ///< see ConfigOverrides
@@ -25,8 +26,8 @@ struct ConfigDraft {
   std::filesystem::path ignored_reviews_folder;       ///< see ConfigOverrides
   std::vector<std::string> warnings;                  ///< see ConfigReading
   /// Whether the sections for heads, tags, regions and smoothing are valid. A complaint about a
-  /// section sets its flag to false. Values in other sections that refer to it are then not
-  /// checked, so that one mistake gives only one message.
+  /// section sets its flag to false. Values in other sections that refer to this section are then
+  /// not checked, so that one mistake gives only one message.
   bool are_heads_known = false;
   bool are_tags_known = true;
   bool are_regions_known = true;

@@ -29,9 +29,9 @@ struct StarterLines {
 /// not contain the key, the function returns nothing.
 using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
-/// One row, which describes one key, of the tables in docs/config.md.
+/// A row of a table in docs/config.md. The row describes one key.
 struct KeyRow {
-  std::string section, key;
+  std::string section, key;     ///< path of the section that contains the key, name of the key
   std::string accepted_values;  ///< the values that the key accepts
   std::string default_value;    ///< the default value, or "required"; empty if the key has neither
   bool affects_recipes = true;  ///< see Key::affects_recipes
@@ -39,6 +39,7 @@ struct KeyRow {
 
 template <class Section>
 struct Key;
+/// Returns the documentation rows of these keys (defined below).
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);
@@ -67,14 +68,17 @@ struct Key {
   /// false: no recipe depends on the value or on the files that the value names
   bool affects_recipes = true;
 
+  /// Returns a copy of this key with this function `make_starter_lines`.
   Key with_starter_lines(const Starter& make_lines) const {
     Key key = *this;
     key.make_starter_lines = make_lines;
     return key;
   }
+  /// Returns a copy of this key that always has these lines in a starter config.
   Key with_starter_lines(const StarterLines& lines) const {
     return with_starter_lines([=](const StarterFacts&) { return lines; });
   }
+  /// Returns a copy of this key with this text in docs/config.md.
   Key with_accepted_values(const std::string& values) const {
     Key key = *this;
     key.accepted_values = values;
@@ -128,8 +132,8 @@ std::vector<std::string> names_of(const Keys<Section>& keys) {
   return texts_of(keys, [](const Key<Section>& key) { return key.name; });
 }
 
-/// Returns the lines of `comment_above`, then "key: value   # comment_beside". A line break
-/// precedes each line.
+/// Returns the text of one key in a starter config: the lines of `comment_above`, then
+/// "key: value   # comment_beside". A line break precedes each line.
 std::string starter_lines(std::string_view key, const StarterLines& lines);
 
 /// Reads a mapping with these keys into the section.
@@ -220,9 +224,12 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   return text;
 }
 
-/// Returns a function that writes a section with these keys into a starter config.
+/// Returns the Starter of a section: of a key whose value is a mapping with these keys. The value
+/// that the Starter gives to the section consists of the starter lines of `keys`. If no key has
+/// starter lines, the starter config does not contain the section.
 ///
-/// \param keys  must outlive the returned function.
+/// \param keys           must outlive the returned function.
+/// \param comment_above  comment on the lines before the section; empty: none.
 template <class Section>
 Starter starter_section(const Keys<Section>& keys, const std::string& comment_above = {}) {
   return [=, &keys](const StarterFacts& facts) -> std::optional<StarterLines> {
@@ -291,6 +298,7 @@ Key<Section> section_key(std::string_view name, Member Section::*member, const K
           }};
 }
 
+/// Makes a key whose value is one of the words of the enumeration `Value` (see words_of).
 template <class Section, class Value>
 Key<Section> word_key(std::string_view name, Value Section::*member,
                       std::string_view required_example = {}) {
@@ -304,6 +312,7 @@ const Keys<Config::Distance>& distance_keys();
 const Keys<DiversityOptions>& diversity_keys();
 const Keys<SamplingOptions>& sampling_keys();
 const Keys<Config::Output>& output_keys();
+/// This function and the following functions make the top-level keys whose values are sections.
 Key<Config> faces_key();
 Key<Config> regions_key();
 Key<Config> shapes_key();
@@ -363,6 +372,7 @@ Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
 }
 /// Reads the value of the key `review`, and the review files that this value names.
 void read_review(const YamlNode& node, Config& config, ConfigDraft& draft);
+/// Writes the value of the key `review`: the list of the review files.
 std::string write_review(const Config& config, const WriteContext& context);
 
 }  // namespace crowdface

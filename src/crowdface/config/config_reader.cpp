@@ -91,7 +91,7 @@ ConfigReading read_parsed(const std::filesystem::path& file, const ConfigOverrid
   complaints.report_to(problems);
   const bool complete = complaints.empty();
   if (complete) {
-    for (std::string& text : overridden_keys(*root, draft.config)) {
+    for (std::string& text : overridden_key_warnings(*root, draft.config)) {
       draft.warnings.push_back(std::move(text));
     }
   }

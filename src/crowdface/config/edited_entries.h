@@ -32,6 +32,10 @@ Review parse_review(std::string_view text, const std::string& source, const Conf
 
 /// Reads the change of a face from YAML (or JSON, which is YAML), such as {age: older}. An empty
 /// mapping gives an empty change.
+///
+/// \param id        the face that the change applies to.
+/// \param problems  receives every problem.
+/// \return nothing if there is a problem.
 std::optional<FaceChange> parse_change(const std::string& id, std::string_view text,
                                        const Config& config, Problems& problems);
 

@@ -76,9 +76,10 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   return Parent{std::nullopt, *name};
 }
 
-/// Returns the parent that the config leaves out: a random head, because heads are not in the
-/// crowd. The head has the parent's sex if any head is tagged with this sex. The head depends only
-/// on the other parent, so two families with the same single parent have the same second parent.
+/// Returns the second parent of a family for which the config names only one parent: a random head,
+/// so that the crowd gets no further face. The head has the parent's sex if any head is tagged with
+/// this sex. The head depends only on the other parent, so two families with the same single parent
+/// have the same second parent.
 std::optional<Parent> absent_parent(std::string_view role, const Parent& other,
                                     const ConfigDraft& draft) {
   const Config::Faces& faces = draft.config.faces;
@@ -90,7 +91,7 @@ std::optional<Parent> absent_parent(std::string_view role, const Parent& other,
   }
   if (heads.size() > 1) std::erase(heads, other.head.value_or(-1));
   if (heads.empty())
-    return std::nullopt;  // the heads are unknown, about which there is a complaint
+    return std::nullopt;  // the list of heads is invalid and already has a complaint
   const Config::Crowd& crowd = draft.config.crowd;
   std::string person = other.id;
   if (person.starts_with(crowd.name + '_')) person.erase(0, crowd.name.size() + 1);

@@ -21,7 +21,8 @@ void read_tags_from_head_folders(Config::Faces& faces, ConfigDraft& draft);
 /// from 55 years on.
 std::string_view age_class(double years);
 
-/// Gives each head whose age is known the tag of its age, unless the head has such a tag.
+/// Gives each head whose age is known the tag of this age (see age_class), unless the head already
+/// has the tag `young`, `adult` or `old`.
 void add_age_tags(Config::Faces& faces);
 
 }  // namespace crowdface

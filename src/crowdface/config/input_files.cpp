@@ -55,8 +55,8 @@ bool may_hold_mesh(const fs::path& path) {
   return endings.contains(lower_case(path.extension().string())) || is_head_file(path);
 }
 
-/// Returns why a file that has the extension of heads is none: a NumPy array with the wrong shape.
-/// Empty for other files.
+/// Returns why a NumPy array cannot be a head: the array has the wrong shape. Returns an empty text
+/// for other files.
 std::string objection_to_array(const fs::path& file) {
   const bool is_array = lower_case(file.extension().string()) == ".npy";
   const auto shape = is_array ? npy_shape(file) : std::nullopt;
@@ -64,17 +64,18 @@ std::string objection_to_array(const fs::path& file) {
   if (shape->size() == 3 && shape->back() == 3 && shape->front() != 1) {
     return concat("it has ", shape->front(), " heads: save each head to its own file");
   }
-  // The reader of an array of 3 by n says that its transpose is needed.
+  // An array of 3 by n has its own message: the code that reads arrays asks for the transpose.
   if (shape->size() >= 2 && (shape->back() == 3 || shape->front() == 3)) return {};
   std::string sizes;
   for (const std::size_t size : *shape) sizes += concat(sizes.empty() ? "" : " by ", size);
   return concat("an array of ", sizes, " is no list of points");
 }
 
-/// Returns a message about files that are not read although they may hold meshes, and why. Empty if
-/// there are no such files.
+/// Returns a message that names the files that may contain a mesh but are not in `heads`, with the
+/// reasons. Empty if there are no such files.
 /// \param where  the folder or the pattern, for the message.
-/// \param to_read_all  advice for the case that other files are heads, too.
+/// \param to_read_all  advice on how to read all heads; used if a file not in `heads` may be a
+/// head.
 std::string left_out_message(const std::string& where, const std::vector<fs::path>& files,
                              const std::vector<fs::path>& heads, const std::string& to_read_all) {
   const bool are_arrays = !heads.empty() && lower_case(heads[0].extension().string()) == ".npy";
@@ -99,7 +100,7 @@ std::string left_out_message(const std::string& where, const std::vector<fs::pat
     others.resize(kNamed);
     others.emplace_back("…");
   }
-  // No pattern reads files of other formats than those of heads.
+  // `to_read_all` proposes a pattern. A pattern does not help if no file has a format of heads.
   return concat(quoted(where), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
                 count, ")",
                 has_heads       ? to_read_all

@@ -110,8 +110,8 @@ class OverriddenKeys {
   void find_heads_without_group_tags(const YamlNode& node, std::size_t g,
                                      const std::vector<std::string>& tags) {
     const SamplingOptions &own = config_.groups[g].sampling, &all = *config_.sampling;
-    const auto take = [&](const std::string& key, const Heads& heads, const char* what,
-                          const std::vector<std::string>& wanted) {
+    const auto report_untagged = [&](const std::string& key, const Heads& heads, const char* what,
+                                     const std::vector<std::string>& wanted) {
       const Heads tagged = heads_with_tags(wanted, config_.faces);
       const auto others =
           std::ranges::count_if(heads, [&](auto head) { return !contains(tagged, head); });
@@ -121,16 +121,18 @@ class OverriddenKeys {
                   counted_faces(face_counts_[g]), " take detail from them");
     };
     const YamlNode *targets = value_at(node, "targets"), *sources = value_at(node, "sources");
-    if (sources != nullptr) take(sources->path, own.sources, "sources", tags);
+    if (sources != nullptr) report_untagged(sources->path, own.sources, "sources", tags);
     for (const BandSampling& band : own.bands) {
       if (band.sources)
-        take(concat(node.path, ".bands.", band.name), *band.sources, "sources", tags);
+        report_untagged(concat(node.path, ".bands.", band.name), *band.sources, "sources", tags);
     }
     const bool in_years = own.age.unit == AgeUnit::kYears;
     if (in_years || own.age.range.high > 0)
-      take(node.path + ".age", own.heads_tagged_old, "heads tagged old", remove_age_tags(tags));
+      report_untagged(node.path + ".age", own.heads_tagged_old, "heads tagged old",
+                      remove_age_tags(tags));
     if (in_years || own.age.range.low < 0)
-      take(node.path + ".age", own.heads_tagged_young, "heads tagged young", remove_age_tags(tags));
+      report_untagged(node.path + ".age", own.heads_tagged_young, "heads tagged young",
+                      remove_age_tags(tags));
     const auto replaced = [&](const char* key) {
       add_message("sampling.", key, ": does not apply to the group ", config_.groups[g].name,
                   ", whose tags select its heads (", counted_faces(face_counts_[g]), ")");
@@ -240,7 +242,7 @@ class OverriddenKeys {
 
 }  // namespace
 
-std::vector<std::string> overridden_keys(const YamlNode& root, const Config& config) {
+std::vector<std::string> overridden_key_warnings(const YamlNode& root, const Config& config) {
   return OverriddenKeys(root, config).find();
 }
 

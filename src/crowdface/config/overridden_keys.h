@@ -10,11 +10,11 @@
 namespace crowdface {
 
 /// Finds keys of `sampling`, `groups`, `families`, `recipes` and `attachments` that another key
-/// overrides. Returns one line of text for each such key, which names both keys and the number of
-/// affected faces.
+/// overrides. Returns one warning (a line of text) for each overridden key. The warning names both
+/// keys and the number of affected faces.
 ///
 /// \param root    the config file, with all command-line overrides and edits.
 /// \param config  the complete config that was read from `root`.
-std::vector<std::string> overridden_keys(const YamlNode& root, const Config& config);
+std::vector<std::string> overridden_key_warnings(const YamlNode& root, const Config& config);
 
 }  // namespace crowdface

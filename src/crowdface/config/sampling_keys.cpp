@@ -111,7 +111,8 @@ Key<Section> per_region_key(std::string_view name, Member Region::*member,
       codec.accepted_values};
 }
 
-/// The head that a position refers to: the name of a head, or `target` for the face's target.
+/// The key `face` of a position: the name of the head around which positions are sampled, or
+/// `target` for the face's target.
 const Key<PositionDistribution> kHeadOfPositionKey = {
     "face",
     [](const YamlNode& node, PositionDistribution& position, ConfigDraft& draft) {
@@ -131,11 +132,12 @@ const Keys<PositionDistribution>& position_keys() {
   return keys;
 }
 
-/// The keys of one kind of distribution.
+/// The keys that a position with one kind of distribution may have.
 struct KindKeys {
   Kind kind;
   Names keys;
-  /// If the last of `keys` is required: advice for the message when that key is missing.
+  /// If the last of `keys` is required: advice for the message when that key is missing. Otherwise
+  /// empty.
   std::string_view advice_if_last_is_missing = {};
 };
 const std::vector<KindKeys> kKindKeys = {

@@ -21,8 +21,8 @@ struct StarterFacts {
   std::string units_reason;
   double head_height = 0;         ///< height of the first head, in the head's own units
   Eigen::Index vertex_count = 0;  ///< number of vertices of each head
-  Axis up = {1, 1};
-  Axis front = {2, 1};
+  Axis up = {1, 1};               ///< direction from chin to crown
+  Axis front = {2, 1};            ///< direction in which the faces look
   /// true if some heads are rotated or shifted relative to the other heads
   bool uses_rigid_alignment = false;
   std::string crowd_name = "crowd";

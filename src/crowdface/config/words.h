@@ -33,8 +33,8 @@ auto words_by_name(const Values& values) {
   return enum_words;
 }
 
-/// The words of all enumerations in configs and command-line options. Both reading and writing use
-/// these words.
+/// Returns the words of all enumerations that configs and command-line options contain: a tuple
+/// with one `Words<Value>` for each enumeration `Value`. Both reading and writing use these words.
 inline const auto& all_words() {
   using Kind = PositionDistribution::Kind;
   using Mode = DiversityOptions::Mode;

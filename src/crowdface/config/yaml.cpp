@@ -223,7 +223,7 @@ class TreeBuilder : public YAML::EventHandler {
 /// Translates yaml-cpp's message for a syntax error into plain words.
 std::string explain(const std::string& message) {
   struct Entry {
-    std::string_view theirs, ours;
+    std::string_view theirs, ours;  ///< start of yaml-cpp's message, and the text to show instead
   };
   static constexpr std::array kEntries = {
       Entry{"illegal map value",

@@ -44,6 +44,7 @@ struct YamlNode {
   const YamlEntry* find(std::string_view key) const;
 };
 
+/// A key of a mapping, and the value of the key.
 struct YamlEntry {
   std::string key;
   YamlPlace key_place;

@@ -28,8 +28,9 @@ std::size_t find_indenting_tab(std::string_view line) {
   return line.substr(0, text).find('\t');
 }
 
-/// Number of bytes of the blank of a word processor that the text starts with, such as a no-break
-/// space; 0 if the text starts otherwise. YAML takes these blanks for letters.
+/// If the text starts with a blank that is not a space, such as the no-break space of a word
+/// processor, returns the number of bytes of this blank. Otherwise returns 0. YAML treats such a
+/// blank as a letter.
 std::size_t other_blank_length(std::string_view text) {
   for (const std::string_view blank :
        {"\u00a0", "\u2000", "\u2001", "\u2002", "\u2003", "\u2004", "\u2005", "\u2006", "\u2007",
@@ -39,13 +40,13 @@ std::size_t other_blank_length(std::string_view text) {
   return 0;
 }
 
-/// Returns the offset of the first blank of a word processor that stands where YAML needs a space:
-/// at the start or the end of a line, or beside ':'. Returns npos if there is none. Ignores
-/// comments and quoted text; inside names, these blanks are allowed.
+/// Returns the offset of the first blank that is not a space (see other_blank_length) but stands
+/// where YAML needs a space: at the start or the end of a line, or beside ':'. Returns npos if
+/// there is none. Ignores comments and quoted text. Inside names, such blanks are allowed.
 std::size_t find_other_blank(std::string_view line) {
   char quote = '\0';
   bool is_after_space = true, needs_space = true;
-  std::size_t blank = line.npos;  // first other blank since the last letter
+  std::size_t blank = line.npos;  // offset of the first other blank since the last letter
   for (std::size_t at = 0; at < line.size(); ++at) {
     const char c = line[at];
     const std::size_t length = other_blank_length(line.substr(at));
@@ -128,7 +129,8 @@ std::optional<YamlText::Problem> YamlText::find_problem() const {
     }
     at += length;
   }
-  // Search each line for tabs in the indentation, which JSON may have, and for other blanks.
+  // Search each line for tabs in the indentation, and for blanks that are not spaces. JSON may
+  // contain both.
   const std::size_t first = text_.find_first_not_of(" \t\r\n");
   const bool is_json = first != text_.npos && (text_[first] == '{' || text_[first] == '[');
   if (is_json) return std::nullopt;

@@ -20,6 +20,7 @@ class YamlText {
   YamlText(std::string_view text, const std::string& source);
 
   std::string_view text() const { return text_; }
+  /// Converts a position of yaml-cpp.
   YamlPlace place(int line, int byte_column) const;
 
   struct Problem {
@@ -38,12 +39,14 @@ class YamlText {
   bool is_unclosed_quote_at(int line, int byte_column) const;
 
  private:
+  /// Returns the text from a position of yaml-cpp to the end of the file.
   std::string_view text_at_position(int line, int byte_column) const;
+  /// Converts an offset in bytes from the start of text().
   YamlPlace place_of(std::size_t offset) const;
 
   std::string_view text_;
   std::shared_ptr<const std::string> source_;
-  std::vector<std::size_t> line_starts_;
+  std::vector<std::size_t> line_starts_;  ///< offset of each line's first byte
   /// offsets of UTF-8 continuation bytes, ascending
   std::vector<std::size_t> continuation_byte_offsets_;
 };

@@ -21,7 +21,7 @@ class BinaryAnswer {
   /// The JSON object of the answer, without the key `arrays`, which bytes() adds.
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
 
-  /// Appends an array. \param name  of the array in the JSON key `arrays`.
+  /// Appends an array. \param name  name of the array; the JSON key `arrays` contains this name.
   template <class T>
   void add(std::string_view name, std::span<const T> values) {
     static_assert(std::endian::native == std::endian::little);
@@ -32,6 +32,7 @@ class BinaryAnswer {
   std::string bytes() const;
 
  private:
+  /// Returns the name of an element type, as the JSON key `arrays` contains it.
   template <class T>
   static constexpr std::string_view element_type_name() {
     if constexpr (std::is_same_v<T, float>) return "f32";
@@ -39,6 +40,8 @@ class BinaryAnswer {
     if constexpr (std::is_same_v<T, std::int16_t>) return "i16";
     if constexpr (std::is_same_v<T, std::uint8_t>) return "u8";
   }
+  /// \param type   element type, as element_type_name returns it.
+  /// \param count  number of elements.
   void add(std::string_view name, std::string_view type, std::size_t count, std::string_view bytes);
 
   /// value of the JSON key `arrays`

@@ -13,7 +13,7 @@ namespace crowdface {
 struct HttpHead {
   std::string method;
   std::string path;                                         ///< percent-decoded, without the query
-  std::vector<std::pair<std::string, std::string>> fields;  ///< names in lower case
+  std::vector<std::pair<std::string, std::string>> fields;  ///< names (in lower case) and values
   bool closes_connection = false;  ///< whether the connection ends after this request
   /// Number of header fields with this name.
   std::size_t count(std::string_view name) const;

@@ -58,7 +58,7 @@ class DepthMap {
   Eigen::AlignedBox2d box_;
   double cell_size_;
   Index columns_ = 0, rows_ = 0;
-  std::vector<double> depths_;
+  std::vector<double> depths_;  ///< depth of each cell, row by row; kNoDepth: no surface
 };
 
 }  // namespace crowdface

@@ -318,8 +318,8 @@ class LandmarkSearch {
 
   enum class Seen { kSkin, kAny };
   /// The front coordinate of the skin at a distance `across` from the symmetry plane, averaged over
-  /// the left and right sides. Nothing if another part covers the skin.
-  /// \param seen  kAny: of the foremost part, for example of teeth between the lips
+  /// the left and right sides. Nothing if another part, such as teeth, covers the skin.
+  /// \param seen  kAny: the front coordinate of the foremost surface, which may be another part
   std::optional<double> depth(double across, double up, Seen seen = Seen::kSkin) const {
     const auto left = rays_.from_front(across, up), right = rays_.from_front(-across, up);
     if (!left || !right) return std::nullopt;

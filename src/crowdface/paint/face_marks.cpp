@@ -176,15 +176,16 @@ constexpr double kMaxSlitMm = 11;
 /// Heights on the mean face, relative to the eyes: of the bridge of the nose and of its tip, which
 /// is below the eyes.
 constexpr double kBridgeMm = 5, kTipMm = -34;
-/// kBridgeSearchMm, kTipSearchMm: half heights of the search ranges of the bridge and of the tip of
-/// the nose. kMouthSpreadMm: unit of the distance in the mouth's height penalty, see
-/// mouth_and_chin.
+/// The bridge of the nose is searched from kBridgeSearchMm below to kBridgeSearchMm above its
+/// height on the mean face; kTipSearchMm is the same for the tip of the nose. kMouthSpreadMm: unit
+/// of the distance in the mouth's height penalty, see mouth_and_chin.
 constexpr double kBridgeSearchMm = 10, kTipSearchMm = 14, kMouthSpreadMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.
 constexpr double kBridgeHalfWidthMm = 15, kLipHalfWidthMm = 5, kChinHalfWidthMm = 10;
-/// Penalty on a fine mesh for a height at the end of the search range. The search subtracts the
-/// penalty from the depth of a hollow of the profile.
+/// The search for the bridge and the tip of the nose prefers heights near the feature's height on
+/// the mean face: it subtracts this penalty from the depth measured at the highest and lowest
+/// searched heights, and less between them. On a mesh with long edges, the penalty is larger.
 constexpr double kMaxHeightPenaltyMm = 3;
 /// kMaxMiddleOffsetMm: if the middle of the skin is farther than this length from the symmetry
 /// plane of the relief, the symmetry plane of the relief is used. kMaxEyeOffsetMm: if the heights
@@ -194,7 +195,7 @@ constexpr double kMaxMiddleOffsetMm = 4, kMaxEyeOffsetMm = 20;
 constexpr double kFineMm = 5;      ///< edges up to this length resolve the lips
 constexpr double kMaxEdgeMm = 18;  ///< longer edges do not show a face
 struct MouthAndChin {
-  double mouth = 0, chin = 0;  ///< heights
+  double mouth = 0, chin = 0;  ///< heights of mouth and chin
 };
 
 /// Finds mouth and chin together. The mouth is a hollow of the profile between two convex lips. The

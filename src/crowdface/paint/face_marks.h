@@ -29,8 +29,8 @@ struct FaceMarks {
 
 /// A head in which the functions below search for a face; usually the mean of all heads.
 struct HeadShape {
-  Positions positions;        ///< #V by 3
-  std::vector<bool> is_skin;  ///< #V
+  Positions positions;        ///< vertex positions, #V by 3
+  std::vector<bool> is_skin;  ///< whether each vertex is skin, #V
   /// empty if the head has no eyeballs
   std::vector<Eigen::Vector3d> eyeball_centres;
 };

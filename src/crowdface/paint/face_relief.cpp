@@ -394,7 +394,7 @@ class Refinement {
   }
 
   Positions nearby_samples_;
-  std::optional<DepthMap> map_;  ///< depth map seen along map_axes_
+  std::optional<DepthMap> map_;  ///< depth map of the samples, seen along map_axes_
   HeadAxes map_axes_;
   double cell_size_ = 1, slope_up_ = 0, score_ = kWorst;
   ReliefMatch best_;

@@ -11,7 +11,8 @@ namespace crowdface {
 /// The depths of the mean face form a grid. Columns run from side to side, rows from 32 mm above
 /// the eyes to 96 mm below the eyes.
 inline constexpr int kReliefRows = 17;
-inline constexpr int kHalfReliefColumns = 6;  ///< on one side, including the middle column
+/// Number of columns on one side of the face, including the middle column.
+inline constexpr int kHalfReliefColumns = 6;
 inline constexpr int kReliefColumns = 2 * kHalfReliefColumns - 1;
 inline constexpr int kReliefCells = kReliefRows * kReliefColumns;
 /// Distance between neighbouring rows and columns of the grid.

@@ -82,7 +82,7 @@ bool Anchors::is_unmoved(std::size_t triangle_index, const Positions& before,
   });
 }
 
-std::vector<Eigen::Vector3d> Anchors::offsets(const Positions& head) const {
+std::vector<Eigen::Vector3d> Anchors::measure_offsets(const Positions& head) const {
   std::vector<Frame> frames;
   for (std::size_t s = 0; s < skin_triangles_.size(); ++s) frames.push_back(frame_at(s, head));
   std::vector<Eigen::Vector3d> result;

@@ -27,8 +27,9 @@ class Anchors {
   Anchors(const Topology& topology, const VertexFaces& faces, const Positions& positions,
           const PointGrid& skin, std::vector<std::uint32_t> vertices_to_bind);
 
-  /// Returns the offset of each bound vertex on a head, in the vertex's coordinate frame.
-  std::vector<Eigen::Vector3d> offsets(const Positions& head) const;
+  /// Measures, for each bound vertex of a head, the offset of the vertex from its anchor point on
+  /// the skin, in the coordinate frame that rotates with this skin.
+  std::vector<Eigen::Vector3d> measure_offsets(const Positions& head) const;
   /// Places each bound vertex of `result` at the given offset in the vertex's coordinate frame on
   /// `result`. Where the surrounding skin has not moved, a vertex keeps exactly its position on
   /// `target`.
@@ -38,15 +39,19 @@ class Anchors {
                       Positions& result) const;
 
  private:
-  using Frame = std::array<Eigen::Vector3d, 3>;  ///< orthonormal axes
+  using Frame = std::array<Eigen::Vector3d, 3>;  ///< a coordinate frame: three orthonormal axes
+  /// A vertex of the skin around a triangle.
   struct RingVertex {
     std::uint32_t vertex;
     /// weights of the vertex in the sums for the frame's first and second axis
     double first_axis_weight, second_axis_weight;
   };
 
+  /// Returns the coordinate frame at the triangle `skin_triangles_[triangle_index]`.
   Frame frame_at(std::size_t triangle_index, const Positions& positions) const;
+  /// Returns the anchor point of the bound vertex `bound_vertices_[i]`.
   Eigen::Vector3d origin(std::size_t i, const Positions& positions) const;
+  /// Returns whether the skin around a triangle has the same positions in `before` and `after`.
   bool is_unmoved(std::size_t triangle_index, const Positions& before,
                   const Positions& after) const;
 
@@ -81,8 +86,9 @@ class PartWeights {
                        Positions& result) const;
 
  private:
+  /// The weight of a rigid part's motion at a bound vertex.
   struct PartWeight {
-    std::uint32_t vertex, part;
+    std::uint32_t vertex, part;  ///< a bound vertex, and the index of a rigid part
     /// weight of the part's motion at the vertex; the weights of a vertex sum to at most one
     double weight;
   };

@@ -24,8 +24,8 @@ class BallRadii {
 
   /// Gap between the eyeball's surface and a point.
   struct Gap {
-    double gap = 0;          ///< signed distance from the surface; negative: inside
-    Eigen::Vector3d normal;  ///< outward unit normal
+    double gap = 0;          ///< signed distance from the surface; negative: inside the eyeball
+    Eigen::Vector3d normal;  ///< outward unit normal of the eyeball's surface at the gap
   };
   /// Returns the approximate gap between the surface and a point (exact to first order).
   ///
@@ -44,11 +44,13 @@ class BallRadii {
   /// Half width of the grid in the stereographic plane; reaches 16° behind the equator.
   static constexpr double kHalfWidth = 1.32;
 
+  /// Returns the eyeball's radius in the direction of a node of the grid.
   float radius_at_node(std::size_t x, std::size_t y) const { return radii_[y * kNodesPerSide + x]; }
 
   HeadAxes axes_;
   /// `side_`: the head's side axis. `centre_`: the centre of the eyeball.
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
+  /// `radius_`: the constructor's parameter. `max_radius_`: the largest radius in any direction.
   double radius_ = 0, max_radius_ = 0;
   /// kNodesPerSide by kNodesPerSide; x, along the side axis, varies fastest
   std::vector<float> radii_;

@@ -28,10 +28,10 @@ struct ComponentShape {
   /// 90th percentile of the vertices' distances from the skin, clamped to kFarFromSkin times the
   /// skin's extent.
   double skin_distance = 0;
-  /// `centre` and `radius`: the least-squares sphere through the vertices. `roughness`: root mean
-  /// square distance of the vertices and polygon centres from this sphere.
+  /// centre of the least-squares sphere through the vertices
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  double radius = 0;
+  double radius = 0;  ///< radius of this sphere
+  /// root mean square distance of the vertices and polygon centres from this sphere
   double roughness = 0;
 };
 

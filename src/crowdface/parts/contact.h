@@ -31,7 +31,7 @@ class PartContact {
 
   /// The height of a vertex of the part above the skin of a head.
   struct Height {
-    double height = 0;        ///< signed distance from the skin; negative: inside
+    double height = 0;        ///< signed distance from the skin; negative: inside the skin
     Eigen::Vector3d outward;  ///< outward unit normal of the skin
   };
   /// Returns the height of a point of the part above the nearest skin.
@@ -59,6 +59,7 @@ class PartContact {
   /// largest number of start vertices of one search for the nearest skin
   static constexpr std::size_t kMaxSearchStarts = 3;
   using SearchStarts = std::array<std::uint32_t, kMaxSearchStarts>;
+  /// A vertex of the part, and a triangle of the skin near this vertex.
   struct Pair {
     std::uint32_t vertex;  ///< vertex of the part
     Triangle corners;      ///< triangle of the skin
@@ -72,13 +73,16 @@ class PartContact {
   /// Pairs that are close together. The height of the middle pair, minus `height_margin`, is a
   /// lower bound for the heights of all pairs of the cluster.
   struct Cluster {
-    std::size_t begin, end;  ///< range of `pairs_`
-    /// estimated upper bound of the height of the middle pair minus the height of any other pair
+    std::size_t begin, end;  ///< the cluster consists of `pairs_[begin]` to `pairs_[end - 1]`
+    /// estimated upper bound of the height by which the middle pair is above any other pair
     double height_margin;
+    /// Returns the index of the middle pair.
     std::size_t middle() const { return begin + (end - begin) / 2; }
   };
+  /// Sets Pair::search_starts of all pairs.
   void find_search_starts(const Positions& positions, std::span<const std::uint32_t> skin,
                           const std::vector<Head>& heads);
+  /// Orders the pairs by cluster, and sets `clusters_`.
   void find_clusters(const Positions& positions, const std::vector<Head>& heads);
   /// Returns the height of `point` above the plane of the pair's triangle.
   double approximate_height(const Pair& pair, const Eigen::Vector3d& point,

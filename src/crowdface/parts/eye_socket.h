@@ -59,11 +59,13 @@ class EyeSocket {
   /// \param scaled_motion  Result of `fit`, scaled to the wanted size.
   RigidMotion fit_translation(std::size_t target, const RigidMotion& skin_motion,
                               const RigidMotion& scaled_motion, const Positions& face) const;
+  /// Returns the centre of the eyeball in the head with the index `target`.
   Eigen::Vector3d centre(std::size_t target) const { return ball_radii_[target].centre(); }
 
  private:
   /// Whether the optimisation may change the size of the eyeball.
   enum class SizeMode { kFree, kKept };
+  /// A lid vertex on a face.
   struct LidPoint {
     Eigen::Vector3d point;  ///< position on the face
     std::uint32_t index;    ///< index into `Lids::vertices`
@@ -78,10 +80,11 @@ class EyeSocket {
                             SizeMode size_mode, const Positions& face) const;
 
   Lids lids_;
-  std::vector<BallRadii> ball_radii_;       ///< #heads
-  std::vector<std::vector<double>> gaps_;   ///< #heads by #rim vertices
-  std::vector<double> smallest_gaps_;       ///< #lid vertices: smallest gap in all heads
-  std::vector<std::uint32_t> rim_indices_;  ///< #lid vertices: index in the rim, or kNoIndex
+  std::vector<BallRadii> ball_radii_;      ///< for each head: the radii of its eyeball
+  std::vector<std::vector<double>> gaps_;  ///< for each head: see gaps()
+  std::vector<double> smallest_gaps_;      ///< for each lid vertex: its smallest gap in all heads
+  /// for each lid vertex: its index in Lids::rim; kNoIndex if the vertex is not on the rim
+  std::vector<std::uint32_t> rim_indices_;
 };
 
 }  // namespace crowdface

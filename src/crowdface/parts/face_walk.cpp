@@ -26,9 +26,6 @@ std::optional<MirroredWalk::FaceEdge> MirroredWalk::face_along(DirectedEdge edge
   return std::nullopt;
 }
 
-/// Visits two mirrored polygons: the polygon with the directed edge `here`, and the polygon with
-/// the corresponding edge `there`.
-/// \return false if only one of the edges has a polygon.
 bool MirroredWalk::visit_faces(DirectedEdge here, DirectedEdge there) {
   const auto face = face_along(here);
   const auto image = face_along(there);
@@ -39,8 +36,6 @@ bool MirroredWalk::visit_faces(DirectedEdge here, DirectedEdge there) {
   return true;
 }
 
-/// Records a pair.
-/// \return  false if either vertex already has another partner.
 bool MirroredWalk::add_pair(MirroredPair pair) {
   std::uint32_t& partner = partner_of_vertex_[pair.vertex];
   if (partner != kNoIndex) return partner == pair.partner;

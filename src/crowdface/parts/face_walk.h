@@ -52,12 +52,17 @@ class MirroredWalk {
   /// Corresponding edges of two mirrored polygons: `here` on the first side, `there` on the second
   /// side.
   struct FacePair {
-    FaceEdge here, there;
+    FaceEdge here, there;  ///< on the first side, and on the second side
   };
 
   /// Returns the polygon that contains the directed edge, if there is one.
   std::optional<FaceEdge> face_along(DirectedEdge edge) const;
+  /// Visits two mirrored polygons: the polygon with the directed edge `here`, and the polygon with
+  /// the corresponding edge `there`.
+  /// \return false if only one of the edges has a polygon.
   bool visit_faces(DirectedEdge here, DirectedEdge there);
+  /// Records a pair of mirror partners.
+  /// \return false if either vertex already has another partner.
   bool add_pair(MirroredPair pair);
   /// Pairs the corners of two mirrored polygons. Returns false if the polygons do not match, or if
   /// `may_continue` returns false.

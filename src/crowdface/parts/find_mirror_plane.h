@@ -25,6 +25,7 @@ class PlaneFit {
   std::size_t pair_count() const { return pair_count_; }
 
  private:
+  /// Σ d dᵀ over all pairs, where d is the difference between point and partner
   Eigen::Matrix3d scatter_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d midpoint_sum_ = Eigen::Vector3d::Zero();
   std::size_t pair_count_ = 0;

@@ -63,7 +63,7 @@ struct SkinOfMean {
   const VertexFaces& around;
   const HeadAxes& axes;
   const Positions& mean;
-  std::vector<double> areas;            ///< #V
+  std::vector<double> areas;            ///< area of each vertex, #V
   std::vector<std::uint32_t> vertices;  ///< vertices that belong to a polygon but to no part
   PointGrid grid;                       ///< grid of `vertices`
   double extent;                        ///< extent of the largest component
@@ -120,10 +120,10 @@ struct PartFollower::State {
   const HeadSet& heads;
   VertexFaces around;
   PartShape shape;
-  double extent;  ///< extent of the skin
+  double extent;  ///< diagonal of the skin's bounding box
   std::vector<RigidPart> rigid;
   Anchors anchors;
-  std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< per head: offsets of the bound vertices
+  std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< per head: Anchors::measure_offsets
   PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
 
   struct PartMotion {
@@ -179,7 +179,7 @@ PartFollower::PartFollower(const HeadSet& heads, const PartList& parts, const He
   state->anchors = Anchors(heads.topology, state->around, mean, skin.grid, std::move(bound));
   state->offsets.resize(heads.heads.size());
   parallel_for_each(heads.heads.size(), [&](std::size_t i) {
-    state->offsets[i] = state->anchors.offsets(heads.heads[i].positions);
+    state->offsets[i] = state->anchors.measure_offsets(heads.heads[i].positions);
   });
   state_ = std::move(state);
 }

@@ -76,7 +76,8 @@ class Clearance {
     /// Two neighbouring points of the low profile (see GapSection), as indices into the list of all
     /// profile points: first the points of the low profile, then those of the high profile.
     std::array<std::uint32_t, 2> low_indices;
-    std::array<std::uint32_t, 2> high_indices;        ///< the same for the high profile
+    /// two neighbouring points of the high profile, likewise
+    std::array<std::uint32_t, 2> high_indices;
     std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
 
     /// Returns the height of the high point above the low point.
@@ -121,7 +122,7 @@ class Clearance {
 
   std::vector<EdgePoint> points_;    ///< points of the low profile, then of the high profile
   std::vector<Segment> low_, high_;  ///< segments of the two profiles
-  Eigen::Vector3d up_, inward_;
+  Eigen::Vector3d up_, inward_;      ///< directions of the section, see GapSection
 };
 
 }  // namespace crowdface

@@ -11,6 +11,7 @@ namespace crowdface {
 struct HeadAxes {
   Eigen::Vector3d front = {0, 0, 1}, up = {0, 1, 0};
 
+  /// Returns the direction to the head's left.
   Eigen::Vector3d side() const { return up.cross(front); }
 };
 

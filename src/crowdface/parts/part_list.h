@@ -39,7 +39,8 @@ struct PartList {
 
 /// The user's assignments of components to classes and parts.
 struct PartOverrides {
-  std::vector<std::optional<PartClass>> classes;  ///< one per component, or empty
+  /// one per component (nullopt: not assigned), or empty
+  std::vector<std::optional<PartClass>> classes;
   /// for each part, the indices of its components
   std::vector<std::vector<std::uint32_t>> joined_components;
 };

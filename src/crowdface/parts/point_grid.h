@@ -33,9 +33,11 @@ class PointGrid {
   std::vector<std::uint32_t> vertices_near(const Eigen::Vector3d& point, double reach) const;
 
  private:
-  using Cell = std::array<Index, 3>;
+  using Cell = std::array<Index, 3>;  ///< number of a cell along x, y, z, from 0
 
+  /// Returns the cell that contains a point; for a point outside the grid, the nearest cell.
   Cell cell_of(const Eigen::Vector3d& point) const;
+  /// Returns the index of a cell in `vertices_by_cell_`.
   std::size_t index_of(const Cell& cell) const;
   /// The vertices in the consecutive cells `first` to `last`, both included.
   std::span<const std::uint32_t> vertices_in_cells(std::size_t first, std::size_t last) const {
@@ -44,7 +46,7 @@ class PointGrid {
   }
 
   const Positions& positions_;
-  Eigen::Vector3d min_corner_;
+  Eigen::Vector3d min_corner_;                      ///< smallest coordinates of all vertices
   double cell_width_ = 1;                           ///< edge length of a cell
   Cell cell_counts_ = {1, 1, 1};                    ///< number of cells along x, y, z
   CompressedRows<std::uint32_t> vertices_by_cell_;  ///< vertices, ascending within each cell

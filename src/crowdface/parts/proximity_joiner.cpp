@@ -56,9 +56,6 @@ void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, dou
   if (only == kNoIndex) only = common_group(n);
 }
 
-/// If all points of the node belong to the same group, returns one of the group's components, which
-/// stands for the group; otherwise kNoIndex. Uses the stored values of the node's children, which
-/// may be out of date.
 std::uint32_t ProximityJoiner::common_group(std::size_t n) {
   const MedianSplitTree::Node& node = tree_.nodes[n];
   if (!node.is_leaf()) {

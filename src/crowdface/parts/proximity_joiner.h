@@ -34,8 +34,12 @@ class ProximityJoiner {
  private:
   /// Returns the points in a node of the tree, as row indices of `points_`.
   std::span<const std::uint32_t> rows_of(std::size_t node) const;
+  /// Like the public function, but considers only the points in a node of the tree.
   void join_near(std::size_t node, const Eigen::Vector3d& place, double reach,
                  std::uint32_t component);
+  /// If all points of the node belong to the same group, returns one of the group's components,
+  /// which stands for the group; otherwise kNoIndex. Uses the stored values of the node's children,
+  /// which may be out of date.
   std::uint32_t common_group(std::size_t node);
 
   const Positions& points_;

@@ -157,7 +157,7 @@ class Table {
 
  private:
   std::size_t unknowns_, count_;
-  std::vector<double> normals_;  ///< #unknowns by #constraints; unit length
+  std::vector<double> normals_;  ///< unit normals of the constraints, #unknowns by #constraints
   std::vector<double> lower_, stretch_;
 };
 

@@ -17,7 +17,7 @@ Eigen::Matrix3d rotation_of(double w, double x, double y, double z) {
 }
 
 /// Returns the rotation R that maximises Σ w b·(R a) over pairs of vectors (a, b) with weights w,
-/// given s = Σ w a bᵀ. Its quaternion is the eigenvector of the largest eigenvalue of Horn's
+/// given s = Σ w a bᵀ. The quaternion of R is the eigenvector of the largest eigenvalue of Horn's
 /// matrix.
 Eigen::Matrix3d horn_rotation(const Eigen::Matrix3d& s) {
   Eigen::MatrixXd n(4, 4);

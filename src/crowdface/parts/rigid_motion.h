@@ -23,6 +23,7 @@ inline Eigen::Vector3d multiply3(const Eigen::Matrix3d& map, const Eigen::Vector
 struct RigidMotion {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double scale = 1;
+  /// `pivot`: centre of rotation and scaling. `moved_pivot`: this centre after the motion.
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero(), moved_pivot = Eigen::Vector3d::Zero();
 
   Eigen::Vector3d apply(const Eigen::Vector3d& point) const;

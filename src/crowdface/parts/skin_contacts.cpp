@@ -45,7 +45,7 @@ double wendland_kernel(double distance) {
 
 /// The skin around a group of facing vertices, and the side of the gap on which each vertex lies.
 struct Sides {
-  std::vector<std::uint32_t> vertices;  ///< ascending
+  std::vector<std::uint32_t> vertices;  ///< vertex indices, ascending
   /// for each vertex: ½ on the high side of the gap, −½ on the low side; linear along the surface
   /// in between
   std::vector<double> side_weights;

@@ -39,6 +39,7 @@ class SkinContacts {
   /// Returns the vertices that fit_gaps may move.
   std::vector<std::uint32_t> movable_vertices() const;
 
+  /// The allowed range of a gap, in the heads' unit.
   struct Range {
     double min, max;
   };
@@ -59,11 +60,12 @@ class SkinContacts {
   /// Derivatives of the heights and depths of a group's profile points with respect to the
   /// amplitude of one section. The points have the same order as in Profiles.
   struct PointMotions {
-    std::vector<double> heights, depths;
+    std::vector<double> heights, depths;  ///< one derivative per profile point
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {
-    std::size_t begin = 0, end = 0;       ///< range of sections
+    /// the group consists of `sections_[begin]` to `sections_[end - 1]`
+    std::size_t begin = 0, end = 0;
     std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
     /// for each vertex: the kernels of the nearby sections, evaluated at the vertex
     CompressedRows<KernelValue> kernels;
@@ -76,7 +78,7 @@ class SkinContacts {
     /// coordinates of all points: first the points of the group's first section, then the points of
     /// its second section, and so on
     std::vector<double> heights, depths;
-    std::vector<std::size_t> begins;  ///< index of each section's first point
+    std::vector<std::size_t> begins;  ///< for each section: index of its first point
     /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposite_pairs;
 
@@ -85,7 +87,10 @@ class SkinContacts {
     double gap(std::size_t section) const;
   };
 
-  /// Places sections along the gap of one group of facing pairs.
+  /// Adds sections (see GapSection) along the gap of one group of facing pairs.
+  ///
+  /// \param mean    The mean head, #V by 3.
+  /// \param extent  Extent of the whole skin.
   void add(const FacingGroup& group, const Adjacency& adjacency, const Positions& mean,
            double extent);
   /// Computes which vertices move when the gaps of a section group are corrected, and the kernel
@@ -105,7 +110,7 @@ class SkinContacts {
   /// kernel.
   struct AmplitudeChange {
     std::size_t section;  ///< index within the group
-    double amount;
+    double amount;        ///< number to add to the amplitude
   };
   /// Finds the amplitude of each section's kernel (see KernelValue) such that the gaps of the
   /// displaced skin are in their ranges; skin_contacts.cpp explains the method. Updates the heights
@@ -130,7 +135,7 @@ class SkinContacts {
   std::vector<GapSection> sections_;
   std::vector<Clearance> clearances_;  ///< one per section
   std::vector<SectionGroup> section_groups_;
-  std::vector<std::vector<double>> head_gaps_;  ///< #heads by #sections
+  std::vector<std::vector<double>> head_gaps_;  ///< for each head: the gap at each section
 };
 
 }  // namespace crowdface

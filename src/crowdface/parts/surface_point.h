@@ -12,7 +12,7 @@ namespace crowdface {
 /// A point on a triangle of a mesh. Larger polygons are triangulated as fans from their first
 /// corner.
 struct SurfacePoint {
-  Triangle corners = {};
+  Triangle corners = {};                   ///< vertex indices of the triangle
   std::array<double, 3> barycentric = {};  ///< barycentric coordinates
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   double distance = 0;  ///< distance from the query point

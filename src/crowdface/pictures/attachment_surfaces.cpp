@@ -64,7 +64,7 @@ const AttachmentSurface& AttachmentSurfaces::at(const Attachment& item) const {
       try {
         materials.back() = material_of(material);
       } catch (const InvalidInput& error) {
-        log_warning(concat(error.what(), "; pictures do without"));
+        log_warning(concat(error.what(), "; pictures show the attachment without this material"));
       }
     }
     if (materials.empty()) materials.emplace_back();

@@ -35,6 +35,7 @@ class AttachmentSurfaces {
     std::shared_ptr<const Texture> colours;
     std::shared_ptr<const MipMap> opacity;  ///< null: no alpha channel
   };
+  /// Converts a material for rendering; reads the textures that the material names.
   AttachmentMaterial material_of(const SurfaceMaterial& source) const;
 
   int max_px_;

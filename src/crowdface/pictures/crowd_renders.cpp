@@ -16,8 +16,8 @@
 namespace crowdface {
 namespace {
 
-/// Fraction of the heads' height that may lie outside the image, because images of faces need not
-/// show the shoulders.
+/// Fraction of the heads' height that may lie below the lower edge of the image, because images of
+/// faces need not show the shoulders.
 constexpr double kCutBelow = 0.22;
 
 /// Estimates the extreme points of the attachments on all heads, so that images can leave room for

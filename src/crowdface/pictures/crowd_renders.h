@@ -30,14 +30,14 @@ struct PicturedCrowd {
   const Inputs& inputs;
   const CrowdDirectory& directory;
   const CrowdRenders& renders;
-  const FaceShapes& shapes;
+  const FaceShapes& shapes;  ///< expressions of the faces
   const std::vector<FacePlan>& faces;
   const Likeness& likeness;
 };
 
 /// The files made for the pictures of one face, as bytes.
 struct FacePictures {
-  std::string png;                            ///< all views, side by side
+  std::string png;                            ///< PNG file of all views, side by side
   std::optional<std::string> gallery_script;  ///< see GalleryMeshes; empty without a gallery
 };
 
@@ -116,13 +116,13 @@ class CrowdRenders {
 
   PicturedMesh mesh_;
   const FaceTextures* textures_;
-  std::vector<Camera> cameras_;
+  std::vector<Camera> cameras_;  ///< one per view
   FaceRenderer renderer_;
   const Inputs& inputs_;
   bool shows_textures_;
-  int max_texels_;
+  int max_texels_;  ///< largest width and height of a texture in rendered images
   AttachmentSurfaces attachment_surfaces_;
-  const GalleryMeshes* gallery_ = nullptr;
+  const GalleryMeshes* gallery_ = nullptr;  ///< null: render_files makes no gallery scripts
 };
 
 /// Reads a rendered image from the crowd's folder. \throws MissingInput, InvalidInput.

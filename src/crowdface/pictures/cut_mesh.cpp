@@ -16,7 +16,8 @@ class EdgePoints {
  public:
   explicit EdgePoints(const Rows& rows) : rows_(rows) {}
 
-  /// \return the row of the new point in `all()`.
+  /// Returns the row in `all()` of the point at the fraction `share` of the edge. Adds the point if
+  /// the edge has no point yet.
   std::uint32_t at(std::uint32_t from, std::uint32_t to, double share) {
     if (from > to) {  // both directions of an edge give the same bits
       std::swap(from, to);
@@ -28,7 +29,7 @@ class EdgePoints {
     if (is_new) points_.push_back((1 - share) * rows_.row(from) + share * rows_.row(to));
     return found->second;
   }
-  /// The original rows, followed by the new points.
+  /// The constructor's rows, followed by the new points.
   Rows all() const {
     Rows all(rows_.rows() + static_cast<Index>(points_.size()), rows_.cols());
     all.topRows(rows_.rows()) = rows_;

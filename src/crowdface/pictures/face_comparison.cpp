@@ -76,8 +76,6 @@ Positions FaceComparison::mesh_of(std::size_t face) const {
                              crowd_.inputs.head_set.topology.vertex_count);
 }
 
-/// Returns the mesh to compare with a face; nothing if the config compares no faces, or if the
-/// crowd has only this face.
 std::optional<Positions> FaceComparison::compared_mesh(std::size_t face) const {
   switch (comparison_.reference) {
     case Reference::kTarget:

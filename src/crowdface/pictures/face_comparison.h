@@ -15,7 +15,7 @@ namespace crowdface {
 /// distance at a vertex is the distance between the vertex's positions in both meshes. If there is
 /// no second mesh, all distances are 0.
 struct ComparedFace {
-  Positions mesh;      ///< the face
+  Positions mesh;      ///< vertex positions of the face
   Eigen::VectorXd mm;  ///< #V: distance at each vertex, in millimetres
 };
 
@@ -35,11 +35,13 @@ class FaceComparison {
  private:
   /// Reads the vertex positions of a face from the crowd's folder.
   Positions mesh_of(std::size_t face) const;
+  /// Returns the mesh to compare with a face; nothing if the config compares no faces, or if the
+  /// crowd has only this face.
   std::optional<Positions> compared_mesh(std::size_t face) const;
 
   const PicturedCrowd& crowd_;
   const Config::MeshComparison& comparison_;
-  CrowdDirectory other_crowd_;  ///< the crowd that `comparison` names, if any
+  CrowdDirectory other_crowd_;  ///< the crowd that `comparison_` names, if any
   Positions reference_mesh_;    ///< the mesh with which all faces are compared; may have no rows
 };
 

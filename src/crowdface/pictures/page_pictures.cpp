@@ -24,6 +24,7 @@ std::string address_of(std::string_view type, std::string_view bytes) {
   return concat("data:image/", type, ";base64,", base64(bytes));
 }
 
+/// Returns a texture as the data URL of a JPEG file.
 /// \param texel_of  returns the three bytes of a texel
 template <class TexelOf>
 std::string jpeg_address(const Texture& texture, int max_px, const TexelOf& texel_of) {

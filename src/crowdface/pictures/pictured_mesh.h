@@ -31,7 +31,7 @@ class PicturedMesh {
   bool has_body() const { return body_.has_value(); }
   const Topology& topology() const { return body_ ? body_->topology : inputs_.head_set.topology; }
   const TextureCoordinates& uvs() const { return body_ ? body_->uvs : inputs_.head_set.uvs; }
-  /// The kinds of surfaces; the surfaces of the body are skin.
+  /// The kind of surface of each polygon; all polygons of the body are skin.
   Surfaces surfaces() const;
   /// The vertex positions of the body; no rows if the body is not shown.
   Positions body_points() const { return body_ ? body_->points : Positions(0, 3); }
@@ -55,6 +55,7 @@ class PicturedMesh {
   VertexColours add_body(const VertexColours& face, const BlendedPicture* body) const;
 
  private:
+  /// The body, joined to the mesh of the face.
   struct Body {
     Topology topology;       ///< polygons of the face, then polygons of the body
     TextureCoordinates uvs;  ///< texture coordinates of the face, then those of the body

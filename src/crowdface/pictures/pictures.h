@@ -63,7 +63,7 @@ class CrowdPictures {
   std::optional<std::filesystem::path> page_folder_;
   std::unique_ptr<GalleryMeshes> gallery_;
   bool heads_are_written_ = false;
-  std::vector<std::vector<double>> head_traits_;
+  std::vector<std::vector<double>> head_traits_;  ///< see set_head_traits
 };
 
 /// Lists the files of contact sheets, gallery and likeness in the crowd's folder, sorted by path.

@@ -23,7 +23,7 @@ constexpr int kMaxAttachmentTexels = 512;
 
 /// Packs the vertices that a blend shape moves by at least `min_displacement`: first the vertex
 /// indices (4 bytes each), then the displacements.
-/// \param shown  rows of the full mesh that the page shows
+/// \param shown  for each vertex of the reduced mesh on the page: its index in the full mesh
 std::string packed_moves(std::span<const std::uint32_t> shown, const Displacements& shape,
                          const PackingGrid& frame, double min_displacement) {
   std::vector<std::uint32_t> vertices;

@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// A position in the textures of the full mesh, for example of a vertex of the reduced mesh.
+/// A position in the textures of the full mesh (before reduction).
 struct TexturePoint {
   Index face = -1;  ///< polygon of the full mesh that has the texture; −1: no texture
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();

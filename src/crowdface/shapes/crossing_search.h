@@ -34,12 +34,13 @@ class CrossingSearch {
 
   /// Bounding boxes of one mesh, which `update` keeps up to date between searches.
   struct Boxes {
-    FloatPositions points;                  ///< #vertices of the triangles by 3
-    std::vector<LeafBoxes> triangle_boxes;  ///< #leaves
-    std::vector<LeafNormals> leaf_normals;  ///< #leaves
-    std::vector<Box> leaf_boxes;            ///< #leaves
+    FloatPositions points;                  ///< positions of `vertices_`, #vertices_ by 3
+    std::vector<LeafBoxes> triangle_boxes;  ///< for each leaf: the boxes of its triangles
+    std::vector<LeafNormals> leaf_normals;  ///< for each leaf: the normals of its triangles
+    std::vector<Box> leaf_boxes;            ///< for each leaf: the box of all its triangles
     std::vector<std::uint8_t> is_changed;   ///< whether each leaf changed since the last search
   };
+  /// Returns the boxes of a mesh, #V by 3. All leaves count as changed.
   Boxes make_boxes(const Positions& mesh) const;
   /// Updates the boxes after vertices moved.
   ///
@@ -62,8 +63,11 @@ class CrossingSearch {
     /// pairs of triangles that are a few edges apart, tested only if their normals differ
     std::uint64_t tested_if_normals_differ_mask;
   };
+  /// Sets `leaf_pairs_`. The parameters are those of the constructor, except that `triangles`
+  /// refers to rows of `points`, the positions of `vertices_`.
   void find_leaf_pairs(const std::vector<Triangle>& triangles, const Positions& points,
                        double max_distance, double max_facing_distance);
+  /// Computes the boxes and normals of one leaf from `boxes.points`.
   void measure_leaf(std::size_t leaf, Boxes& boxes) const;
 
   std::vector<Triangle> triangles_;

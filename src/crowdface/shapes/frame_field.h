@@ -32,6 +32,7 @@ class FrameField {
     RigidMotion face_motion;                 ///< motion from the template to the face
     std::vector<Eigen::Matrix3d> node_maps;  ///< linear map at each node
   };
+  /// Fits the linear maps at all nodes to a face, #V by 3.
   Frames frames(const Positions& face) const;
   /// Returns the linear map at the vertex `vertices[i]`. If the face is the template rotated,
   /// translated and scaled, the map is this rotation and scale, up to rounding.
@@ -56,15 +57,21 @@ class FrameField {
     /// W of the term R·W
     Eigen::Matrix3d similarity_weight_matrix;
   };
+  /// The weight of a node's map at a vertex.
   struct NodeWeight {
     std::uint32_t node;
     double weight;  ///< the weights of all nodes for one vertex sum to one
   };
 
+  /// Makes the node at a vertex.
+  ///
+  /// \param patch   Vertices of the skin around the node.
+  /// \param radius  Distance from the node at which the weights of these vertices reach 0.
   static Node node_at(const Positions& neutral, std::span<const std::uint32_t> patch, double radius,
                       std::uint32_t vertex);
 
-  const Positions* neutral_ = nullptr;
+  const Positions* neutral_ = nullptr;  ///< template at rest, #V by 3
+  /// vertices of the skin that determine the similarity transform of the whole skin
   std::vector<std::uint32_t> sampled_skin_;
   std::vector<double> equal_weights_;  ///< all 1, one per vertex of sampled_skin_
   std::vector<Node> nodes_;

@@ -24,11 +24,12 @@ struct TemplateEye {
 /// An eyeball of a face: the radii of a head's eyeball, the motion that carries this eyeball from
 /// the head to the face, and the distances of the surrounding skin from the eyeball at rest.
 struct FaceEye {
-  const BallRadii* ball;
-  RigidMotion motion;
+  const BallRadii* ball;  ///< radii of the head's eyeball
+  RigidMotion motion;     ///< motion of the eyeball from the head to the face
   /// distance of each of TemplateEye::skin_vertices from the eyeball on the face at rest
   std::vector<double> rest_gaps = {};
 
+  /// Returns the gap between the eyeball and a point of the face.
   BallRadii::Gap gap_at(const Eigen::Vector3d& point) const;
 };
 /// Makes the FaceEye of one eye of a face.
@@ -67,7 +68,7 @@ class LidClosure {
   /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
   /// are known, and divided by the mesh's scale relative to the template.
   struct LidTargets {
-    std::vector<Gap> gaps;  ///< #sections
+    std::vector<Gap> gaps;  ///< one per section
     /// One entry per lid vertex. `ball_distances`: distance from the eyeball with the shape
     /// applied. `distance_changes`: the distance with the shape applied minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;
@@ -121,7 +122,7 @@ class LidClosure {
   /// A section across the eye's opening, where both lids are cut by a plane.
   struct LidSection {
     std::vector<ProfilePoint> lower_profile, upper_profile;
-    double along_opening;  ///< position along the lid opening
+    double along_opening;  ///< coordinate of the cutting plane along the head's side axis
     /// length by which the shape narrows the gap on the template
     double gap_reduction_on_template;
   };
@@ -134,6 +135,7 @@ class LidClosure {
     double along_opening;  ///< coordinate along EyeAxes::along
     double height;         ///< coordinate along EyeAxes::up
   };
+  /// A vertex of the skin around the eye that the shape moves.
   struct LidVertex {
     std::uint32_t row, vertex;  ///< row in the shape's displacements, and the vertex of this row
     std::uint32_t skin_index;   ///< index into TemplateEye::skin_vertices
@@ -144,10 +146,12 @@ class LidClosure {
     double eyeball_weight;
   };
 
+  /// Sets `sections_`: the sections at which the shape closes the lids.
   void add_sections(const TemplateEye& eye, const Adjacency& adjacency, const Positions& neutral,
                     const Displacements& shape, const HeadAxes& axes);
   /// Reorders lid_vertices_: the vertices of the sections' profiles come first.
   void move_profile_vertices_to_front();
+  /// Returns the weights with which `lid_vertices_[lid]` follows each section.
   std::span<const double> section_weights(std::size_t lid) const {
     return {section_weights_.data() + lid * sections_.size(), sections_.size()};
   }
@@ -169,6 +173,7 @@ class LidClosure {
   /// distances: the distance at rest plus its target change, and min_ball_distance.
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
+  /// Returns the eye's axes on a face.
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
   /// Returns the highest point of a lower lid's profile (`sign` = 1), or the lowest point of an
   /// upper lid's profile (`sign` = −1), after the displacements `moves`.
@@ -178,6 +183,7 @@ class LidClosure {
   /// vertical_gap. A negative target of vertical_gap counts as 0.
   static std::vector<double> gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
                                           double scale);
+  /// Returns the gap at each section of a face with the displacements `moves` of the shape.
   std::vector<Gap> measure_gaps(const EyeAxes& axes, const Positions& face,
                                 const Positions& moves) const;
 

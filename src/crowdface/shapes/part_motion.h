@@ -37,11 +37,13 @@ struct PartMotion {
 
 /// The position of a rigid part on a face.
 struct PlacedPart {
+  /// \param neutral  Template at rest, #V by 3.
+  /// \param mesh     The face at rest, #V by 3.
   PlacedPart(const RigidPart& part, const Positions& neutral, const Positions& mesh,
              const RigidMotion& face_motion, const Eigen::Matrix3d& map);
 
-  Eigen::Vector3d centre;
-  const Positions& mesh;
+  Eigen::Vector3d centre;          ///< RigidPart::centre, moved to the face
+  const Positions& mesh;           ///< the face at rest, #V by 3
   const RigidMotion& face_motion;  ///< motion from the template to the face
   /// local linear map from the template to the face, averaged over the vertices of the part that
   /// the shape moves

@@ -49,6 +49,7 @@ class PointCarrier {
   Positions place_points(Index target, const Positions& face) const;
 
  private:
+  /// A point on a triangle of the mesh.
   struct TrianglePoint {
     Triangle corners;
     std::array<double, 3> barycentric;  ///< barycentric coordinates
@@ -56,6 +57,7 @@ class PointCarrier {
   /// What a point follows: a fixed position on a triangle, or the rigid motion of a vertex group.
   using Anchor = std::variant<TrianglePoint, Socket>;
 
+  /// Returns the place of a point on the triangles; nothing if the point is not on the surface.
   static std::optional<TrianglePoint> point_on_surface(const Eigen::Vector3d& point,
                                                        const Positions& mesh,
                                                        std::span<const Triangle> triangles);
@@ -65,7 +67,8 @@ class PointCarrier {
                                        const PartList& parts, std::span<const std::uint32_t> skin);
 
   const PointSet& points_;
-  std::vector<std::vector<Anchor>> anchors_;  ///< #meshes by #names
+  /// what each point of each mesh follows, #meshes by #names
+  std::vector<std::vector<Anchor>> anchors_;
 };
 
 }  // namespace crowdface

@@ -157,8 +157,6 @@ void PreparedShapes::find_inner_vertices(const PartList& parts) {
   }
 }
 
-/// Looks up the region weights of skin and parts. Masks do not cover lashes and eyeballs, so these
-/// get the weights of the nearest skin.
 void PreparedShapes::look_up_regions(const RegionWeights& regions) {
   const PointGrid grid(shape_set.neutral, skin);
   const auto nearest = [&](std::uint32_t v) {
@@ -282,8 +280,6 @@ Eigen::Matrix3d PreparedShapes::mean_map_of_part(const PreparedPart& part,
   return map / static_cast<double>(part.displacement_rows.size());
 }
 
-/// Measures how each set of shapes moves parts and lids, and normalises the heads' own shapes by
-/// removing the local rotation and stretch of each head.
 void PreparedShapes::add_shape_sets() {
   const std::size_t heads = shape_set.head_shapes.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {

@@ -26,7 +26,7 @@ namespace crowdface {
 struct PreparedEye {
   std::size_t part;  ///< index into the rigid parts
   TemplateEye template_eye;
-  std::vector<BallRadii> balls;  ///< #heads
+  std::vector<BallRadii> balls;  ///< for each head: the radii of its eyeball
 };
 
 /// How a shape moves one rigid part.
@@ -78,7 +78,7 @@ struct PreparedShape {
   /// all heads use one set
   std::vector<FloatPositions> head_moves;
   std::vector<PreparedPart> parts;
-  std::vector<PreparedLids> lids;  ///< #eyes
+  std::vector<PreparedLids> lids;  ///< one per eye
   std::vector<LidFollower> lid_followers;
   SkinOverParts skin_over_parts;
   SkinCrossings::SearchedSkin searched_skin;
@@ -111,7 +111,7 @@ struct PreparedShapes {
   RegionWeights::Alpha vertex_region_weights;
   /// preserves gaps between skin surfaces that almost touch, such as the lips
   GapPreserver gap_preserver;
-  RegionWeights::Alpha contact_region_weights;  ///< #gaps by #regions
+  RegionWeights::Alpha contact_region_weights;  ///< region weights at each gap, #gaps by #regions
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the bounding box of the template's skin
   /// vertex indices of gums and teeth: of all parts except eyeballs, without the vertices near an
@@ -133,6 +133,7 @@ struct PreparedShapes {
     /// rest
     std::vector<bool> crosses_at_rest;
   };
+  /// \param face  #V by 3, at rest; must outlive the result.
   FaceFrames make_face_frames(const Positions& face) const;
   /// Returns the mean of `maps` over `part.moved_vertices`.
   /// \param maps  FaceFrames::maps of a face.
@@ -140,17 +141,29 @@ struct PreparedShapes {
                                    std::span<const Eigen::Matrix3d> maps) const;
 
  private:
+  /// Sets `inner_vertices`.
   void find_inner_vertices(const PartList& parts);
+  /// Appends a rigid part to `rigid_parts`. \param mean  The mean head.
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
+  /// Appends the eye to `eyes` whose eyeball is the last of `rigid_parts`.
+  /// \param ball  Shape of the eyeball on the mean head.
+  /// \param mean  The mean head.
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
+  /// Looks up the region weights of skin and parts. Masks do not cover lashes and eyeballs, so
+  /// these get the weights of the nearest skin.
   void look_up_regions(const RegionWeights& regions);
+  /// Fills all members of `prepared` except those that add_shape_sets measures.
+  /// \param moves  Displacements of the shape.
   void prepare_shape(const Displacements& moves, const Adjacency& adjacency,
                      PreparedShape& prepared) const;
+  /// Sets `prepared.lids` (without targets) and `prepared.lid_followers`.
   void prepare_lids(const Displacements& moves, const Adjacency& adjacency,
                     PreparedShape& prepared) const;
   /// Returns the part of the skin in which the shape may cause intersections on blended heads.
   SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
                                                  const PreparedShape& prepared) const;
+  /// Measures how each set of shapes moves parts and lids, and normalises the heads' own shapes by
+  /// removing the local rotation and stretch of each head.
   void add_shape_sets();
   /// Returns the displacements of one shape in one set of shapes.
   Displacements shape_of_set(std::size_t set, std::size_t shape) const;

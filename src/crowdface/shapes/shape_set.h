@@ -20,7 +20,7 @@ struct Shape {
 /// One head's own version of an expression.
 struct OwnShape {
   std::vector<std::uint32_t> vertices;  ///< indices of the moved vertices, ascending
-  FloatPositions moves;                 ///< #vertices by 3
+  FloatPositions moves;                 ///< displacements of `vertices`, #vertices by 3
 };
 
 /// Expressions in the topology of a crowd's heads: one set for a template, or one set for each
@@ -45,7 +45,9 @@ std::size_t own_shape_bytes(const ShapeSet& shapes);
 /// \param extent  Diagonal of the skin's bounding box.
 Shape make_shape(std::string name, const Positions& neutral, const Positions& mesh, double extent);
 
+/// Stores the displacements of one head's own version of an expression in single precision.
 OwnShape make_own_shape(const Displacements& moves);
+/// Inverse of make_own_shape.
 Displacements displacements_of(const OwnShape& shape);
 
 /// Returns the mean, over all heads, of one shape's displacements. The result contains every vertex
@@ -56,7 +58,7 @@ Displacements mean_displacements(const std::vector<std::vector<OwnShape>>& head_
 /// The weight of one set of shapes in a blend of several sets.
 struct ShapeSetShare {
   std::uint32_t set;    ///< index of the set of shapes
-  double blend_weight;  ///< 0 to 1
+  double blend_weight;  ///< weight of this set, 0 to 1
 };
 using ShapeSetShares = std::vector<ShapeSetShare>;
 

@@ -99,7 +99,7 @@ class FaceShape {
   const Positions& rest_;
   Positions& mesh_;
   Displacements result_;
-  std::vector<LidClosure::LidTargets> targets_;  ///< #eyes
+  std::vector<LidClosure::LidTargets> targets_;  ///< one per eye
   Index crossing_ = 0;
 };
 

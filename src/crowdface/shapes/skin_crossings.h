@@ -26,11 +26,12 @@ class SkinCrossings {
   SkinCrossings(const Topology& topology, std::span<const std::uint32_t> skin, double extent,
                 const HeadAxes& axes);
 
+  /// Returns all triangles of the skin.
   const SkinTriangles& mesh() const { return skin_; }
 
   /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
   struct SearchedSkin {
-    CrossingSearch search;
+    CrossingSearch search;  ///< searches the triangles of the skin that may touch other skin
     /// for each triangle of `search`: whether the triangle is at an intersection that the template,
     /// or a head, already has in this shape. Intersections between two of these triangles are
     /// ignored on faces.
@@ -63,6 +64,7 @@ class SkinCrossings {
   /// Returns, for each vertex, whether it belongs to an intersecting triangle of a face at rest.
   std::vector<bool> crossing_at_rest(const Positions& rest, const CrossingSearch& search) const;
 
+  /// A face at rest, to which a shape is added.
   struct Face {
     const Positions& rest;  ///< #V by 3: the mesh to which the shape is added
     /// for each vertex: whether the vertex belongs to an intersecting triangle of the face at rest,
@@ -76,6 +78,7 @@ class SkinCrossings {
   Index count_intersecting(const Face& face, const SearchedSkin& searched_skin,
                            const Displacements& shape, Positions& mesh) const;
 
+  /// Returns a cost of the displacements `moves` of a shape that does not depend on intersections.
   using ExtraCost = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
   /// over skin that is close together at rest, so that the skin keeps its front-to-back order.

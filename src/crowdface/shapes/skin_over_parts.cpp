@@ -245,7 +245,6 @@ std::vector<SkinOverParts::Push> SkinOverParts::find_pushes(const Positions& mes
   return pushes;
 }
 
-/// Moves the skin at the points of `pushes`, and the skin around these points with a falloff.
 void SkinOverParts::apply_pushes(std::span<const Push> pushes, double scale,
                                  std::span<const DisplacementRow> rows, Positions& mesh,
                                  Displacements& shape) const {

@@ -62,6 +62,7 @@ class SkinOverParts {
   ///                  reduced by each push.
   std::vector<Push> find_pushes(const Positions& mesh, const RigidMotion& face_motion,
                                 std::span<double> max_push) const;
+  /// Moves the skin at the points of `pushes`, and the skin around these points with a falloff.
   void apply_pushes(std::span<const Push> pushes, double scale,
                     std::span<const DisplacementRow> rows, Positions& mesh,
                     Displacements& shape) const;

@@ -101,7 +101,6 @@ bool SmoothedVectors::affects(const Eigen::Vector3d& place) const {
   return may_be_near_centre(place, outer_radius_ + cell_);
 }
 
-/// Returns the distance to the nearest centre.
 double SmoothedVectors::distance_to_centre(const Eigen::Vector3d& place) const {
   double least = std::numeric_limits<double>::max();
   for (const Eigen::Vector3d& other : centres_) {

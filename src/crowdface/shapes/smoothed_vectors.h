@@ -26,6 +26,7 @@ class SmoothedVectors {
   /// Returns whether a sample at this position can affect the result.
   bool affects(const Eigen::Vector3d& position) const;
 
+  /// A vector at a position.
   struct Sample {
     std::uint32_t index;  ///< identifies the sample in the result
     Eigen::Vector3d position, value;
@@ -43,11 +44,12 @@ class SmoothedVectors {
  private:
   /// Returns whether a centre may be nearer than `reach`; a fast conservative test.
   bool may_be_near_centre(const Eigen::Vector3d& position, double reach) const;
+  /// Returns the distance to the nearest centre.
   double distance_to_centre(const Eigen::Vector3d& position) const;
 
   std::vector<Eigen::Vector3d> centres_;
-  Eigen::AlignedBox3d box_;  ///< bounding box of the centres
-  double cell_, inner_radius_, outer_radius_;
+  Eigen::AlignedBox3d box_;                    ///< bounding box of the centres
+  double cell_, inner_radius_, outer_radius_;  ///< see the constructor
 };
 
 }  // namespace crowdface
