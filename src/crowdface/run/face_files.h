@@ -34,9 +34,9 @@ struct FaceFile {
 
 /// Which mesh files a face has.
 struct MeshFileOptions {
-  const std::vector<MeshFormat>& formats;
-  std::filesystem::path folder;  ///< folder of the meshes
-  std::string stem;              ///< first part of the file names
+  const std::vector<MeshFormat>& formats;  ///< the list has a mesh file in each format
+  std::filesystem::path folder;            ///< folder of the meshes
+  std::string stem;                        ///< first part of the file names
   /// whether the face has files for levels of detail, blend shapes and named points
   bool includes_all_variants = true;
 };

@@ -28,10 +28,11 @@ class ShardProgress {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// Writes `notes_` to `file_`.
   void write() noexcept;
 
   std::filesystem::path file_;
-  ShardNotes notes_;
+  ShardNotes notes_;  ///< the shard's state and number of finished faces
   Clock::time_point start_ = Clock::now(), last_write_ = start_;
   std::mutex mutex_;
 };
