@@ -15,6 +15,7 @@ namespace crowdface {
 /// borders between materials are split into several corners, so that edge collapses preserve these
 /// borders.
 struct SplitMesh {
+  /// A vertex with its texture coordinate and its material.
   struct Corner {
     /// `vertex`: row of the position. `uv`: row of the texture coordinate, or kNoIndex. `material`:
     /// index of the material.

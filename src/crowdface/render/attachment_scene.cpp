@@ -31,9 +31,9 @@ AttachmentScene::AttachmentScene(const RayDevice& device,
   std::vector<float> points;
   for (const AttachmentMesh& mesh : attachments) {
     const AttachmentSurface& surface = *mesh.surface;
-    require(mesh.positions->rows() == surface.topology().vertex_count,
-            "render: ", mesh.positions->rows(), " positions of what is worn, ",
-            surface.topology().vertex_count, " vertices");
+    require(mesh.positions->rows() == surface.topology().vertex_count, "render: an attachment has ",
+            mesh.positions->rows(), " positions, expected ", surface.topology().vertex_count,
+            ", one per vertex");
     const auto first = static_cast<std::uint32_t>(points.size() / 3);
     parts_.push_back({&surface, static_cast<std::uint32_t>(quads_.size()), mesh.tint});
     const std::vector<float> own = to_camera_space(*mesh.positions, camera);

@@ -18,6 +18,7 @@ enum class RayCoherence { kIncoherent, kCoherent };
 
 #if CROWDFACE_EMBREE == 4
 
+/// The default arguments of rtcIntersect, with the flag for coherent rays if `coherence` says so.
 inline RTCIntersectArguments intersect_arguments(RayCoherence coherence) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -48,6 +49,7 @@ inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
 
 #else
 
+/// The default context of rtcIntersect, with the flag for coherent rays if `coherence` says so.
 inline RTCIntersectContext intersect_context(RayCoherence coherence) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);

