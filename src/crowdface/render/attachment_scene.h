@@ -40,9 +40,9 @@ class AttachmentScene {
  private:
   /// One attachment in the scene.
   struct Part {
-    const AttachmentSurface* surface;
-    std::uint32_t first_quad;  ///< index of the attachment's first quad in `quads_`
-    LinearRgb tint;            ///< factors on the colour
+    const AttachmentSurface* surface;  ///< mesh and materials of the attachment
+    std::uint32_t first_quad;          ///< index of the attachment's first quad in `quads_`
+    LinearRgb tint;                    ///< factors on the colour
   };
   /// Returns the attachment to which a quad of the scene belongs.
   const Part& part_of(std::uint32_t quad) const;

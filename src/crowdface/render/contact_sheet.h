@@ -29,8 +29,8 @@ struct SheetOptions {
   int columns = 6;
   int rows = 0;            ///< 0: as many as needed; unused cells stay blank
   std::string title = {};  ///< top left
-  std::optional<HeatLegend> legend = std::nullopt;
-  std::string note = {};  ///< top right, such as "sheet 2 of 5"
+  std::optional<HeatLegend> legend = std::nullopt;  ///< legend of a heat map; empty: none
+  std::string note = {};                            ///< top right, such as "sheet 2 of 5"
 };
 
 /// Positions and sizes of the parts of a sheet, in pixels.

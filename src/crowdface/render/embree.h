@@ -33,6 +33,7 @@ inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, 
   RTCIntersectArguments arguments = intersect_arguments(coherence);
   rtcIntersect8(valid, scene, &query, &arguments);
 }
+/// The same for a packet of 16 rays.
 inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
                       RTCRayHit16& query) {
   RTCIntersectArguments arguments = intersect_arguments(coherence);
@@ -43,6 +44,7 @@ inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
 inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays, nullptr);
 }
+/// The same for a packet of 16 rays.
 inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
   rtcOccluded16(valid, scene, &rays, nullptr);
 }
@@ -57,6 +59,7 @@ inline RTCIntersectContext intersect_context(RayCoherence coherence) {
   return context;
 }
 
+// See the functions of the same names for Embree 4, above.
 inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, RTCRayHit8& query) {
   RTCIntersectContext context = intersect_context(coherence);
   rtcIntersect8(valid, scene, &context, &query);

@@ -57,10 +57,13 @@ class PixelSamples {
   /// \param positions  sample positions in [0, 1)²
   explicit PixelSamples(std::vector<Eigen::Vector2f> positions);
 
+  /// The positions of all samples, in [0, 1)².
   const std::vector<Eigen::Vector2f>& positions() const { return positions_; }
+  /// Number of samples.
   std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
-  // The x (or y) coordinates of all samples, followed by kMaxLanes NaNs as padding.
+  /// The x coordinates of all samples, followed by kMaxLanes NaNs as padding.
   const float* x() const { return x_.data(); }
+  /// The y coordinates of all samples, followed by kMaxLanes NaNs as padding.
   const float* y() const { return y_.data(); }
 
  private:

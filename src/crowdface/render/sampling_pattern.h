@@ -22,6 +22,7 @@ inline constexpr int kInterleavePeriod = 3;
 /// directions. Every block of 3 by 3 pixels has the same set of 9 · `rays_per_pixel` points.
 class InterleavedDisc {
  public:
+  /// Creates the pattern for this number of rays per pixel.
   explicit InterleavedDisc(int rays_per_pixel);
   /// The direction of ray `k` of pixel (x, y), as a point of the disc. Depends on x and y only
   /// modulo kInterleavePeriod.

@@ -19,6 +19,7 @@ struct PixelRectangle {
   int left, top, right, bottom;
 
   int width() const { return right - left; }
+  /// Number of pixels in the rectangle.
   std::size_t count() const { return index(left, bottom); }
   /// Row-major index of a pixel inside the rectangle.
   std::size_t index(int x, int y) const {

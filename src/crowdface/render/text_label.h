@@ -19,8 +19,8 @@ struct LabelStyle {
   /// middle.
   int min_text_px = 9;
   TextAlign align = TextAlign::kCentre;
-  std::array<std::uint8_t, 3> text_colour = {214, 214, 216};
-  std::array<std::uint8_t, 3> background_colour = {34, 35, 37};
+  std::array<std::uint8_t, 3> text_colour = {214, 214, 216};     ///< sRGB
+  std::array<std::uint8_t, 3> background_colour = {34, 35, 37};  ///< sRGB
 };
 
 /// An image with one line of text, which always fits.

@@ -13,6 +13,7 @@ namespace crowdface {
 /// number of rays that reached the light and the number of traced rays. Each field is a separate
 /// array.
 struct PointVisibility {
+  /// Index into `field_values`. The three coordinates of a vector are three consecutive fields.
   enum Field {
     kPoint,
     kNormal = kPoint + 3,

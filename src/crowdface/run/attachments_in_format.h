@@ -73,7 +73,7 @@ class AttachmentsInFormat {
   }
 
  private:
-  std::map<const Attachment*, FormatData> data_of_attachment_;
+  std::map<const Attachment*, FormatData> data_of_attachment_;  ///< the converted attachments
 };
 
 /// The mesh and the attachments of a crowd, converted for one file format. Holds only data that are
@@ -83,6 +83,7 @@ struct MeshWithAttachments {
   Mesh mesh;                        ///< the faces' topology, texture coordinates and materials
   AttachmentsInFormat<Part> parts;  ///< the attachments
 
+  /// Memory of the mesh and the attachments, in bytes.
   std::size_t memory_bytes() const { return mesh.memory_bytes() + parts.memory_bytes(); }
   /// Maximum memory, in bytes, for encoding the mesh and the attachments of one face.
   std::size_t encoding_memory_bytes() const {

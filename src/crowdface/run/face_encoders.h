@@ -127,7 +127,7 @@ class FaceEncoders {
 
   const Config& config_;
   const Inputs& inputs_;
-  std::vector<MeshFormat> formats_;
+  std::vector<MeshFormat> formats_;              ///< mesh formats of the faces
   std::vector<MeshLevel> levels_;                ///< the whole mesh, then the levels of detail
   std::map<MeshFormat, MeshEncoders> encoders_;  ///< by format, one encoder for each of `levels_`
   /// one per level of detail; empty if attachments are not written to separate files

@@ -66,7 +66,7 @@ class FaceFileLists {
   const Config& config_;
   const Inputs& inputs_;
   const CrowdDirectory& directory_;
-  bool has_gallery_;
+  bool has_gallery_;  ///< whether the crowd has a gallery, with a small mesh of each face
 };
 
 /// The results for a face whose files have been written.

@@ -42,9 +42,9 @@ class FaceTraits {
   /// face.
   void mirror_landmark_vertices(Positions& face) const;
 
-  std::vector<std::size_t> trait_indices_;
-  HeadLandmarks landmarks_;
-  FaceBuilder builder_;
+  std::vector<std::size_t> trait_indices_;   ///< indices into measurements()
+  HeadLandmarks landmarks_;                  ///< the landmarks that the traits need
+  FaceBuilder builder_;                      ///< corrects contacts and poses
   double mm_per_unit_;                       ///< millimetres per unit of the mesh files
   std::shared_ptr<const MirrorMap> mirror_;  ///< null unless the config asks for mirrored faces
   /// the heads placed on a common body; null unless the config has `neck`
@@ -54,8 +54,8 @@ class FaceTraits {
   /// the vertices on which the exact landmark positions depend, ascending; `heads_` holds the
   /// heads' data at these vertices
   FaceSamples samples_;
-  HeadsAtSamples heads_;
-  Index vertex_count_;  ///< number of vertices of a head
+  HeadsAtSamples heads_;  ///< the heads' data at the vertices `samples_`
+  Index vertex_count_;    ///< number of vertices of a head
   std::optional<FaceMeasurer> measurer_;
 };
 

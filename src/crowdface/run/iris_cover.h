@@ -47,7 +47,7 @@ class IrisCover {
   double covered_fraction(const Eye& eye, const PlacedAttachment& hair) const;
 
   const Inputs& inputs_;
-  HeadAxes axes_;
+  HeadAxes axes_;  ///< directions up and front of the heads
   FaceAttachments& attachments_;
   std::function<const FaceBuilder&()> builder_;
   std::vector<std::string> items_near_eyes_;  ///< names of the attachments that can cover an iris

@@ -21,7 +21,7 @@ namespace crowdface {
 /// The options of `crowdface wrap`, as the user typed them; `crowdface wrap --help` explains them.
 /// An empty value means that the option was not given.
 struct WrapOptions {
-  std::string template_file;  ///< the template
+  std::string template_file;  ///< mesh file of the template
   std::string scan;       ///< file of one scan; if given, `out` is the file of the head to write
   std::string batch;      ///< folder of scans; if given, `out` is the folder of the heads to write
   std::string out;        ///< `--output`, see `scan` and `batch`
@@ -31,6 +31,7 @@ struct WrapOptions {
   std::string ignored_area_mask;   ///< mask of the template's areas that the fit ignores
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string texture_size;  ///< side length of the textures to bake, in texels
+  /// the command options of the same names
   bool no_pictures = false, force = false, dry_run = false, estimate = false;
   bool removes_shading = false;  ///< `--delight`: see BakeOptions::removes_shading
   bool strict = false;           ///< whether to refuse doubtful heads

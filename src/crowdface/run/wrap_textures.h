@@ -55,7 +55,7 @@ class WrapTextures {
 
   const WrapInputs& inputs_;
   BakeOptions options_;
-  BakeTemplate bake_template_;
+  BakeTemplate bake_template_;  ///< the template, prepared for baking
 };
 
 /// Adds the hashes of the material files and textures that an OBJ scan names to `hasher`.

@@ -23,8 +23,8 @@ struct CrowdTextures {
 /// One texture image of a face, blended from the heads' maps: colours, or other values such as
 /// normals.
 struct BlendedPicture {
-  int width = 0;
-  int height = 0;
+  int width = 0;   ///< in texels
+  int height = 0;  ///< in texels
   /// Height by width by 3, first row on top; empty if `values_16_bit` is used.
   std::vector<std::uint8_t> srgb;
   /// Height by width by `channels`, used instead of `srgb`. A number n stands for the value `low` +

@@ -42,7 +42,7 @@ class SurfaceTexels {
   };
   /// The texels [begin, end) of one row that one triangle covers.
   struct Span {
-    std::uint32_t triangle;    ///< argument of `triangle()`
+    std::uint32_t triangle;    ///< index of the triangle, see `triangle()`
     std::uint16_t begin, end;  ///< columns
   };
   /// An uncovered texel near the surface (`target`), which gets the colour of a covered texel
@@ -59,6 +59,7 @@ class SurfaceTexels {
   int height() const { return size_.height; }  ///< in texels
   /// Vertices of the triangles in this texture image, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
+  /// The triangle with the index of a Span.
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   /// The covered texels of row y, from left to right.
   std::span<const Span> row(int y) const {

@@ -82,9 +82,9 @@ class TextureBlender {
   const RegionWeights& regions_;
   const CrowdTextures& textures_;
   TextureBlendOptions options_;
-  std::shared_ptr<const LayoutTexels> texels_;
+  std::shared_ptr<const LayoutTexels> texels_;  ///< the mesh rasterized into the layout
   std::vector<MapCoding> codings_;  ///< for each picture: the coding of the blended picture
-  SurfaceStatistics statistics_;
+  SurfaceStatistics statistics_;    ///< the coarse values C_h and the covariances c
   /// #regions: fraction of the face that each region covers
   std::vector<double> region_area_fractions_;
 };

@@ -56,10 +56,10 @@ struct MapCoding {
 
 /// One head's texture map for one image of the texture layout, in 16-bit planes.
 struct TextureMap {
-  int width = 0;
-  int height = 0;
+  int width = 0;                    ///< in texels
+  int height = 0;                   ///< in texels
   std::vector<StoredValue> planes;  ///< one plane per channel: height by width, first row at v = 1
-  MapCoding coding = {};
+  MapCoding coding = {};            ///< how the stored values encode numbers
   /// the planes in a mapped file, instead of `planes`
   std::span<const StoredValue> mapped_planes = {};
   std::shared_ptr<const MappedFile> mapped_file = {};  ///< keeps the file mapped; null: not used

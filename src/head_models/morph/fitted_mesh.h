@@ -29,6 +29,7 @@ std::filesystem::path picture_path(const std::filesystem::path& file, const std:
 /// teeth. Each vertex is a weighted mean of three vertices of the base mesh, plus an offset. This
 /// is the content of MakeHuman's .mhclo files, which the package stores as JSON.
 struct FittedMesh {
+  /// An alternative material of the mesh.
   struct Picture {
     std::string name;            ///< name of the material: "brown"
     std::filesystem::path path;  ///< colour texture; empty: none

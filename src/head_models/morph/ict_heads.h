@@ -34,8 +34,8 @@ class IctHeads : public HeadModel {
   FeatureHeights heights() const;
 
  private:
-  ObjFile file_;  ///< file of the neutral mesh
-  Mesh neutral_;
+  ObjFile file_;                  ///< file of the neutral mesh
+  Mesh neutral_;                  ///< see neutral()
   std::vector<Positions> modes_;  ///< displacements from the neutral mesh, each #V by 3
 };
 
