@@ -37,6 +37,7 @@ class AttachmentSurface {
   const NormalFans& fans() const { return fans_; }
   /// The polygons, split into quads and triangles.
   const std::vector<Quad>& quads() const { return quads_; }
+  /// The materials of the attachment; each quad has one of them.
   const std::vector<AttachmentMaterial>& materials() const { return materials_; }
 
   /// Linear colour at a point of a quad. \param weights  interpolation weights from

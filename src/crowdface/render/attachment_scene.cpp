@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// \param points  3 coordinates per vertex.
+/// Area of a quad. \param points  3 coordinates per vertex.
 float area_of(const Quad& quad, const std::vector<float>& points) {
   const auto point = [&](int corner) {
     return Eigen::Map<const Eigen::Vector3f>(

@@ -47,6 +47,7 @@ class FaceRenderer {
                         const Surfaces& surfaces = {}, const Positions* average_face = nullptr);
   ~FaceRenderer();
 
+  /// Renders a face.
   /// \param positions  #V by 3, in the unit of the camera. If the constructor got no average face,
   ///                   the normals of a mesh that is inside out (such as a mirrored mesh) are
   ///                   flipped.

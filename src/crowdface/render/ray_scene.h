@@ -34,8 +34,8 @@ class RayDevice {
 struct Ray {
   Eigen::Vector3f origin;
   Eigen::Vector3f direction;   ///< any length
-  float min_distance = 0;      ///< in lengths of `direction`
-  float max_distance = 1e30F;  ///< in lengths of `direction`
+  float min_distance = 0;      ///< as a multiple of the length of `direction`
+  float max_distance = 1e30F;  ///< as a multiple of the length of `direction`
   /// Seed in 0 … 65535 for stochastic transparency: the seed decides whether the ray passes a
   /// surface. A surface with opacity α lets the rays of a fraction 1−α of all seeds pass. The seeds
   /// of a pixel's rays are evenly spread.

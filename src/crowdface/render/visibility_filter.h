@@ -40,6 +40,7 @@ class PixelVisibility {
   /// Marks all pixels as empty: sets their normals to 0, so that filter_visibility ignores the
   /// pixels.
   void clear();
+  /// Index of a pixel's value in field_values().
   /// \param x, y  from −1 to kSquareSide, relative to the square's corner
   static std::size_t index(int x, int y) {
     return static_cast<std::size_t>(y + 1) * kStride + static_cast<std::size_t>(x + 1);

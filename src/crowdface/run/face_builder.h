@@ -26,6 +26,7 @@ class FaceBuilder {
   FaceBuilder(const FaceBuilder&) = delete;
   FaceBuilder& operator=(const FaceBuilder&) = delete;
 
+  /// Builds the faces of several recipes.
   /// \param results  one matrix per recipe, #V by 3, in the units of the mesh files; reuses the
   ///                 memory of these matrices
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;

@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// Measures given traits of a face. Computes only the positions of the landmarks that these traits
+/// Measures selected traits of a face. Computes only the positions of the landmarks that these traits
 /// need.
 class FaceTraits {
  public:

@@ -23,6 +23,7 @@ class ShardProgress {
 
   /// Increases the count of finished faces by one.
   void step();
+  /// Records that the run of the shard has ended, and writes the file.
   /// \param reason  why the shard ended before it finished all faces
   void end(ShardState state, std::string_view reason = {});
 

@@ -18,8 +18,8 @@ namespace crowdface {
 /// The tasks that make a crowd, independent of the job engine. Paths are absolute and valid on all
 /// machines.
 struct TaskJob {
-  std::filesystem::path program;                   ///< the crowdface executable
-  std::vector<std::string> config_arguments;       ///< the config file and its overrides
+  std::filesystem::path program;              ///< the crowdface executable
+  std::vector<std::string> config_arguments;  ///< words of the command line: config file, overrides
   std::vector<std::string> input_limit_arguments;  ///< for every task: maximum sizes of inputs
   std::string crowd_name;                          ///< name of the crowd
   CrowdDirectory directory;

@@ -24,7 +24,7 @@ struct WrapOptions {
   std::string template_file;  ///< mesh file of the template
   std::string scan;       ///< file of one scan; if given, `out` is the file of the head to write
   std::string batch;      ///< folder of scans; if given, `out` is the folder of the heads to write
-  std::string out;        ///< `--output`, see `scan` and `batch`
+  std::string out;        ///< file or folder to write; depends on `scan` and `batch`
   std::string landmarks;  ///< file of landmarks, or kNoLandmarks
   std::string template_landmarks;  ///< file of the template's landmarks
   std::string model;               ///< folder of heads, from which a shape model is computed
@@ -41,7 +41,7 @@ struct WrapOptions {
 /// A value of `--landmarks`: the program neither reads landmarks from files nor detects landmarks.
 inline constexpr const char* kNoLandmarks = "none";
 
-/// The inputs of a run that are equal for all scans.
+/// The inputs of `crowdface wrap` that are equal for all scans.
 struct WrapInputs {
   ObjFile file;                      ///< the template
   double mm_per_unit = 10;           ///< millimetres per unit of the template
@@ -59,7 +59,7 @@ struct WrapInputs {
   Digest digest;                      ///< hash of all inputs in this struct
 };
 
-/// Reads the inputs of a run. \throws Error that names the faulty file or option.
+/// Reads the files that the options name. \throws Error that names the faulty file or option.
 WrapInputs read_wrap_inputs(const WrapOptions& options);
 
 /// Parses a length unit. \throws UsageError naming the option.

@@ -48,7 +48,8 @@ class WrapTextures {
   EncodedFile with_material_lines(EncodedFile plain, const TextureFiles& files) const;
 
  private:
-  /// Copies the template's textures that no baked texture replaces, such as the eyes' textures.
+  /// Copies the textures of the template that the head keeps unchanged, such as the textures of the
+  /// eyes.
   void copy_other_textures(const std::filesystem::path& folder) const;
   /// Returns the text of a head's material file, which names the baked textures.
   std::string materials_text(const TextureFiles& files) const;

@@ -14,7 +14,8 @@ namespace crowdface {
 /// Largest number of floats that a kernel may read or write beyond the end of a row.
 inline constexpr std::size_t kRowSlack = 16;
 
-/// A number for each field at the corners of a triangle, interpolated along texels of a row.
+/// Fields with one number at each corner of a triangle. Kernels interpolate the fields along a row
+/// of texels.
 struct InterpolatedFields {
   /// for each corner: `count` numbers, and kRowSlack further floats that may be read
   std::array<const float*, 3> corners;

@@ -58,7 +58,8 @@ std::vector<std::string> read_target_names(const std::filesystem::path& file) {
   return names;
 }
 
-/// Copies to `mesh` the vertices and texture coordinates that its polygons use, and renumbers its
+/// Copies from `all` to `mesh` the vertices and texture coordinates that the polygons of `mesh`
+/// use. Renumbers the corners of these
 /// polygons.
 /// \return for each vertex of `mesh`: its row in `all.positions`
 std::vector<std::uint32_t> keep_used_rows(const ThreeMesh& all, Mesh& mesh) {

@@ -39,8 +39,10 @@ struct FittedPart {
 /// vertices.
 class MakeHumanHeads : public HeadModel {
  public:
-  /// \param package  the unpacked package: public/data/models/human_full_size.json,
-  ///                 public/data/targets/targets.bin, src/json/targets/target-list.json.
+  /// Reads the base mesh and the morph targets.
+  /// \param package  folder of the unpacked package, with the files
+  ///                 public/data/models/human_full_size.json, public/data/targets/targets.bin and
+  ///                 src/json/targets/target-list.json.
   /// \throws MissingInput; InvalidInput, also if a target of makehuman_target_names() is missing.
   explicit MakeHumanHeads(const std::filesystem::path& package);
   /// Adds parts to all heads and removes the base mesh's eyeballs. The vertices of the skin stay

@@ -48,7 +48,7 @@ struct IrisLook {
   double darkening;          ///< factor on the optical density
   double greying;            ///< 0: keep the colour … 1: grey
 };
-/// \param colour  a result of makehuman_eye_colour
+/// Returns how irises of an eye colour are made. \param colour  a result of makehuman_eye_colour
 IrisLook makehuman_iris_look(const std::string& colour);
 
 /// Returns the random hair colour of a person's youth, before greying: a name of
