@@ -33,7 +33,7 @@ inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, 
   RTCIntersectArguments arguments = intersect_arguments(coherence);
   rtcIntersect8(valid, scene, &query, &arguments);
 }
-/// The same for a packet of 16 rays.
+/// Finds the first hit of each ray of a packet of 16 rays.
 inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
                       RTCRayHit16& query) {
   RTCIntersectArguments arguments = intersect_arguments(coherence);
@@ -44,7 +44,7 @@ inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
 inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays, nullptr);
 }
-/// The same for a packet of 16 rays.
+/// Sets `tfar` of each ray that hits a surface to -infinity, for a packet of 16 rays.
 inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
   rtcOccluded16(valid, scene, &rays, nullptr);
 }

@@ -15,7 +15,7 @@ namespace crowdface {
 /// The eyeballs of a mesh: connected components of the polygons of kind kEye. On eyeballs without a
 /// texture, the renderer paints an iris that looks straight ahead.
 struct Eyeballs {
-  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< index of no eyeball
+  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< in eyeball_of_vertex: no eyeball
   /// for each vertex: index of the eyeball that the vertex belongs to, or kNone; empty if there are
   /// no eyeballs
   std::vector<std::uint32_t> eyeball_of_vertex;

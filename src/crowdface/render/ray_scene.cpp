@@ -33,7 +33,8 @@ struct SixteenRays {
   using RaysAndHits = RTCRayHit16;
 };
 
-/// Copies rays to an Embree packet. \param valid  result: -1 for lanes with a ray, 0 for other lanes.
+/// Copies rays to an Embree packet.
+/// \param valid  result: -1 for lanes with a ray, 0 for other lanes.
 template <class Packet, std::size_t kCount>
 void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& valid) {
   valid.fill(0);

@@ -39,7 +39,7 @@ class FaceLedger {
 
   Ledger& ledger_;
   const Job& job_;
-  const FaceFileLists& lists_;
+  const FaceFileLists& lists_;  ///< lists the files of each face
   std::function<void()> recorded_;
   bool judges_skin_;         ///< whether each face's skin is checked for defects
   std::size_t shape_count_;  ///< number of shapes transferred to each face

@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// Measures selected traits of a face. Computes only the positions of the landmarks that these traits
-/// need.
+/// Measures selected traits of a face. Computes only the positions of the landmarks that these
+/// traits need.
 class FaceTraits {
  public:
   /// \param traits  indices of the measurements; all of these must be available on the heads

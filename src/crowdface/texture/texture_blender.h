@@ -62,7 +62,7 @@ class TextureBlender {
   /// \param picture  index of an image (picture) of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// The coarse values C_h and the covariances c of all heads.
+  /// The low-frequency statistics of the heads' maps: C_h and the covariances c.
   const SurfaceStatistics& statistics() const { return statistics_; }
 
   const TextureLayout& layout() const { return textures_.layout; }
@@ -84,7 +84,7 @@ class TextureBlender {
   TextureBlendOptions options_;
   std::shared_ptr<const LayoutTexels> texels_;  ///< the mesh rasterized into the layout
   std::vector<MapCoding> codings_;  ///< for each picture: the coding of the blended picture
-  SurfaceStatistics statistics_;    ///< the coarse values C_h and the covariances c
+  SurfaceStatistics statistics_;    ///< low-frequency statistics of the heads' maps
   /// #regions: fraction of the face that each region covers
   std::vector<double> region_area_fractions_;
 };
