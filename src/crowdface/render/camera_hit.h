@@ -24,7 +24,7 @@ struct Visibility {
 
 /// A surface point that a camera ray hits, with the data for shading it.
 struct CameraHit {
-  Eigen::Vector3f point;  ///< in camera space
+  Eigen::Vector3f point;  ///< position in camera space
   /// origin of rays from this point to the lights, slightly above the surface
   Eigen::Vector3f ray_origin;
   ShadePoint surface;                  ///< normal, colour and material at the point

@@ -26,9 +26,10 @@ struct Eyeballs {
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
 // Lengths as fractions of the eyeball's radius.
-inline constexpr float kPupilRadius = 0.17F;    ///< radius of the pupil, as in dim light
-inline constexpr float kIrisRadius = 0.42F;     ///< radius of the iris
-inline constexpr float kIrisSoftness = 0.025F;  ///< half the width of the blurred edges of both
+inline constexpr float kPupilRadius = 0.17F;  ///< radius of the pupil, as in dim light
+inline constexpr float kIrisRadius = 0.42F;   ///< radius of the iris
+inline constexpr float kIrisSoftness =
+    0.025F;  ///< half the width of the blurred edges of pupil and iris
 
 /// Position and size of an eyeball in one head.
 struct EyeballSphere {

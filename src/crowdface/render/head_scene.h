@@ -33,7 +33,7 @@ struct HeadScene {
   /// distance by which the origins of shadow rays are moved off the surface, to avoid hits of the
   /// surface itself
   float ray_origin_offset;
-  const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
+  const std::vector<Eigen::Vector3f>& normals;  ///< #V unit normals, outward
   float winding_sign;                           ///< +1, or −1 if the winding is inside out
   /// vertex colours, which override all other colours; or nullptr
   const VertexColours* colours;

@@ -100,7 +100,7 @@ class FaceBuilder {
   RegionWeights regions_;
   std::optional<CrowdBlender> blender_;   ///< empty with `levels: exact`
   std::optional<FacePoses> poses_;        ///< empty if all heads have one pose
-  std::optional<SkinContacts> contacts_;  ///< always set after construction
+  std::optional<SkinContacts> contacts_;  ///< corrects gaps; always set after construction
   /// #contacts by #regions: the region weights at each contact; each row sums to one
   std::vector<std::vector<double>> contact_masks_;
   bool corrects_contacts_;                ///< whether `correct_contacts` corrects gaps

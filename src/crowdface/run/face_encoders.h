@@ -130,7 +130,8 @@ class FaceEncoders {
   std::vector<MeshFormat> formats_;              ///< mesh formats of the faces
   std::vector<MeshLevel> levels_;                ///< the whole mesh, then the levels of detail
   std::map<MeshFormat, MeshEncoders> encoders_;  ///< by format, one encoder for each of `levels_`
-  /// one per level of detail; empty if attachments are not written to separate files
+  /// for each level of detail, the encoders of the attachments' separate OBJ files; empty if no
+  /// format needs such files
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
   /// empty if faces have no blended textures
   std::optional<FaceTextureEncoder> texture_encoder_;

@@ -18,7 +18,7 @@ namespace crowdface {
 struct Job {
   Config config;
   Inputs inputs;
-  SmoothingOperator smoothing;  ///< on the mesh of the heads
+  SmoothingOperator smoothing;  ///< smoothing operator of the heads' mesh
   PlanNames names;              ///< names that the plan file writes instead of indices
   Digest settings;              ///< hash of the settings, see settings_digest
 };

@@ -77,7 +77,7 @@ struct MakeHumanAttachment {
   std::vector<std::string> tags;     ///< tags that a head needs to wear the attachment
   bool excludes_old_people = false;  ///< whether old people never wear the attachment
   double relative_frequency = 1;     ///< relative frequency among attachments of the same kind
-  bool is_mirrored = false;          ///< whether left and right are exchanged
+  bool is_mirrored = false;          ///< whether left and right of the mesh are exchanged
   double end;  ///< height at which hair is cut, in centimetres above the eyes; −∞: not cut
 };
 
