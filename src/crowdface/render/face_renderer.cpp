@@ -227,10 +227,10 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   const Topology& topology = prepared_->topology;
   check_size(topology, positions);
   require(colours == nullptr || colours->rows() == topology.vertex_count,
-          "render: colours of another number than vertices");
+          "render: the number of colours differs from the number of vertices");
   require(texture_set == nullptr ||
               static_cast<Index>(texture_set->texture_of_polygon.size()) == topology.face_count(),
-          "render: textures of another number than faces");
+          "render: the number of texture indices differs from the number of polygons");
   std::unique_ptr<Workspace> workspace = prepared_->workspaces.take();
   to_camera_space(positions, camera, workspace->points);
   const Eigen::Vector3f gaze = to_camera_space(camera, prepared_->options.front);

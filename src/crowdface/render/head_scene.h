@@ -38,7 +38,7 @@ struct HeadScene {
   /// vertex colours, which override all other colours; or nullptr
   const VertexColours* colours;
   const std::vector<Quad>& quads;                             ///< polygons, split into quads
-  const std::vector<SurfaceKind>& kinds;                      ///< #quads
+  const std::vector<SurfaceKind>& kinds;                      ///< kind of each quad
   const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& textured_quads;            ///< #quads, or empty
   const TextureSet* texture_set;                              ///< textures, or nullptr

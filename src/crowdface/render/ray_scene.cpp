@@ -252,7 +252,8 @@ void RayScene::set_points(std::vector<float>& points) {
 }
 
 std::vector<std::optional<RayHit>> RayScene::nearest_hits(std::span<const Ray> rays) const {
-  require(state_->triangles.empty(), "ray scene: a scene that moves only knows what is occluded");
+  require(state_->triangles.empty(),
+          "ray scene: nearest_hits is not available with Tree::kMovable");
   return state_->takes_sixteen ? nearest_hits_of<SixteenRays>(rays, state_->scene)
                                : nearest_hits_of<EightRays>(rays, state_->scene);
 }

@@ -106,9 +106,9 @@ struct SharedFiles {
 std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
                                         const Inputs& inputs);
 
-/// Encodes an attachment as a separate OBJ file. The whole attachment keeps the text of its
-/// original file, with new positions and a new path to the materials. A reduced attachment becomes
-/// a plain OBJ file.
+/// Returns an encoder of an attachment's separate OBJ files. The file of the whole attachment keeps
+/// the text of the original file, with new positions and a new path to the materials. The file of a
+/// reduced attachment is a plain OBJ file.
 /// \param item, level  must outlive the encoder; null `level`: the whole attachment
 /// \param shared       see MeshSource::shared_folder
 MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,

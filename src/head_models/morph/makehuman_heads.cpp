@@ -88,8 +88,8 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
       if (!in_head && &part == kParts.data()) out.body.topology.add_face(face.vertices, face.uvs);
     }
     if (out.materials.back().first_face == topology.face_count()) {
-      refuse_file(file, concat("expected a head of material ", part.in_file,
-                               " above the neck's cut, ", "found none"));
+      refuse_file(file, concat("expected polygons of the material ", part.in_file,
+                               " above the cut through the neck, found none"));
     }
   }
   out.head_rows = keep_used_rows(all, out.head);
