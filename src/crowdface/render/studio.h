@@ -14,7 +14,7 @@ struct Material {
   /// wrap lighting: how far beyond the terminator light is visible, as a cosine
   LinearRgb wrap;
   float roughness;    ///< roughness of the microfacets; 0 is a mirror
-  float reflectance;  ///< at normal incidence
+  float reflectance;  ///< fraction of light that is reflected specularly at normal incidence
 };
 
 /// The material of surfaces of this kind.

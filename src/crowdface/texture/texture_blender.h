@@ -102,7 +102,7 @@ struct FaceColourWeights {
 };
 /// Computes the colour weights of the heads in the face of a recipe.
 /// \param heads  number of heads
-/// \param region_area_fractions  see the function above
+/// \param region_area_fractions  for each region: the fraction of the face's area that it covers
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
                                       const std::vector<double>& region_area_fractions);
 
