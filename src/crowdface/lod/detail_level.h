@@ -28,10 +28,12 @@ struct DetailLevel {
   ///
   /// \param whole  #V by 3.
   Positions restrict_rows(const Positions& whole) const;
+  /// Returns the displacements of the level's vertices.
   Displacements restrict_rows(const Displacements& whole) const;
 };
 
-/// Statistics of the distances from the vertices of the whole mesh to the surface of a level.
+/// Statistics of the distances from the vertices of the whole mesh to the surface of a level, in
+/// the unit of the positions.
 struct LevelError {
   double max = 0;               ///< largest distance
   double root_mean_square = 0;  ///< root mean square of the distances

@@ -45,7 +45,7 @@ PackingGrid PackingGrid::enclosing(std::span<const Positions* const> heads) {
     box.extend(Eigen::Vector3d(head->colwise().minCoeff().transpose()));
     box.extend(Eigen::Vector3d(head->colwise().maxCoeff().transpose()));
   }
-  require(!box.isEmpty(), "a frame for packed faces of no vertex");
+  require(!box.isEmpty(), "packed faces: expected heads with vertices, found none");
   const double half = std::max(0.75 * box.sizes().maxCoeff(), 1e-12);
   return {box.center() - Eigen::Vector3d::Constant(half), 2 * half / kSteps};
 }

@@ -25,9 +25,10 @@ struct PackingGrid {
 };
 
 /// Packs some vertices of a face as little-endian 16-bit numbers. The positions come first: three
-/// numbers per vertex, in grid steps from `frame.low_corner`, clamped to the cube. The
+/// numbers per vertex, in grid steps from the low corner of the grid, clamped to the cube. The
 /// unit normals follow: two numbers per vertex, the octahedral encoding (Meyer et al. 2010, "On
 /// floating-point normal vectors") with −1 … 1 mapped to 0 … 65,535.
+/// \param frame         the quantization grid.
 /// \param vertices      the vertices to pack, as row indices of `positions`.
 /// \param vertex_faces  the polygons around each vertex of the whole mesh. With the normals of the
 ///                      whole mesh, a reduced preview has the shading of the whole mesh.
@@ -40,7 +41,7 @@ std::string pack_face(const Topology& topology, std::span<const std::uint32_t> v
 std::string pack_points(std::span<const std::uint32_t> vertices, const PackingGrid& frame,
                         const Positions& positions);
 
-/// Packs a displacement: three little-endian signed 16-bit numbers, in grid steps of `frame`,
+/// Packs a displacement: three little-endian signed 16-bit numbers, in steps of the grid `frame`,
 /// clamped to the range of 16 bits.
 std::string pack_displacement(const Eigen::RowVector3d& move, const PackingGrid& frame);
 

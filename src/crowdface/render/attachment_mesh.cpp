@@ -14,7 +14,9 @@ AttachmentSurface::AttachmentSurface(const Topology& topology, const TextureCoor
                                      const std::vector<std::uint32_t>& of_face)
     : topology_(topology), fans_(topology), materials_(std::move(materials)) {
   require(!materials_.empty() && static_cast<Index>(of_face.size()) == topology.face_count(),
-          "worn surface: ", of_face.size(), " materials, ", topology.face_count(), " faces");
+          "surface of an attachment: expected materials, and one index for each of ",
+          topology.face_count(), " polygons; found ", materials_.size(), " materials and ",
+          of_face.size(), " indices");
   for (Index f = 0; f < topology.face_count(); ++f) {
     const auto [begin, end] = topology.corners(f);
     const auto uv_of_corner = [&](std::uint32_t corner) -> Eigen::Vector2f {

@@ -33,8 +33,11 @@ class AttachmentSurface {
                     const std::vector<std::uint32_t>& material_of_polygon);
 
   const Topology& topology() const { return topology_; }
+  /// The polygons around each vertex, for computing normals.
   const NormalFans& fans() const { return fans_; }
+  /// The polygons, split into quads and triangles.
   const std::vector<Quad>& quads() const { return quads_; }
+  /// The materials of the attachment; each quad has one of them.
   const std::vector<AttachmentMaterial>& materials() const { return materials_; }
 
   /// Linear colour at a point of a quad. \param weights  interpolation weights from
@@ -48,21 +51,22 @@ class AttachmentSurface {
   std::uint8_t mip_level(std::uint32_t quad, float pixel_count) const;
 
  private:
+  /// Texture coordinates at a point of a quad.
   Eigen::Vector2f uv_at(std::uint32_t quad, const Eigen::Vector4f& weights) const;
 
   Topology topology_;
   NormalFans fans_;
   std::vector<AttachmentMaterial> materials_;
   std::vector<Quad> quads_;
-  std::vector<std::uint32_t> material_of_quad_;
+  std::vector<std::uint32_t> material_of_quad_;  ///< for each quad, an index into `materials_`
   /// #quads: texture coordinates of the four corners
   std::vector<std::array<Eigen::Vector2f, 4>> uvs_;
 };
 
 /// An attachment placed on a face.
 struct AttachmentMesh {
-  const AttachmentSurface* surface;
-  const Positions* positions;
+  const AttachmentSurface* surface;         ///< topology and materials
+  const Positions* positions;               ///< #V by 3, on the face
   LinearRgb tint = LinearRgb::Constant(1);  ///< factors on the colour
 };
 

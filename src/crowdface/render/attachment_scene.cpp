@@ -12,7 +12,7 @@
 namespace crowdface {
 namespace {
 
-/// \param points  3 coordinates per vertex.
+/// Area of a quad. \param points  3 coordinates per vertex.
 float area_of(const Quad& quad, const std::vector<float>& points) {
   const auto point = [&](int corner) {
     return Eigen::Map<const Eigen::Vector3f>(
@@ -31,9 +31,9 @@ AttachmentScene::AttachmentScene(const RayDevice& device,
   std::vector<float> points;
   for (const AttachmentMesh& mesh : attachments) {
     const AttachmentSurface& surface = *mesh.surface;
-    require(mesh.positions->rows() == surface.topology().vertex_count,
-            "render: ", mesh.positions->rows(), " positions of what is worn, ",
-            surface.topology().vertex_count, " vertices");
+    require(mesh.positions->rows() == surface.topology().vertex_count, "render: an attachment has ",
+            mesh.positions->rows(), " positions, expected ", surface.topology().vertex_count,
+            ", one per vertex");
     const auto first = static_cast<std::uint32_t>(points.size() / 3);
     parts_.push_back({&surface, static_cast<std::uint32_t>(quads_.size()), mesh.tint});
     const std::vector<float> own = to_camera_space(*mesh.positions, camera);

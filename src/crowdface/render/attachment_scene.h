@@ -22,6 +22,7 @@ class AttachmentScene {
   AttachmentScene(const AttachmentScene&) = delete;
   AttachmentScene& operator=(const AttachmentScene&) = delete;
 
+  /// The quads of all attachments.
   const RayScene& scene() const { return *scene_; }
   /// Whether an attachment may be in front of some point of a pixel.
   bool may_cover(int x, int y) const {
@@ -31,16 +32,17 @@ class AttachmentScene {
   /// The normal and the colour of an attachment at a hit.
   struct HitSurface {
     Eigen::Vector3f normal;  ///< interpolated, not normalised; may point away from the camera
-    LinearRgb colour;
+    LinearRgb colour;        ///< linear, with the attachment's tint
   };
+  /// Interpolates normal and colour at a hit of `scene()`.
   HitSurface surface_at(const RayHit& hit) const;
 
  private:
   /// One attachment in the scene.
   struct Part {
-    const AttachmentSurface* surface;
-    std::uint32_t first_quad;  ///< index of the attachment's first quad in `quads_`
-    LinearRgb tint;
+    const AttachmentSurface* surface;  ///< mesh and materials of the attachment
+    std::uint32_t first_quad;          ///< index of the attachment's first quad in `quads_`
+    LinearRgb tint;                    ///< factors on the colour
   };
   /// Returns the attachment to which a quad of the scene belongs.
   const Part& part_of(std::uint32_t quad) const;
@@ -49,12 +51,12 @@ class AttachmentScene {
   /// \param distance  from the viewer to the image
   void mark_pixels(const std::vector<float>& points, float distance);
 
-  int size_px_;
+  int size_px_;                  ///< side of the image, in pixels
   std::vector<bool> may_cover_;  ///< one per pixel
-  std::vector<Part> parts_;
-  std::vector<Quad> quads_;
+  std::vector<Part> parts_;      ///< one per attachment
+  std::vector<Quad> quads_;      ///< the quads of all attachments, one attachment after another
   std::vector<std::uint8_t> mip_levels_;  ///< #quads; see AttachmentSurface::mip_level
-  std::vector<Eigen::Vector3f> normals_;
+  std::vector<Eigen::Vector3f> normals_;  ///< vertex normals of all attachments
   std::unique_ptr<const RayScene> scene_;
 };
 

@@ -37,8 +37,8 @@ double turn_degrees(View view) {
 constexpr double kNeck = 0.45;
 
 Camera aim(const HeadFrame& frame, View view, const FramingOptions& options) {
-  require(frame.up.index != frame.front.index, "camera: up ", name_of(frame.up), ", front ",
-          name_of(frame.front));
+  require(frame.up.index != frame.front.index, "camera: expected different axes, found up ",
+          name_of(frame.up), " and front ", name_of(frame.front));
   const double radians = std::numbers::pi / 180;
   Camera camera;
   camera.tan_half_fov = std::tan(options.field_of_view_degrees / 2 * radians);

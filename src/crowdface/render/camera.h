@@ -22,6 +22,7 @@ struct Camera {
   double distance = 1;                              ///< distance between target and camera
   double tan_half_fov = 0.17632698070846498;        ///< tangent of half the field of view
 
+  /// Position of the camera.
   Eigen::Vector3d position() const { return target + distance * back; }
   /// Half the side of the image, measured in the plane through `target`, the point that the camera
   /// looks at.
@@ -34,6 +35,7 @@ struct HeadFrame {
   Axis front = {2, 1};  ///< viewing direction of the faces
 };
 
+/// How fit_camera and fit_cameras place the heads in the image.
 struct FramingOptions {
   double field_of_view_degrees = 20;
   double margin = 0.06;  ///< free border on each side, as a fraction of the image's side

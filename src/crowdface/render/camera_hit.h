@@ -15,6 +15,7 @@ struct Visibility {
   float unblocked_rays = 0;  ///< number of rays that reached the light
   float traced_rays = 0;     ///< number of rays traced
 
+  /// Adds the results of another point, multiplied by `weight`.
   void add(const Visibility& other, float weight) {
     unblocked_rays += weight * other.unblocked_rays;
     traced_rays += weight * other.traced_rays;
@@ -23,13 +24,14 @@ struct Visibility {
 
 /// A surface point that a camera ray hits, with the data for shading it.
 struct CameraHit {
-  Eigen::Vector3f point;
+  Eigen::Vector3f point;  ///< position in camera space
   /// origin of rays from this point to the lights, slightly above the surface
   Eigen::Vector3f ray_origin;
-  ShadePoint surface;
+  ShadePoint surface;                  ///< normal, colour and material at the point
   float skin_lightness = 0;            ///< skin_lightness() of the texture at the hit, or 0
   bool can_receive_key_light = false;  ///< whether the key light can contribute at all
-  Visibility key_visibility, sky_visibility;
+  Visibility key_visibility;           ///< results of the shadow rays towards the key light
+  Visibility sky_visibility;           ///< results of the shadow rays towards the sky
 };
 
 /// Computes the surface data at a hit on the face. \param direction  direction of the camera ray.

@@ -31,12 +31,13 @@ Eigen::Vector3f to_camera_space(const Camera& camera, Axis axis);
 std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const NormalFans& fans,
                                             const std::vector<float>& points, float sign);
 
-/// Computes vertex normals. Reuses its memory from one head to the next.
+/// Memory for computing vertex normals, reused from one head to the next.
 struct CameraNormals {
   /// for each polygon: its normal times twice its area
   std::vector<Eigen::Vector3f> area_vectors;
   std::vector<Eigen::Vector3f> normals;  ///< #V
 
+  /// Sets `normals` to the result of camera_normals.
   void compute(const Topology& topology, const NormalFans& fans, const std::vector<float>& points,
                float sign);
 };

@@ -69,7 +69,7 @@ CellSize size_of(std::span<const SheetCell> cells) {
     if (size.width == 0) size = {cell.image.width, cell.image.height, 1};
     size.label_lines = std::max(size.label_lines, lines_of(cell.label));
     if (cell.image.width == size.width && cell.image.height == size.height) continue;
-    throw InvalidInput(concat("the pictures of a contact sheet are of one size: expected ",
+    throw InvalidInput(concat("the pictures of a contact sheet must have the same size: expected ",
                               size.width, " x ", size.height, ", found ", cell.image.width, " x ",
                               cell.image.height, " for ", quoted(cell.label)));
   }
@@ -228,7 +228,7 @@ Rgb8Image joined_pictures(std::span<const Rgb8Image> images) {
   int width = 0;
   for (const Rgb8Image& image : images) {
     if (image.height != images[0].height) {
-      throw InvalidInput(concat("pictures side by side are of one height: expected ",
+      throw InvalidInput(concat("pictures side by side must have the same height: expected ",
                                 images[0].height, ", found ", image.height));
     }
     width += image.width;

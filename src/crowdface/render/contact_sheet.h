@@ -10,8 +10,9 @@
 
 namespace crowdface {
 
+/// One cell of a contact sheet: an image with a text below.
 struct SheetCell {
-  /// Must have the same size in all cells of a sheet.
+  /// Image of the cell. In a contact_sheet, the images of all cells have the same size.
   Rgb8Image image;
   /// Text under the image. The font of a line that is too long is reduced until the line fits.
   std::string label;
@@ -19,32 +20,37 @@ struct SheetCell {
 
 /// Legend of a heat map below all cells of a sheet: a colour scale from 0 to `max_mm`.
 struct HeatLegend {
-  double max_mm = 0;
-  std::string title;
+  double max_mm = 0;  ///< largest value on the scale, in mm
+  std::string title;  ///< text beside the scale
 };
 
+/// Grid and texts of a contact sheet.
 struct SheetOptions {
   int columns = 6;
   int rows = 0;            ///< 0: as many as needed; unused cells stay blank
   std::string title = {};  ///< top left
-  std::optional<HeatLegend> legend = std::nullopt;
-  std::string note = {};  ///< top right, such as "sheet 2 of 5"
+  std::optional<HeatLegend> legend = std::nullopt;  ///< legend of a heat map; empty: none
+  std::string note = {};                            ///< top right, such as "sheet 2 of 5"
 };
 
 /// Positions and sizes of the parts of a sheet, in pixels.
 struct SheetLayout {
-  int columns, rows;
-  int cell_width, cell_height;
-  int label_height, label_lines;
-  int header_height, legend_height;
-  int margin, gap;
+  int columns, rows;                 ///< numbers of columns and rows of cells
+  int cell_width, cell_height;       ///< size of a cell's image
+  int label_height, label_lines;     ///< height and number of text lines below each image
+  int header_height, legend_height;  ///< heights of the header and of the heat map's legend
+  int margin, gap;                   ///< border around the sheet; space between cells
 
+  /// Width of the sheet.
   int width() const { return 2 * margin + columns * cell_width + (columns - 1) * gap; }
+  /// Height of the sheet.
   int height() const {
     return header_height + rows * (cell_height + label_height) + (rows - 1) * gap + legend_height +
            margin;
   }
+  /// Left edge of a cell. Cells are counted row by row from 0.
   int left(int cell) const { return margin + cell % columns * (cell_width + gap); }
+  /// Upper edge of a cell.
   int top(int cell) const {
     return header_height + cell / columns * (cell_height + label_height + gap);
   }
@@ -53,15 +59,15 @@ struct SheetLayout {
 /// Size of a cell, the same for all cells of a sheet.
 struct CellSize {
   int width = 0, height = 0;  ///< size of the cell's image, in pixels
-  int label_lines = 1;
+  int label_lines = 1;        ///< number of text lines below the image
 };
 
-/// Computes the layout.
+/// Computes the layout of a sheet with `count` cells.
 /// \throws BrokenPrecondition if there are no cells, or more cells than columns · rows;
 ///         InvalidInput if the sheet would exceed 65,500 pixels on a side or 5·10⁸ pixels in all.
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
-/// Computes the layout for given cells. \throws InvalidInput also if the cells' images differ in
-/// size.
+/// Computes the layout of a sheet with these cells. \throws InvalidInput also if the cells' images
+/// differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Largest number of rows that a sheet with cells of this size can have; 0 if not even one row

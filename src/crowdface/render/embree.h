@@ -18,6 +18,7 @@ enum class RayCoherence { kIncoherent, kCoherent };
 
 #if CROWDFACE_EMBREE == 4
 
+/// The default arguments of rtcIntersect, with the flag for coherent rays if `coherence` says so.
 inline RTCIntersectArguments intersect_arguments(RayCoherence coherence) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
@@ -32,6 +33,7 @@ inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, 
   RTCIntersectArguments arguments = intersect_arguments(coherence);
   rtcIntersect8(valid, scene, &query, &arguments);
 }
+/// Finds the first hit of each ray of a packet of 16 rays.
 inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
                       RTCRayHit16& query) {
   RTCIntersectArguments arguments = intersect_arguments(coherence);
@@ -42,12 +44,14 @@ inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence,
 inline void occluded(const int* valid, RTCScene scene, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays, nullptr);
 }
+/// Sets `tfar` of each ray that hits a surface to -infinity, for a packet of 16 rays.
 inline void occluded(const int* valid, RTCScene scene, RTCRay16& rays) {
   rtcOccluded16(valid, scene, &rays, nullptr);
 }
 
 #else
 
+/// The default context of rtcIntersect, with the flag for coherent rays if `coherence` says so.
 inline RTCIntersectContext intersect_context(RayCoherence coherence) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -55,6 +59,7 @@ inline RTCIntersectContext intersect_context(RayCoherence coherence) {
   return context;
 }
 
+// See the functions of the same names for Embree 4, above.
 inline void intersect(const int* valid, RTCScene scene, RayCoherence coherence, RTCRayHit8& query) {
   RTCIntersectContext context = intersect_context(coherence);
   rtcIntersect8(valid, scene, &context, &query);

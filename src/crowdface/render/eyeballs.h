@@ -15,21 +15,21 @@ namespace crowdface {
 /// The eyeballs of a mesh: connected components of the polygons of kind kEye. On eyeballs without a
 /// texture, the renderer paints an iris that looks straight ahead.
 struct Eyeballs {
-  static constexpr std::uint32_t kNone = 0xffffffffU;
+  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< in eyeball_of_vertex: no eyeball
   /// for each vertex: index of the eyeball that the vertex belongs to, or kNone; empty if there are
   /// no eyeballs
   std::vector<std::uint32_t> eyeball_of_vertex;
-  std::uint32_t count = 0;
+  std::uint32_t count = 0;  ///< number of eyeballs
 };
 
-/// \param kinds  the kind of each polygon; or empty.
+/// Finds the eyeballs of a mesh. \param kinds  the kind of each polygon; or empty.
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
-/// Radii of pupil and iris as fractions of the eyeball's radius, as in dim light. The edges of
-/// pupil and iris are blurred over kIrisSoftness on either side.
-inline constexpr float kPupilRadius = 0.17F;
-inline constexpr float kIrisRadius = 0.42F;
-inline constexpr float kIrisSoftness = 0.025F;
+// Lengths as fractions of the eyeball's radius.
+inline constexpr float kPupilRadius = 0.17F;  ///< radius of the pupil, as in dim light
+inline constexpr float kIrisRadius = 0.42F;   ///< radius of the iris
+inline constexpr float kIrisSoftness =
+    0.025F;  ///< half the width of the blurred edges of pupil and iris
 
 /// Position and size of an eyeball in one head.
 struct EyeballSphere {
@@ -38,6 +38,7 @@ struct EyeballSphere {
   float radius = 0;
 };
 
+/// Returns position and size of each eyeball.
 /// \param points  x, y, z of each vertex.
 /// \param gaze    viewing direction of the eyes, a unit vector.
 std::vector<EyeballSphere> eyeball_spheres(const Eyeballs& eyeballs,

@@ -101,7 +101,7 @@ Occluders occluders_of(const std::vector<Quad>& quads, const Positions& average_
 
 }  // namespace
 
-struct FaceRenderer::PreparedHeads {
+struct FaceRenderer::PreparedMesh {
   Topology topology;
   NormalFans fans;
   RenderOptions options;
@@ -117,7 +117,7 @@ struct FaceRenderer::PreparedHeads {
   WorkspacePool workspaces;
   std::optional<float> winding;  ///< winding of the average face, which all faces share
 
-  PreparedHeads(const Topology& mesh, const RenderOptions& choice)
+  PreparedMesh(const Topology& mesh, const RenderOptions& choice)
       : topology(mesh),
         fans(mesh),
         options(choice),
@@ -200,7 +200,7 @@ FaceRenderer::FaceRenderer(const Topology& topology, const RenderOptions& option
   check(topology, options, surfaces);
   const std::vector<SurfaceKind>& kinds = surfaces.kinds;
   if (average_face != nullptr) check_size(topology, *average_face);
-  prepared_ = std::make_unique<PreparedHeads>(topology, options);
+  prepared_ = std::make_unique<PreparedMesh>(topology, options);
   if (average_face != nullptr) prepared_->winding = winding_sign(topology, *average_face);
   prepared_->eyeballs = find_eyeballs(topology, kinds);
   for (Index f = 0; f < topology.face_count(); ++f) {
@@ -227,10 +227,10 @@ Rgb8Image FaceRenderer::render(const Positions& positions, const Camera& camera,
   const Topology& topology = prepared_->topology;
   check_size(topology, positions);
   require(colours == nullptr || colours->rows() == topology.vertex_count,
-          "render: colours of another number than vertices");
+          "render: the number of colours differs from the number of vertices");
   require(texture_set == nullptr ||
               static_cast<Index>(texture_set->texture_of_polygon.size()) == topology.face_count(),
-          "render: textures of another number than faces");
+          "render: the number of texture indices differs from the number of polygons");
   std::unique_ptr<Workspace> workspace = prepared_->workspaces.take();
   to_camera_space(positions, camera, workspace->points);
   const Eigen::Vector3f gaze = to_camera_space(camera, prepared_->options.front);

@@ -15,6 +15,7 @@
 
 namespace crowdface {
 
+/// Options of FaceRenderer.
 struct RenderOptions {
   int size_px = 256;  ///< side of the square image, in pixels
   /// Antialiasing: pixels at edges get samples_per_side² samples at fixed positions; other pixels
@@ -46,6 +47,7 @@ class FaceRenderer {
                         const Surfaces& surfaces = {}, const Positions* average_face = nullptr);
   ~FaceRenderer();
 
+  /// Renders a face.
   /// \param positions  #V by 3, in the unit of the camera. If the constructor got no average face,
   ///                   the normals of a mesh that is inside out (such as a mirrored mesh) are
   ///                   flipped.
@@ -58,8 +60,8 @@ class FaceRenderer {
                    std::span<const AttachmentMesh> attachments = {}) const;
 
  private:
-  struct PreparedHeads;
-  std::unique_ptr<PreparedHeads> prepared_;
+  struct PreparedMesh;  // all data that do not depend on the rendered face
+  std::unique_ptr<PreparedMesh> prepared_;
 };
 
 }  // namespace crowdface

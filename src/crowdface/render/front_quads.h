@@ -15,9 +15,9 @@ namespace crowdface {
 /// The image is divided into squares of kSquareSide pixels a side. Each square is processed with a
 /// rim of kRimWidth pixels, which overlaps the neighbouring squares.
 inline constexpr int kLog2SquareSide = 6;
-inline constexpr int kSquareSide = 1 << kLog2SquareSide;
-inline constexpr int kRimWidth = 2;
-/// Side of a square with its rim.
+inline constexpr int kSquareSide = 1 << kLog2SquareSide;  ///< side of a square, in pixels
+inline constexpr int kRimWidth = 2;                       ///< width of the rim, in pixels
+/// Side of a square with its rim, in pixels.
 inline constexpr int kRimmedSide = kSquareSide + 2 * kRimWidth;
 
 /// Padding at the end of lists: the largest number of floats that a SIMD vector holds.
@@ -35,7 +35,7 @@ struct alignas(16) ProjectedVertex {
 /// pixels. The box is relative to the upper left corner of the square with its rim. `right` and
 /// `bottom` are inclusive.
 struct QuadOnPixels {
-  std::uint32_t quad;
+  std::uint32_t quad;  ///< index of the quad
   std::uint8_t left, top, right, bottom;
 };
 
@@ -44,22 +44,26 @@ struct QuadOnPixels {
 using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
 /// Adds each quad to the lists of all squares that the quad may touch, including the squares' rims.
-/// \param first, end  range of `quads`
+/// \param first, end  range of `quads`; `end` is exclusive
+/// \param placed  all vertices, projected to the image
 /// \param squares_per_row       number of squares in a row
 void add_to_squares(std::span<const Quad> quads, std::size_t first, std::size_t end,
                     std::span<const ProjectedVertex> placed, int squares_per_row,
                     SquareLists& squares);
 
-/// Sample positions in a pixel.
+/// The positions of the samples in one pixel, in units of the pixel's side.
 class PixelSamples {
  public:
   /// \param positions  sample positions in [0, 1)²
   explicit PixelSamples(std::vector<Eigen::Vector2f> positions);
 
+  /// The positions of all samples, in [0, 1)².
   const std::vector<Eigen::Vector2f>& positions() const { return positions_; }
+  /// Number of samples.
   std::uint32_t count() const { return static_cast<std::uint32_t>(positions_.size()); }
-  // The x (or y) coordinates of all samples, followed by kMaxLanes NaNs as padding.
+  /// The x coordinates of all samples, followed by kMaxLanes NaNs as padding.
   const float* x() const { return x_.data(); }
+  /// The y coordinates of all samples, followed by kMaxLanes NaNs as padding.
   const float* y() const { return y_.data(); }
 
  private:
@@ -71,15 +75,16 @@ class PixelSamples {
 /// the samples of all pixels.
 struct SampledPixel {
   const PixelSamples* samples = nullptr;  ///< null: no samples in this pixel
-  std::uint32_t first_sample = 0;
+  std::uint32_t first_sample = 0;         ///< index of the pixel's first sample
 };
 
 /// A depth buffer: the nearest quad at each sample. The lists are padded by kMaxLanes.
 struct DepthBuffer {
-  static constexpr std::uint32_t kNothing = 0xffffffffU;
-  std::vector<float> inverse_depth;        ///< 0: no quad
+  static constexpr std::uint32_t kNothing = 0xffffffffU;  ///< value in `front_quads`: no quad
+  std::vector<float> inverse_depth;                       ///< 0: no quad
   std::vector<std::uint32_t> front_quads;  ///< 2 · quad index, plus 1 for the second triangle
 
+  /// Creates an empty buffer. \param samples  number of samples
   explicit DepthBuffer(std::size_t samples);
 };
 
@@ -88,6 +93,7 @@ inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1
 
 /// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier quad
 /// stays. The result has the same bits with every instruction set.
+/// \param placed  all vertices, projected to the image
 /// \param corner  image pixel at the upper left corner of the square's rim
 /// \param pixels  kRimmedSide² pixels of the square and its rim, row by row
 void rasterize_quads(std::span<const QuadOnPixels> pixel_quads, std::span<const Quad> quads,

@@ -22,7 +22,7 @@ namespace crowdface {
 /// Texture coordinates of a quad.
 struct TexturedQuad {
   std::uint32_t face;  ///< index of the polygon in the topology, or TextureSet::kNone
-  std::array<Eigen::Vector2f, 4> uvs;
+  std::array<Eigen::Vector2f, 4> uvs;  ///< one per corner of the quad
 };
 
 /// A head in camera space (see camera_space.h), with all data for rendering it.
@@ -33,23 +33,24 @@ struct HeadScene {
   /// distance by which the origins of shadow rays are moved off the surface, to avoid hits of the
   /// surface itself
   float ray_origin_offset;
-  const std::vector<Eigen::Vector3f>& normals;  ///< #V, outward
+  const std::vector<Eigen::Vector3f>& normals;  ///< #V unit normals, outward
   float winding_sign;                           ///< +1, or −1 if the winding is inside out
   /// vertex colours, which override all other colours; or nullptr
   const VertexColours* colours;
-  const std::vector<Quad>& quads;
-  const std::vector<SurfaceKind>& kinds;                      ///< #quads
+  const std::vector<Quad>& quads;                             ///< polygons, split into quads
+  const std::vector<SurfaceKind>& kinds;                      ///< kind of each quad
   const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< #quads, linear; or empty
   const std::vector<TexturedQuad>& textured_quads;            ///< #quads, or empty
   const TextureSet* texture_set;                              ///< textures, or nullptr
-  std::vector<float> skin_lightness;  ///< skin_lightness() of each colour texture of `texture_set`
-  const Eyeballs& eyeballs;
-  std::vector<EyeballSphere> eyes;
-  Eigen::Vector3f gaze;
+  std::vector<float> skin_lightness;   ///< skin_lightness() of each colour texture of `texture_set`
+  const Eyeballs& eyeballs;            ///< which vertices form eyeballs
+  std::vector<EyeballSphere> eyes;     ///< position and size of each eyeball
+  Eigen::Vector3f gaze;                ///< viewing direction of the eyes, a unit vector
   const AttachmentScene* attachments;  ///< attachments, or nullptr
   bool ambient_occlusion;              ///< whether surfaces block light from the sky
   Eigen::Vector3f viewer_position;     ///< position of the camera
 
+  /// Position of a vertex.
   Eigen::Map<const Eigen::Vector3f> point(std::uint32_t vertex) const {
     return Eigen::Map<const Eigen::Vector3f>(points.data() + std::size_t{3} * vertex);
   }

@@ -13,7 +13,8 @@ namespace crowdface {
 /// \param scale_position  position on the scale, clamped to [0, 1]. \return  sRGB, each in [0, 1].
 Eigen::Vector3f heat_colour(double scale_position);
 
-/// Colours for distances. \param distances_mm  #V distances. \param max_mm  end of the scale.
+/// Vertex colours of a heat map: the heat_colour of each vertex's distance.
+/// \param distances_mm  #V distances. \param max_mm  the distance that gets the colour red.
 VertexColours heat_colours(const Eigen::Ref<const Eigen::VectorXd>& distances_mm, double max_mm);
 
 /// Four to six round numbers, starting with 0, to label a scale from 0 to `max_value`. Requires

@@ -33,6 +33,7 @@ struct SixteenRays {
   using RaysAndHits = RTCRayHit16;
 };
 
+/// Copies rays to an Embree packet.
 /// \param valid  result: -1 for lanes with a ray, 0 for other lanes.
 template <class Packet, std::size_t kCount>
 void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& valid) {
@@ -251,7 +252,8 @@ void RayScene::set_points(std::vector<float>& points) {
 }
 
 std::vector<std::optional<RayHit>> RayScene::nearest_hits(std::span<const Ray> rays) const {
-  require(state_->triangles.empty(), "ray scene: a scene that moves only knows what is occluded");
+  require(state_->triangles.empty(),
+          "ray scene: nearest_hits is not available with Tree::kMovable");
   return state_->takes_sixteen ? nearest_hits_of<SixteenRays>(rays, state_->scene)
                                : nearest_hits_of<EightRays>(rays, state_->scene);
 }

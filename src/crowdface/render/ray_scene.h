@@ -23,29 +23,31 @@ class RayDevice {
   ~RayDevice();
   RayDevice(const RayDevice&) = delete;
   RayDevice& operator=(const RayDevice&) = delete;
-  struct State;
+  struct State;  // the Embree device, which only ray_scene.cpp knows
   const State& state() const { return *state_; }
 
  private:
   std::unique_ptr<State> state_;
 };
 
+/// The points origin + t · direction with min_distance ≤ t ≤ max_distance.
 struct Ray {
   Eigen::Vector3f origin;
-  Eigen::Vector3f direction;
-  float min_distance = 0;
-  float max_distance = 1e30F;
+  Eigen::Vector3f direction;   ///< any length
+  float min_distance = 0;      ///< as a multiple of the length of `direction`
+  float max_distance = 1e30F;  ///< as a multiple of the length of `direction`
   /// Seed in 0 … 65535 for stochastic transparency: the seed decides whether the ray passes a
   /// surface. A surface with opacity α lets the rays of a fraction 1−α of all seeds pass. The seeds
   /// of a pixel's rays are evenly spread.
   std::uint32_t opacity_seed = 0;
 };
 
+/// The point where a ray hits a quad.
 struct RayHit {
   std::uint32_t primitive;  ///< index of the hit quad in the scene's list of quads
-  float u, v;               ///< bilinear coordinates on a quad, barycentric on a triangle
+  float u, v;               ///< position on the quad, see bilinear_weights (attachment_mesh.h)
   float distance;           ///< as a multiple of the length of the ray's direction
-  Eigen::Vector3f normal;   ///< geometric normal by winding, any length
+  Eigen::Vector3f normal;   ///< geometric normal by the right-hand rule, any length
 };
 
 /// Vertices of a quad; a triangle repeats its last vertex.
@@ -91,6 +93,7 @@ class RayScene {
   std::vector<std::optional<RayHit>> nearest_hits(std::span<const Ray> rays) const;
   /// Whether each ray hits any surface.
   std::vector<bool> occluded(std::span<const Ray> rays) const;
+  /// Position of a vertex.
   Eigen::Vector3f point(std::uint32_t vertex) const;
 
  private:

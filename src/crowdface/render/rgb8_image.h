@@ -16,6 +16,7 @@ struct Rgb8Image {
   std::vector<std::uint8_t> pixels;  ///< height · width · 3 values
 
   Rgb8Image() = default;
+  /// An image of one colour.
   Rgb8Image(int width_px, int height_px, std::array<std::uint8_t, 3> colour = {})
       : width(width_px), height(height_px) {
     pixels.resize(static_cast<std::size_t>(width_px) * static_cast<std::size_t>(height_px) * 3);
@@ -33,6 +34,7 @@ struct Rgb8Image {
   }
 
  private:
+  /// Index of the first value of a pixel in `pixels`.
   std::size_t offset(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
             static_cast<std::size_t>(x)) *

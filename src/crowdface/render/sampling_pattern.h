@@ -22,16 +22,17 @@ inline constexpr int kInterleavePeriod = 3;
 /// directions. Every block of 3 by 3 pixels has the same set of 9 · `rays_per_pixel` points.
 class InterleavedDisc {
  public:
+  /// Creates the pattern for this number of rays per pixel.
   explicit InterleavedDisc(int rays_per_pixel);
-  /// The direction of ray `k` of pixel (x, y), as a point of the disc. Depends on x and y only modulo
-  /// kInterleavePeriod.
+  /// The direction of ray `k` of pixel (x, y), as a point of the disc. Depends on x and y only
+  /// modulo kInterleavePeriod.
   const Eigen::Vector2f& point(int x, int y, int k) const;
   std::size_t rays_per_pixel() const {
     return points_.size() / (kInterleavePeriod * kInterleavePeriod);
   }
 
  private:
-  std::vector<Eigen::Vector2f> points_;
+  std::vector<Eigen::Vector2f> points_;  ///< indexed as [ray][row][column] of a square of pixels
 };
 
 }  // namespace crowdface

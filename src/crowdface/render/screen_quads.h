@@ -19,6 +19,7 @@ struct PixelRectangle {
   int left, top, right, bottom;
 
   int width() const { return right - left; }
+  /// Number of pixels in the rectangle.
   std::size_t count() const { return index(left, bottom); }
   /// Row-major index of a pixel inside the rectangle.
   std::size_t index(int x, int y) const {
@@ -49,10 +50,12 @@ class ScreenQuads {
                     std::vector<std::optional<RayHit>>& hits) const;
 
  private:
+  /// The hit of the camera ray through a position on the image, in pixels, on a quad.
+  /// \param front_quad  see DepthBuffer::front_quads
   RayHit hit(std::uint32_t front_quad, const Eigen::Array2f& pixel_position) const;
 
-  const float* points_ = nullptr;
-  std::span<const Quad> quads_;
+  const float* points_ = nullptr;           ///< x, y, z of each vertex
+  std::span<const Quad> quads_;             ///< the quads of the last `project`
   int squares_per_row_ = 0;                 ///< number of squares in a row
   std::vector<ProjectedVertex> projected_;  ///< #V
   std::vector<SquareLists> square_lists_;   ///< one entry per block of consecutive quads

@@ -14,7 +14,7 @@ namespace crowdface {
 struct ShadePoint {
   Eigen::Vector3f normal;     ///< unit vector, on the visible side
   Eigen::Vector3f to_viewer;  ///< unit vector
-  LinearRgb albedo;
+  LinearRgb albedo;           ///< colour of the surface
   SurfaceKind kind = SurfaceKind::kSkin;
   bool is_back = false;      ///< whether the back of the surface is visible, as in nostrils
   float sky_visibility = 1;  ///< visible fraction of the sky
@@ -32,8 +32,11 @@ LinearRgb shade(const ShadePoint& point, float specular_factor = 1);
 /// instruction set and does not depend on the other points.
 class ShadeBatch {
  public:
+  /// Removes all points.
   void clear() { count_ = 0; }
+  /// Adds a point to shade. \param specular_factor  factor on the specular reflection
   void add(const ShadePoint& point, float specular_factor);
+  /// Computes the radiance of all points.
   void shade();
 
   /// Radiance of point `i`, counted from 0 in the order in which points were added. Requires a call
@@ -49,19 +52,19 @@ class ShadeBatch {
     kNormal,
     kToViewer = kNormal + 3,
     kAlbedo = kToViewer + 3,
-    kWrap = kAlbedo + 3,
+    kWrap = kAlbedo + 3,  ///< Material::wrap
     kRoughness = kWrap + 3,
-    kReflectance,
-    kKey,
-    kSky,
+    kReflectance,  ///< Material::reflectance
+    kKey,          ///< visible fraction of the key light
+    kSky,          ///< visible fraction of the sky
     kSpecularFactor,
     kRadianceFactor,  ///< factor on the total radiance
-    kFields
+    kFields           ///< number of numbers per point
   };
-  static constexpr std::size_t kBlockSize = 16;
+  static constexpr std::size_t kBlockSize = 16;  ///< number of points in a block
 
  private:
-  std::size_t count_ = 0;
+  std::size_t count_ = 0;      ///< number of points
   std::vector<float> points_;  ///< all fields of all points, indexed as [block][field][point]
   std::vector<float> lights_;  ///< radiance of all points, indexed as [block][channel][point]
 };

@@ -8,28 +8,32 @@
 
 namespace crowdface {
 
+/// How a surface reflects light.
 struct Material {
   LinearRgb albedo;
   /// wrap lighting: how far beyond the terminator light is visible, as a cosine
   LinearRgb wrap;
   float roughness;    ///< roughness of the microfacets; 0 is a mirror
-  float reflectance;  ///< at normal incidence
+  float reflectance;  ///< fraction of light that is reflected specularly at normal incidence
 };
 
+/// The material of surfaces of this kind.
 const Material& material_of(SurfaceKind kind);
 
+/// A light at infinite distance.
 struct Lamp {
   Eigen::Vector3f direction;  ///< unit vector towards the lamp
-  LinearRgb colour;
+  LinearRgb colour;           ///< linear colour times intensity
 };
 
 /// Portrait lighting that is fixed to the camera: a large key light from the upper left, a weak
 /// fill light from the right, two rim lights from behind, and a sky.
 struct Studio {
   Lamp key, fill, rim_right, rim_left;
-  LinearRgb sky_above, sky_below;
+  LinearRgb sky_above, sky_below;  ///< light of the sky from straight above and straight below
 };
 
+/// The lighting of all renders.
 const Studio& studio();
 
 /// Default albedo of surfaces of this kind, for surfaces without a colour of their own.

@@ -9,16 +9,18 @@
 
 namespace crowdface {
 
+/// Horizontal position of a text in its image.
 enum class TextAlign { kLeft, kCentre, kRight };
 
+/// Size, position and colours of a text.
 struct LabelStyle {
   int text_px = 14;  ///< nominal height of the letters, reduced for long text
   /// Smallest text height to fit a long text. If the text is still too long, "..." replaces its
   /// middle.
   int min_text_px = 9;
   TextAlign align = TextAlign::kCentre;
-  std::array<std::uint8_t, 3> text_colour = {214, 214, 216};
-  std::array<std::uint8_t, 3> background_colour = {34, 35, 37};
+  std::array<std::uint8_t, 3> text_colour = {214, 214, 216};     ///< sRGB
+  std::array<std::uint8_t, 3> background_colour = {34, 35, 37};  ///< sRGB
 };
 
 /// An image with one line of text, which always fits.

@@ -15,8 +15,8 @@ namespace crowdface {
 
 /// A texture in linear light.
 struct Texture {
-  int width = 0;
-  int height = 0;
+  int width = 0;                  ///< in texels
+  int height = 0;                 ///< in texels
   std::vector<LinearRgb> texels;  ///< height · width texels; the first row is the top, v = 1
 };
 
@@ -43,13 +43,14 @@ struct MipMap {
   /// shorter side.
   std::vector<Texture> levels;
 
+  /// Computes all levels of a texture.
   explicit MipMap(Texture texture);
 };
 
 /// The textures of one head, and which polygon has which texture.
 struct TextureLayer {
-  static constexpr std::uint32_t kNone = 0xffffffffU;
-  std::vector<std::shared_ptr<const Texture>> textures;
+  static constexpr std::uint32_t kNone = 0xffffffffU;    ///< in texture_of_polygon: no texture
+  std::vector<std::shared_ptr<const Texture>> textures;  ///< all textures of the head
   /// for each polygon: index into `textures`, or kNone; if empty, no polygon has a texture
   std::vector<std::uint32_t> texture_of_polygon;
 };

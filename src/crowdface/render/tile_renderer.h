@@ -17,7 +17,7 @@ struct Sampling {
   /// Samples for pixels that contain no edge, but whose normals differ from their neighbours'
   /// normals, and for pixels without an edge where attachments may be.
   PixelSamples coarse_samples;
-  PixelSamples fine_samples;  ///< samples for pixels with edges
+  PixelSamples fine_samples;  ///< samples for pixels that contain edges of surfaces or colours
   /// directions of each pixel's shadow rays, towards the key light and towards the sky
   InterleavedDisc key_light_directions, sky_directions;
 

@@ -33,7 +33,8 @@ std::vector<float> vertex_visibility(const Topology& topology,
                                      const Positions& positions,
                                      std::span<const std::uint32_t> vertices) {
   require(kinds.empty() || static_cast<Index>(kinds.size()) == topology.face_count(),
-          "openness: ", kinds.size(), " surfaces, ", topology.face_count(), " faces");
+          "visibility: ", kinds.size(), " surface kinds, expected ", topology.face_count(),
+          ", one per polygon");
   const Eigen::RowVector3d low = positions.colwise().minCoeff();
   const double size = std::max((positions.colwise().maxCoeff() - low).maxCoeff(), 1e-300);
   std::vector<float> points;

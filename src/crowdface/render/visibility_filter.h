@@ -13,13 +13,14 @@ namespace crowdface {
 /// number of rays that reached the light and the number of traced rays. Each field is a separate
 /// array.
 struct PointVisibility {
+  /// Index into `field_values`. The three coordinates of a vector are three consecutive fields.
   enum Field {
     kPoint,
     kNormal = kPoint + 3,
     kKeyVisible = kNormal + 3,  ///< rays that reached the key light
     kKeyTraced,                 ///< rays traced towards the key light
-    kSkyVisible,
-    kSkyTraced,
+    kSkyVisible,                ///< rays that reached the sky
+    kSkyTraced,                 ///< rays traced towards the sky
     kFields
   };
   std::array<const float*, kFields> field_values;  ///< one array per field, #points numbers each
@@ -39,6 +40,7 @@ class PixelVisibility {
   /// Marks all pixels as empty: sets their normals to 0, so that filter_visibility ignores the
   /// pixels.
   void clear();
+  /// Index of a pixel's value in field_values().
   /// \param x, y  from −1 to kSquareSide, relative to the square's corner
   static std::size_t index(int x, int y) {
     return static_cast<std::size_t>(y + 1) * kStride + static_cast<std::size_t>(x + 1);
@@ -52,6 +54,7 @@ class PixelVisibility {
   }
 
  private:
+  /// number of values of each field: one per pixel, then 16 numbers as padding for SIMD loads
   static constexpr std::size_t kSize = (kSquareSide + 2) * kStride + 16;
   /// the values of all PointVisibility fields: kSize values for each field, one field after another
   std::vector<float> field_values_;

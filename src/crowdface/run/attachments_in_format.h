@@ -45,6 +45,7 @@ class AttachmentsInFormat {
     return placed;
   }
 
+  /// Memory of the converted attachments, in bytes.
   std::size_t memory_bytes() const {
     std::size_t bytes = 0;
     for (const auto& [item, format_data] : data_of_attachment_)
@@ -66,22 +67,25 @@ class AttachmentsInFormat {
     for (const auto& [kind, most] : max_bytes_by_kind) bytes += most;
     return bytes;
   }
+  /// Like the function above, if one file of the face contains each attachment.
   std::size_t encoding_memory_bytes() const {
     return encoding_memory_bytes([](const Attachment&) { return 1U; });
   }
 
  private:
-  std::map<const Attachment*, FormatData> data_of_attachment_;
+  std::map<const Attachment*, FormatData> data_of_attachment_;  ///< the converted attachments
 };
 
 /// The mesh and the attachments of a crowd, converted for one file format. Holds only data that are
 /// equal for all faces.
 template <class Mesh, class Part>
 struct MeshWithAttachments {
-  Mesh mesh;
-  AttachmentsInFormat<Part> parts;
+  Mesh mesh;                        ///< the faces' topology, texture coordinates and materials
+  AttachmentsInFormat<Part> parts;  ///< the attachments
 
+  /// Memory of the mesh and the attachments, in bytes.
   std::size_t memory_bytes() const { return mesh.memory_bytes() + parts.memory_bytes(); }
+  /// Maximum memory, in bytes, for encoding the mesh and the attachments of one face.
   std::size_t encoding_memory_bytes() const {
     return mesh.encoding_memory_bytes() + parts.encoding_memory_bytes();
   }

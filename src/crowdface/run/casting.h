@@ -19,8 +19,8 @@ namespace crowdface {
 /// The vector space in which casting compares faces, and the coarse skin mesh on which casting
 /// checks faces for defects.
 struct CastingSpace {
-  FaceSpace face_space;
-  ProxySkin proxy_skin;
+  FaceSpace face_space;  ///< compares faces
+  ProxySkin proxy_skin;  ///< checks faces for defects
 };
 /// Computes the casting space of a config.
 /// \param cache  folder that caches the precomputed tables of the space; empty: no cache
@@ -28,6 +28,7 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs,
                            const PreparedHeads& prepared, const std::filesystem::path& cache);
 
 /// Converts the config to casting options.
+/// \param head_distances  #heads by #heads: distance between each pair of heads
 CastingOptions casting_options(const Config& config, const Inputs& inputs,
                                const Eigen::MatrixXd& head_distances);
 
@@ -66,12 +67,12 @@ struct CrowdPlan {
   std::vector<PlanePoint> anchors;  ///< #heads: position of each head on the weight plane
   std::vector<FacePlan> crowd;  ///< the faces, each with its nearest head and nearest earlier face
   std::vector<int> group_of_face;  ///< one per sampled face: index of its group, or −1
-  RejectionCounts rejections;
+  RejectionCounts rejections;      ///< how often each constraint rejected a candidate face
   CrowdDistances distances;
-  std::vector<FamilyReport> families;
-  std::vector<TraitReport> traits;  ///< reports on the measurements that the config names
-  std::vector<FacePlan> founders;   ///< founders of families: hidden faces, not part of the crowd
-  std::vector<FacePlan> rejected;   ///< faces that reviews rejected
+  std::vector<FamilyReport> families;  ///< one report per family
+  std::vector<TraitReport> traits;     ///< reports on the measurements that the config names
+  std::vector<FacePlan> founders;  ///< founders of families: hidden faces, not part of the crowd
+  std::vector<FacePlan> rejected;  ///< faces that reviews rejected
   /// the point of each face in the casting space; empty if the config has neither contact sheets
   /// nor groups
   std::vector<FaceSpace::Point> points;

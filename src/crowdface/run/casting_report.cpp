@@ -84,8 +84,8 @@ Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   return json;
 }
 
-/// For each kind, name and colour of attachments: the number of faces that wear the attachment.
-/// Also the quotas for sampled faces.
+/// For each kind, name and colour of attachments: the number of faces that wear such an
+/// attachment. Also contains the quotas for sampled faces.
 Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan& crowd_plan) {
   const auto wears = [&](const FacePlan& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {

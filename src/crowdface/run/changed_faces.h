@@ -22,7 +22,7 @@ namespace crowdface {
 ///   choose_attachments_of_changed_face. A variant keeps the colours of its original.
 ///
 /// \param casting, attachments, colours  the options with which the crowd was sampled.
-/// \param groups  group of each sampled face, see choose_attachments.
+/// \param groups  index of each sampled face's group, see choose_attachments.
 /// \param crowd  the faces as they were cast, with colours and attachments.
 void replace_changed_faces(const Config& config, const CastingOptions& casting,
                            const AttachmentOptions& attachments, const ColourOptions& colours,

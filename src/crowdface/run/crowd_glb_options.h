@@ -11,7 +11,7 @@
 namespace crowdface {
 
 /// Options for the crowd's GLB files: axes and units, materials, textures, shapes.
-/// \param shared  see MeshSource
+/// \param shared  see MeshSource::shared_folder
 GlbOptions glb_options(const Config& config, const Inputs& inputs, const std::string& shared = {});
 
 /// Options for GLB files at a level of detail.

@@ -26,15 +26,17 @@ class FaceBuilder {
   FaceBuilder(const FaceBuilder&) = delete;
   FaceBuilder& operator=(const FaceBuilder&) = delete;
 
+  /// Builds the faces of several recipes.
   /// \param results  one matrix per recipe, #V by 3, in the units of the mesh files; reuses the
   ///                 memory of these matrices
   void build(std::span<const Recipe* const> recipes, std::span<Positions> results) const;
+  /// Builds one face. \return #V by 3
   Positions build(const Recipe& recipe) const;
 
   /// The face that the previous call of `rebuild` built. The next call starts from this face.
   struct PreviousFace {
-    std::optional<Recipe> recipe;
-    Positions blended_positions;  ///< #V by 3, before the steps of `finish`
+    std::optional<Recipe> recipe;  ///< recipe of this face; empty before the first call
+    Positions blended_positions;   ///< #V by 3, before the steps of `finish`
   };
   /// Gives the same result as `build` for one recipe, but is faster if the recipe differs in only a
   /// few regions from the recipe of the previous call.
@@ -49,21 +51,26 @@ class FaceBuilder {
   /// other steps determine the positions of these vertices.
   const RegionWeights& regions() const { return regions_; }
 
-  /// The vertices whose positions `correct_contacts` reads; empty if gaps are not corrected.
+  /// Indices of the vertices whose positions `correct_contacts` reads; empty if it corrects no
+  /// gaps.
   std::vector<std::uint32_t> contact_vertices() const;
-  /// Corrects the gaps between lips, or other skin surfaces that almost touch, in a face before it
-  /// is mirrored. \param face  #V by 3; only contact_vertices() need positions
+  /// Corrects the gaps between the lips, and between other skin surfaces that almost touch. Call
+  /// this before mirroring the face.
+  /// \param face  #V by 3; only the rows of contact_vertices() need positions
   void correct_contacts(const Recipe& recipe, Positions& face) const;
 
   /// The rigid motion that moves a face onto a body (config section `neck`), applied before
   /// mirroring; nothing if the face stays in place.
   std::optional<RigidMotion> motion_to_body(const Recipe& recipe) const;
 
-  /// Defects in the skin of a face built from this recipe, compared with its target head.
+  /// Defects in the skin of a face, compared with the face's target head.
+  /// \param face  #V by 3, built from `recipe`
   SkinDefects defects(const SkinCheck& check, const Recipe& recipe, const Positions& face) const;
 
-  /// A contact is a pair of skin surfaces that almost touch, such as the lips. Returns the maximum
-  /// over all contacts of the face's gap minus the widest gap of any head, in mm.
+  /// Compares the gaps of a face (between the lips, or between other skin surfaces that almost
+  /// touch) with the same gaps of all heads. Returns the largest amount, in mm, by which a gap of
+  /// the face exceeds the widest such gap among the heads; 0 if no gap is wider.
+  /// \param face  #V by 3, built from `recipe`
   double gap_excess_mm(const Recipe& recipe, const Positions& face) const;
 
   /// Memory in bytes for building the given number of faces at once, including the memory for the
@@ -76,8 +83,9 @@ class FaceBuilder {
   void finish(const Recipe& recipe, Positions& face) const;
   /// The map that mirrors faces; computed at the first call. Thread-safe.
   const MirrorMap& mirror() const;
-  /// Returns, for each contact, the allowed range of the gap: the smallest range that contains the
-  /// gap of the target head and, for each band, the weighted mean of the gaps of the source heads.
+  /// A contact is a pair of skin surfaces that almost touch, such as the lips. Returns, for each
+  /// contact, the allowed range of the gap: the smallest range that contains the gap of the target
+  /// head and, for each band, the weighted mean of the gaps of the source heads.
   /// If the recipe changes the asymmetry, include_mirrored_gap_ranges extends the ranges.
   std::vector<SkinContacts::Range> contact_ranges(const Recipe& recipe) const;
   /// Extends the gap range of each contact to include the gap range of the mirrored contact.
@@ -87,16 +95,16 @@ class FaceBuilder {
   const Inputs& inputs_;
   const PreparedHeads& prepared_;
   mutable std::once_flag mirror_once_;
-  mutable std::shared_ptr<const MirrorMap> mirror_;
+  mutable std::shared_ptr<const MirrorMap> mirror_;  ///< null before the first call of `mirror`
   /// the region masks for blending
   RegionWeights regions_;
   std::optional<CrowdBlender> blender_;   ///< empty with `levels: exact`
   std::optional<FacePoses> poses_;        ///< empty if all heads have one pose
-  std::optional<SkinContacts> contacts_;  ///< always set after construction
+  std::optional<SkinContacts> contacts_;  ///< corrects gaps; always set after construction
   /// #contacts by #regions: the region weights at each contact; each row sums to one
   std::vector<std::vector<double>> contact_masks_;
-  bool corrects_contacts_;  ///< whether `correct_contacts` corrects gaps
-  double mm_per_unit_;
+  bool corrects_contacts_;                ///< whether `correct_contacts` corrects gaps
+  double mm_per_unit_;                    ///< millimetres per unit of the mesh files
   std::optional<PartFollower> follower_;  ///< empty if there are no parts besides the skin
 };
 

@@ -34,12 +34,13 @@ struct FinishedFace {
   FinishedFace(const FacePlan& planned, const Positions& blended)
       : face(planned), positions(blended) {}
 
-  const FacePlan& face;
-  const Positions& positions;
-  std::vector<Displacements> moves;  ///< one per shape; empty if no output shows shapes
-  /// one per shape: number of intersecting skin triangles, see FaceShapes::shapes_of_face
+  const FacePlan& face;        ///< recipe and attachments of the face
+  const Positions& positions;  ///< #V by 3, the blended positions
+  /// displacements of each blend shape of the face; empty if no output shows blend shapes
+  std::vector<Displacements> moves;
+  /// for each blend shape: number of intersecting skin triangles, see FaceShapes::shapes_of_face
   std::vector<Index> skin_intersections;
-  std::vector<PlacedAttachment> placed_attachments;
+  std::vector<PlacedAttachment> placed_attachments;  ///< with the body, if files contain the body
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's blended textures, encoded as image files; empty if no output file uses them. With
   /// `neck.body_texture`, the last texture belongs to the body.
@@ -49,14 +50,17 @@ struct FinishedFace {
   std::optional<FacePictures> pictures;        ///< empty if the face is not rendered
 
   const FaceEncoders* encoders = nullptr;  ///< null if no mesh files are written
-  // FaceEncoders::prepare computes this member and the following members.
-  Positions normals, points, joints;
-  std::vector<std::string_view> images;
-  std::vector<std::string> image_names;
+  // FaceEncoders::prepare computes the following members.
+  Positions normals;  ///< #V vertex normals; no rows if no file contains normals
+  Positions points;   ///< positions of the named points (PointCarrier) on this face
+  Positions joints;   ///< positions of the rig's joints
+  std::vector<std::string_view> images;  ///< see FaceMesh::images
+  std::vector<std::string> image_names;  ///< see FaceMesh::image_names
+  /// The data of the face at one level of detail, which `meshes` refers to.
   struct ReducedMesh {
     Positions positions, normals;
     ColourRows colours;
-    std::vector<Displacements> moves;
+    std::vector<Displacements> moves;  ///< one per blend shape
     std::vector<PlacedAttachment> placed_attachments;
   };
   std::deque<ReducedMesh> reduced_meshes;  ///< one per level of detail
@@ -74,7 +78,7 @@ class FaceEncoders {
   /// \param config, inputs  must outlive this object and all files that this object encodes.
   /// \param formats  mesh formats of the faces
   /// \param crowd    all faces that may be written
-  /// \param shared   see MeshSource
+  /// \param shared   see MeshSource::shared_folder
   /// \throws InvalidInput if a format cannot store the mesh of these faces.
   FaceEncoders(const Config& config, const Inputs& inputs, std::vector<MeshFormat> formats,
                std::span<const FacePlan> crowd, const std::string& shared = {});
@@ -83,6 +87,7 @@ class FaceEncoders {
   bool holds_shapes() const;
   /// Whether blended textures are written, either inside mesh files or as separate files.
   bool holds_textures() const { return texture_encoder_ && !formats_.empty(); }
+  /// The encoder of blended textures. \pre the faces have blended textures
   const FaceTextureEncoder& textures() const { return *texture_encoder_; }
 
   /// Whether GLB and USD files contain the body, as an attachment of each face.
@@ -96,6 +101,7 @@ class FaceEncoders {
   void prepare(FinishedFace& face) const;
 
   // The following functions require that `prepare` has been called for the face.
+  /// Encodes the face's mesh at a level of detail, at rest or in a blend shape.
   EncodedFile mesh(const FinishedFace& face, MeshFormat format, std::size_t level,
                    ShapeNumber shape) const;
   /// Encodes an attachment as a separate OBJ file.
@@ -115,14 +121,17 @@ class FaceEncoders {
   /// Computes the vertex normals of a face. The vertices of the neck ring get fixed normals, which
   /// are equal for all faces.
   Positions normals_of(const Positions& positions) const;
+  /// Returns the mesh of a face at a level of detail. Stores the reduced data, to which the result
+  /// refers, in `face.reduced_meshes`.
   FaceMesh mesh_at_level(std::size_t level, FinishedFace& face) const;
 
   const Config& config_;
   const Inputs& inputs_;
-  std::vector<MeshFormat> formats_;
-  std::vector<MeshLevel> levels_;
-  std::map<MeshFormat, MeshEncoders> encoders_;
-  /// one per level of detail; empty if attachments are not written to separate files
+  std::vector<MeshFormat> formats_;              ///< mesh formats of the faces
+  std::vector<MeshLevel> levels_;                ///< the whole mesh, then the levels of detail
+  std::map<MeshFormat, MeshEncoders> encoders_;  ///< by format, one encoder for each of `levels_`
+  /// for each level of detail, the encoders of the attachments' separate OBJ files; empty if no
+  /// format needs such files
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
   /// empty if faces have no blended textures
   std::optional<FaceTextureEncoder> texture_encoder_;

@@ -34,9 +34,9 @@ struct FaceFile {
 
 /// Which mesh files a face has.
 struct MeshFileOptions {
-  const std::vector<MeshFormat>& formats;
-  std::filesystem::path folder;  ///< folder of the meshes
-  std::string stem;              ///< first part of the file names
+  const std::vector<MeshFormat>& formats;  ///< formats of the mesh files
+  std::filesystem::path folder;            ///< folder of the meshes
+  std::string stem;                        ///< first part of the file names
   /// whether the face has files for levels of detail, blend shapes and named points
   bool includes_all_variants = true;
 };
@@ -44,7 +44,7 @@ struct MeshFileOptions {
 std::vector<FaceFile> mesh_files(const Config& config, const Inputs& inputs, const FacePlan& face,
                                  const MeshFileOptions& options);
 
-/// Encodes the given files of a face and writes all of these files in one batch.
+/// Encodes files of a face and writes all of these files in one batch.
 void write_files_of(const FinishedFace& face, const std::vector<FaceFile>& files);
 
 /// Makes the file lists of a crowd's faces.
@@ -66,7 +66,7 @@ class FaceFileLists {
   const Config& config_;
   const Inputs& inputs_;
   const CrowdDirectory& directory_;
-  bool has_gallery_;
+  bool has_gallery_;  ///< whether the crowd has a gallery, with a small mesh of each face
 };
 
 /// The results for a face whose files have been written.

@@ -7,9 +7,8 @@
 
 namespace crowdface {
 
-/// Blends the textures in parallel. To save memory, each thread encodes a texture and discards it
-/// before the thread blends the next texture.
-/// \return the textures that renders need.
+// Textures are blended in parallel. To save memory, each thread encodes a texture and discards it
+// before the thread blends the next texture.
 std::optional<FaceTextureSet> FaceFinisher::paint(const Recipe& recipe,
                                                   FaceTextureEncoder::Encoded& files,
                                                   StageTimes& busy) const {

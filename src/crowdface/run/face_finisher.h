@@ -14,9 +14,9 @@ namespace crowdface {
 
 /// Computes the data that a face's files contain in addition to the blended positions.
 struct FaceFinisher {
-  const FaceTextures& textures;
-  const FaceAttachments& attachments;
-  const FaceShapes& shapes;
+  const FaceTextures& textures;            ///< blends a face's textures
+  const FaceAttachments& attachments;      ///< places attachments on a face
+  const FaceShapes& shapes;                ///< transfers blend shapes to a face
   const FaceEncoders* encoders = nullptr;  ///< null: no meshes are written
   const CrowdRenders* renders = nullptr;   ///< null: nothing is rendered
 
@@ -29,6 +29,8 @@ struct FaceFinisher {
  private:
   /// Computes the body's texture, and encodes it if mesh files are written.
   void paint_body(FinishedFace& face, StageTimes& busy) const;
+  /// Blends a face's textures. Encodes them into `files` if texture files are written.
+  /// \return the textures that renders need
   std::optional<FaceTextureSet> paint(const Recipe& recipe, FaceTextureEncoder::Encoded& files,
                                       StageTimes& busy) const;
 };

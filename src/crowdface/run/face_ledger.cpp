@@ -95,7 +95,6 @@ FaceLedger::FaceLedger(Ledger& ledger, const Job& job, const FaceFileLists& list
       shape_count_(transferred_shape_count(job)),
       common_digest_(digest_of_common(job)) {}
 
-/// The face's ledger entry: its key, its file names, and the hashes in `result`, if any.
 LedgerEntry FaceLedger::entry_of(const FacePlan& face, const FaceResult& result) const {
   FacePlan recipe = face;
   recipe.notes = {};  // no file depends on the notes of casting or on measurements

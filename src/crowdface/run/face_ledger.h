@@ -34,13 +34,14 @@ class FaceLedger {
   void record(std::span<const MadeFace> faces) const;
 
  private:
+  /// The face's ledger entry: its key, its file names, and the hashes in `result`, if any.
   LedgerEntry entry_of(const FacePlan& face, const FaceResult& result) const;
 
   Ledger& ledger_;
   const Job& job_;
-  const FaceFileLists& lists_;
+  const FaceFileLists& lists_;  ///< lists the files of each face
   std::function<void()> recorded_;
-  bool judges_skin_;
+  bool judges_skin_;         ///< whether each face's skin is checked for defects
   std::size_t shape_count_;  ///< number of shapes transferred to each face
   Digest common_digest_;     ///< hash of everything that the files of all faces depend on
 };

@@ -131,6 +131,7 @@ class FaceMemory {
 /// it.
 class FaceGroup {
  public:
+  /// Makes the other threads claim and finish faces.
   /// \param make  called with each face's index in the group and its positions
   void begin(std::vector<Positions> positions,
              std::function<void(std::size_t, const Positions&)> make, FaceMemory& memory) {
@@ -142,8 +143,8 @@ class FaceGroup {
       tasks_.run([this] { make_files(); });
     }
   }
-  /// Makes files until every face has been claimed. \throws the exception of `make`; the remaining
-  /// faces are then skipped.
+  /// Claims and finishes faces until every face has been claimed. \throws the exception of `make`;
+  /// the remaining faces are then skipped.
   void make_files() {
     try {
       for (std::size_t f = next_++; f < positions_.size(); f = next_++) {

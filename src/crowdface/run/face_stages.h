@@ -53,16 +53,16 @@ class FaceStages {
              StageTimes& busy) const;
 
  private:
-  class Output;
+  class Output;  // finishes a blended face and passes its files to the writer
 
   FaceEncoders encoders_;
   const FaceBuilder& builder_;
-  const FaceTextures& textures_;
-  const FaceAttachments& attachments_;
-  const FaceShapes& shapes_;
-  std::optional<SkinCheck> check_;  ///< empty if no mesh is judged
-  std::size_t faces_per_group_;
-  std::uint64_t max_waiting_bytes_;  ///< maximum size of encoded files that wait to be written
+  const FaceTextures& textures_;        ///< blends the faces' textures
+  const FaceAttachments& attachments_;  ///< places attachments on the faces
+  const FaceShapes& shapes_;            ///< transfers blend shapes to the faces
+  std::optional<SkinCheck> check_;      ///< empty if no mesh is judged
+  std::size_t faces_per_group_;         ///< number of faces that are blended in one batch
+  std::uint64_t max_waiting_bytes_;     ///< maximum size of encoded files that wait to be written
 };
 
 }  // namespace crowdface

@@ -20,6 +20,7 @@ std::string_view ending_of(TextureFormat format) {
   return kEndings[static_cast<std::size_t>(format)];
 }
 
+/// Path of an image file of the face `id`, relative to the folder of the meshes.
 /// \param tile  a UDIM number or the text <UDIM>; empty if the image is not a tile
 std::string file_name(const std::string& id, const PictureName& picture, std::string_view tile,
                       TextureFormat format) {

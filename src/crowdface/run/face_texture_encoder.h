@@ -20,7 +20,9 @@ namespace crowdface {
 /// A texture file of one face.
 struct FaceTextureFile {
   std::string name;  ///< path relative to the folder of the face's meshes
-  std::size_t picture_index = 0, format_index = 0;  ///< indices into FaceTextureEncoder::Encoded
+  /// The content of the file is encoded[picture_index][format_index], where `encoded` is a
+  /// FaceTextureEncoder::Encoded.
+  std::size_t picture_index = 0, format_index = 0;
 };
 /// Lists the texture files of the face `id`. Returns an empty list if faces have no blended
 /// textures and use the textures of their target heads.
@@ -50,7 +52,7 @@ class FaceTextureEncoder {
  public:
   /// \param config, inputs  must outlive this object.
   /// \param crowd   all faces that may be written
-  /// \param shared  see MeshSource
+  /// \param shared  see MeshSource::shared_folder
   FaceTextureEncoder(const Config& config, const Inputs& inputs, std::span<const FacePlan> crowd,
                      const std::string& shared = {});
 
@@ -67,22 +69,22 @@ class FaceTextureEncoder {
   /// textures.
   EncodedFile material_file(const FacePlan& face) const;
 
-  /// In bytes, approximately: the memory of all encoded images of one face plus the memory for
-  /// encoding the largest image.
+  /// Approximate memory, in bytes, of all encoded images of one face, plus the memory for encoding
+  /// the largest image.
   std::uint64_t encoding_memory_bytes() const;
 
  private:
   /// The materials of a target head.
   struct Materials {
-    MergedMaterials merged_materials;
+    MergedMaterials merged_materials;  ///< all material files of the head, merged into one file
     /// for each texture kind and material name: index of the image in face_picture_names
     std::map<TextureKind, std::map<std::string, std::size_t>> picture_indices;
   };
 
   const Config& config_;
   const Inputs& inputs_;
-  std::vector<PictureName> pictures_;
-  std::map<Index, Materials> materials_of_target_;
+  std::vector<PictureName> pictures_;               ///< see face_picture_names
+  std::map<Index, Materials> materials_of_target_;  ///< by index of the target head
 };
 
 }  // namespace crowdface

@@ -71,7 +71,7 @@ Index row_of(const FaceSamples& samples, std::uint32_t v) {
   return std::ranges::lower_bound(samples, v) - samples.begin();
 }
 
-/// The mesh vertices that determine the positions of the landmarks that these traits need.
+/// The corners of the triangles that contain the landmarks of these traits.
 std::set<std::uint32_t> corners_of(const HeadLandmarks& landmarks,
                                    const std::vector<std::size_t>& traits) {
   std::set<std::uint32_t> corners;

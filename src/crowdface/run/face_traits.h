@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// Measures given traits of a face. Computes only the positions of the landmarks that these traits
-/// need.
+/// Measures selected traits of a face. Computes only the positions of the landmarks that these
+/// traits need.
 class FaceTraits {
  public:
   /// \param traits  indices of the measurements; all of these must be available on the heads
@@ -24,9 +24,11 @@ class FaceTraits {
   FaceTraits(const FaceTraits&) = delete;
   FaceTraits& operator=(const FaceTraits&) = delete;
 
+  /// Estimates the landmarks of candidate faces for casting.
   const FaceMeasurer& measurer() const { return *measurer_; }
+  /// The measured traits, as indices into measurements().
   const std::vector<std::size_t>& trait_indices() const { return trait_indices_; }
-  /// The values of all traits, equal to the values on the mesh that is written for the recipe.
+  /// The value of each of trait_indices() on the mesh that is written for the recipe.
   std::vector<double> values(const Recipe& recipe) const;
 
  private:
@@ -40,19 +42,20 @@ class FaceTraits {
   /// face.
   void mirror_landmark_vertices(Positions& face) const;
 
-  std::vector<std::size_t> trait_indices_;
-  HeadLandmarks landmarks_;
-  FaceBuilder builder_;
-  double mm_per_unit_;
-  std::shared_ptr<const MirrorMap> mirror_;
+  std::vector<std::size_t> trait_indices_;   ///< indices into measurements()
+  HeadLandmarks landmarks_;                  ///< the landmarks that the traits need
+  FaceBuilder builder_;                      ///< corrects contacts and poses
+  double mm_per_unit_;                       ///< millimetres per unit of the mesh files
+  std::shared_ptr<const MirrorMap> mirror_;  ///< null unless the config asks for mirrored faces
+  /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body_;
   /// the vertices of the landmarks and, if there is a neck, of the ring of vertices at the neck
   std::vector<std::uint32_t> landmark_vertices_;
   /// the vertices on which the exact landmark positions depend, ascending; `heads_` holds the
   /// heads' data at these vertices
   FaceSamples samples_;
-  HeadsAtSamples heads_;
-  Index vertex_count_;
+  HeadsAtSamples heads_;  ///< the heads' data at the vertices `samples_`
+  Index vertex_count_;    ///< number of vertices of a head
   std::optional<FaceMeasurer> measurer_;
 };
 

@@ -55,13 +55,16 @@ class FaceWriter {
   static constexpr std::uint64_t kMaxWaitingBytes = std::uint64_t{256} << 20U;
 
  private:
+  /// Faces that the writing thread writes and records together.
   struct Batch {
     std::vector<MadeFace> faces;
-    std::vector<ReadyFile> files;
-    std::uint64_t bytes = 0;
+    std::vector<ReadyFile> files;  ///< the files of all `faces`
+    std::uint64_t bytes = 0;       ///< memory of the encoded files, in bytes
   };
 
+  /// Main function of the writing thread.
   void run();
+  /// Writes the files of a batch, and then records its faces.
   void write(const Batch& batch);
 
   const FaceLedger& ledger_;
@@ -70,8 +73,9 @@ class FaceWriter {
   std::mutex mutex_;
   std::condition_variable changed_;  ///< notified when a member below changes
   Batch waiting_;                    ///< faces and files that wait to be written
-  bool is_writing_ = false, is_closing_ = false;
-  std::exception_ptr error_;
+  bool is_writing_ = false;          ///< whether the writing thread is writing a batch
+  bool is_closing_ = false;          ///< whether the destructor has been called
+  std::exception_ptr error_;         ///< the exception of a failed write
   double busy_seconds_ = 0;
   std::thread thread_;  // declared last, because the thread uses the other members
 };

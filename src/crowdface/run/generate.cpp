@@ -173,7 +173,7 @@ std::unique_ptr<PlannedJob> cast_job(const Job& job, const GenerateOptions& opti
   return crowd;
 }
 
-/// \param inputs  null if only a plan is requested
+/// Logs how much a run would write. \param inputs  null if only a plan is requested
 void log_dry_run(const Config& config, const Inputs* inputs) {
   const std::uint64_t faces = face_count(config);
   if (inputs == nullptr) {
@@ -366,7 +366,7 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   }
 }
 
-/// \param load  reads the job
+/// Reads the job and runs it. \param load  returns the job
 template <class Load>
 void generate_loaded(const Load& load, const GenerateOptions& options) {
   if (!options.shard.is_whole_crowd() && options.replace == Replace::kForce) {

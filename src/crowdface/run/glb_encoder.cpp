@@ -122,8 +122,9 @@ struct GlbLook {
   std::vector<GlbImage> images;
 };
 
+/// Converts the materials and images of an attachment.
 /// \param own_texture  whether each face has one texture of its own, which all materials of the
-///                     item use
+///                     attachment use
 GlbLook look_of(const Attachment& item, bool own_texture) {
   PolygonMaterials named = polygon_materials(item.file.materials, item.file.topology.face_count());
   GlbLook look;

@@ -92,7 +92,8 @@ double IrisCover::covered_fraction(const Eye& eye, const PlacedAttachment& hair)
   std::vector<double> passing(points.size(), 1);  // light of each point that passes the hair
   for (std::uint32_t q = 0; q < surface.quads().size(); ++q) {
     const Quad& quad = surface.quads()[q];
-    // The corners as the camera sees them: across the line of sight, in radii of the iris.
+    // Project the corners onto a plane in front of the eye. The origin is the centre of the eye,
+    // the unit is the radius of the iris.
     std::array<Eigen::Vector2d, 4> corners;
     double ahead = 0;
     for (std::size_t k = 0; k < 4; ++k) {

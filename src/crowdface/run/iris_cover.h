@@ -17,9 +17,9 @@
 
 namespace crowdface {
 
-/// Measures how much of a face's irises hair covers, as seen from the front. Measures only items of
-/// the kind "hair" that come near an eye on the head for which they were made; the heads need
-/// eyeballs as separate parts. Not thread-safe.
+/// Measures how much of a face's irises hair covers, as seen from the front. Measures only
+/// attachments of the kind "hair" that come near an eye on the head for which they were made. The
+/// heads need eyeballs as separate parts. Not thread-safe.
 class IrisCover {
  public:
   /// Casting lets no face wear a haircut that covers a larger fraction of an iris.
@@ -36,21 +36,23 @@ class IrisCover {
   double covered_fraction(const std::string& item, const FacePlan& face);
 
  private:
+  /// An eyeball of a face.
   struct Eye {
     Eigen::Vector3d centre;
     double radius;  ///< of the eyeball
   };
   /// Returns the eyes of a mesh in the topology of the heads. \param positions  #V by 3
   std::vector<Eye> eyes_of(const Positions& positions) const;
+  /// Returns the fraction, 0 … 1, of the eye's iris that the hair covers.
   double covered_fraction(const Eye& eye, const PlacedAttachment& hair) const;
 
   const Inputs& inputs_;
-  HeadAxes axes_;
+  HeadAxes axes_;  ///< directions up and front of the heads
   FaceAttachments& attachments_;
   std::function<const FaceBuilder&()> builder_;
-  std::vector<std::string> items_near_eyes_;
-  AttachmentSurfaces surfaces_;
-  FaceBuilder::PreviousFace previous_face_;
+  std::vector<std::string> items_near_eyes_;  ///< names of the attachments that can cover an iris
+  AttachmentSurfaces surfaces_;               ///< meshes and opacities of the hair
+  FaceBuilder::PreviousFace previous_face_;   ///< lets the builder reuse the previous face
 };
 
 }  // namespace crowdface

@@ -18,9 +18,9 @@ namespace crowdface {
 struct Job {
   Config config;
   Inputs inputs;
-  SmoothingOperator smoothing;
-  PlanNames names;
-  Digest settings;  ///< hash of the settings, see settings_digest
+  SmoothingOperator smoothing;  ///< smoothing operator of the heads' mesh
+  PlanNames names;              ///< names that the plan file writes instead of indices
+  Digest settings;              ///< hash of the settings, see settings_digest
 };
 
 /// Reads the config, heads and masks. Adds every problem that it finds to `problems`.

@@ -13,6 +13,7 @@ class Lazy {
  public:
   explicit Lazy(std::function<std::unique_ptr<T>()> make) : make_(std::move(make)) {}
 
+  /// Returns the value, and makes it if there is none.
   T& get() {
     if (!value_) value_ = make_();
     return *value_;

@@ -22,6 +22,7 @@
 
 namespace crowdface {
 
+/// Empty values for members of FaceMesh that a face does not have.
 inline const Positions kNoPositions;
 inline const ColourRows kNoColours;
 
@@ -33,7 +34,7 @@ struct FaceMesh {
   Index target = 0;          ///< index of the head that the face is built on
   const Positions* positions = &kNoPositions;  ///< #V by 3
   const Positions* normals = &kNoPositions;    ///< #V by 3; no rows if no encoder needs them
-  std::span<const Displacements> moves = {};   ///< one per shape, or none
+  std::span<const Displacements> moves = {};   ///< displacements of each blend shape, or none
   std::span<const PlacedAttachment> placed_attachments = {};  ///< the face's attachments
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
   /// positions of the named points (PointCarrier) on this face; no rows in a reduced mesh
@@ -94,7 +95,7 @@ MeshEncoders make_mesh_encoders(MeshFormat format, const MeshSource& source);
 
 /// Additional files of one format, shared by all faces of a crowd.
 struct SharedFiles {
-  std::string ledger_item;  ///< name of the item in the ledger that records these files
+  std::string ledger_item;  ///< name of the ledger entry that records these files
   Digest key;               ///< hash of everything that determines the files
   /// whether the faces' mesh files refer to the shared files
   bool is_referenced_by_meshes = false;
@@ -105,11 +106,11 @@ struct SharedFiles {
 std::optional<SharedFiles> shared_files(MeshFormat format, const Config& config,
                                         const Inputs& inputs);
 
-/// Encodes an attachment as a separate OBJ file. The whole attachment keeps the text of its
-/// original file, with new positions and a new path to the materials. A reduced attachment becomes
-/// a plain OBJ file.
+/// Returns an encoder of an attachment's separate OBJ files. The file of the whole attachment keeps
+/// the text of the original file, with new positions and a new path to the materials. The file of a
+/// reduced attachment is a plain OBJ file.
 /// \param item, level  must outlive the encoder; null `level`: the whole attachment
-/// \param shared       see MeshSource
+/// \param shared       see MeshSource::shared_folder
 MeshEncoder obj_attachment(const Attachment& item, const DetailLevel* level,
                            const std::string& shared);
 
@@ -124,8 +125,7 @@ struct MeshSize {
 /// Approximate total size, in bytes, of a face's files in these formats.
 std::uint64_t estimate_mesh_bytes(const Inputs& inputs, std::span<const MeshFormat> formats);
 
-// One function per format, called by make_mesh_encoders. Each function makes the encoders of its
-// format.
+// Each of these functions makes the encoders of one format. make_mesh_encoders calls them.
 MeshEncoders obj_encoders(const MeshSource& source);
 MeshEncoders ply_encoders(const MeshSource& source);
 MeshEncoders glb_encoders(const MeshSource& source);

@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// Fifteen viewing directions: five horizontal directions, from one side over the front to the
-/// other side, each at three heights: from below, level and from above.
+/// Fifteen viewing directions: five horizontal directions from the left over the front to the
+/// right, each from below, level and from above.
 ViewSetup viewing_of(const Config& config) {
   const HeadAxes axes = head_axes(config);
   ViewSetup view_setup{{}, mm_per(config.faces.units)};

@@ -29,10 +29,13 @@ struct MeshLevel {
   std::map<const Attachment*, DetailLevel> attachments;
   const Attachment* body = nullptr;  ///< the body; null if files do not contain the body
 
+  /// Whether this is level 0, which is not reduced.
   bool is_whole_mesh() const { return face_level == nullptr; }
+  /// The faces' topology at this level.
   const Topology& topology(const Inputs& inputs) const {
     return is_whole_mesh() ? inputs.head_set.topology : face_level->topology;
   }
+  /// The faces' texture coordinates at this level.
   const TextureCoordinates& uvs(const Inputs& inputs) const {
     return is_whole_mesh() ? inputs.head_set.uvs : face_level->uvs;
   }

@@ -41,8 +41,8 @@ std::vector<std::pair<std::string, Digest>> digests_without_heads_and_masks(cons
 /// Duration of each stage in seconds, in execution order.
 using StageSeconds = std::vector<std::pair<std::string, double>>;
 
-/// Time that threads spent on each stage of making faces, in seconds. The sum exceeds the elapsed
-/// time, because stages overlap and several threads work.
+/// Time that all threads together spent on each stage of making faces, in seconds. It exceeds the
+/// elapsed time, because several threads work at the same time.
 struct StageTimes {
   std::atomic<double> blend_seconds = 0, encode_seconds = 0, write_seconds = 0, render_seconds = 0,
                       check_seconds = 0;
@@ -60,7 +60,7 @@ class StageTimer {
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
-  std::atomic<double>& stage_seconds_;
+  std::atomic<double>& stage_seconds_;  ///< time of the stage
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -23,7 +23,7 @@ class ScarcityWarning {
 
  private:
   const CastingOptions& casting_;
-  CapacityForecast forecast_;
+  CapacityForecast forecast_;  ///< estimates the number of faces at which casting will end
   std::uint64_t cast_face_count_ = 0;
   bool has_warned_ = false;
   bool has_logged_scarcity_ = false;

@@ -23,15 +23,17 @@ class ShardProgress {
 
   /// Increases the count of finished faces by one.
   void step();
+  /// Records that the run of the shard has ended, and writes the file.
   /// \param reason  why the shard ended before it finished all faces
   void end(ShardState state, std::string_view reason = {});
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// Writes `notes_` to `file_`.
   void write() noexcept;
 
   std::filesystem::path file_;
-  ShardNotes notes_;
+  ShardNotes notes_;  ///< the shard's state and number of finished faces
   Clock::time_point start_ = Clock::now(), last_write_ = start_;
   std::mutex mutex_;
 };

@@ -18,8 +18,8 @@ namespace crowdface {
 /// The tasks that make a crowd, independent of the job engine. Paths are absolute and valid on all
 /// machines.
 struct TaskJob {
-  std::filesystem::path program;
-  std::vector<std::string> config_arguments;       ///< the config file and its overrides
+  std::filesystem::path program;              ///< the crowdface executable
+  std::vector<std::string> config_arguments;  ///< words of the command line: config file, overrides
   std::vector<std::string> input_limit_arguments;  ///< for every task: maximum sizes of inputs
   std::string crowd_name;                          ///< name of the crowd
   CrowdDirectory directory;
@@ -32,7 +32,9 @@ struct TaskJob {
   std::uint64_t memory_bytes = 0;        ///< bytes per task; 0: the engine's default
 };
 
+/// The program that runs the tasks: Slurm or GNU parallel.
 enum class JobEngine { kSlurm, kParallel };
+/// The name of an engine as a command option: "slurm" or "parallel".
 std::string_view name_of(JobEngine engine);
 
 /// Options for the render farm's job engine; some engines use only part of them.

@@ -14,8 +14,8 @@ namespace crowdface {
 
 /// The statistics of one measurement over the faces of a crowd, for reports.
 struct TraitReport {
-  std::size_t trait_index = 0;
-  Quartiles head_values, crowd_values;
+  std::size_t trait_index = 0;          ///< index into measurements()
+  Quartiles head_values, crowd_values;  ///< values of the heads, and of the faces of the crowd
   /// Compares the sampled faces with the distribution that the config requests.
   struct TargetComparison {
     TraitTarget target;                       ///< the requested distribution

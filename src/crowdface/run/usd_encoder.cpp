@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Converts a material to USD.
 /// \param file_of  returns the path by which USD layers refer to a texture
 template <class FileOf>
 UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {

@@ -148,7 +148,8 @@ std::vector<fs::path> list_files_with_extensions(const fs::path& folder,
 std::vector<fs::path> list_scans(const fs::path& folder) {
   std::vector<std::string> endings(mesh_extensions().begin(), mesh_extensions().end());
   std::vector<fs::path> scans = list_files_with_extensions(folder, endings);
-  // An array beside a scan of the same name holds landmarks, and faces.npy holds polygons.
+  // Omit .npy files that are not scans: a file with the name of a scan holds landmarks, and
+  // faces.npy holds polygons.
   std::set<std::string> stems;
   for (const fs::path& scan : scans) {
     if (!is_array(scan)) stems.insert(scan.stem().string());

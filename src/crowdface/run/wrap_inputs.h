@@ -21,13 +21,17 @@ namespace crowdface {
 /// The options of `crowdface wrap`, as the user typed them; `crowdface wrap --help` explains them.
 /// An empty value means that the option was not given.
 struct WrapOptions {
-  std::string template_file;  ///< the template
-  std::string scan;   ///< file of one scan; if given, `out` is the file of the head to write
-  std::string batch;  ///< folder of scans; if given, `out` is the folder of the heads to write
-  std::string out, landmarks, template_landmarks, model;
-  std::string ignored_area_mask;  ///< mask of the template's areas that the fit ignores
+  std::string template_file;  ///< mesh file of the template
+  std::string scan;       ///< file of one scan; if given, `out` is the file of the head to write
+  std::string batch;      ///< folder of scans; if given, `out` is the folder of the heads to write
+  std::string out;        ///< file or folder to write; depends on `scan` and `batch`
+  std::string landmarks;  ///< file of landmarks, or kNoLandmarks
+  std::string template_landmarks;  ///< file of the template's landmarks
+  std::string model;               ///< folder of heads, from which a shape model is computed
+  std::string ignored_area_mask;   ///< mask of the template's areas that the fit ignores
   std::string units, scan_units, up = "+Y", front = "+Z", scan_up, scan_front;
   std::string texture_size;  ///< side length of the textures to bake, in texels
+  /// the command options of the same names
   bool no_pictures = false, force = false, dry_run = false, estimate = false;
   bool removes_shading = false;  ///< `--delight`: see BakeOptions::removes_shading
   bool strict = false;           ///< whether to refuse doubtful heads
@@ -37,17 +41,17 @@ struct WrapOptions {
 /// A value of `--landmarks`: the program neither reads landmarks from files nor detects landmarks.
 inline constexpr const char* kNoLandmarks = "none";
 
-/// The inputs of a run that are equal for all scans.
+/// The inputs of `crowdface wrap` that are equal for all scans.
 struct WrapInputs {
-  ObjFile file;                  ///< the template
-  double mm_per_unit = 10;       ///< millimetres per unit of the template
-  HeadFrame frame;               ///< up and front axes of the template
-  std::optional<PoseHint> hint;  ///< up and front directions of the scans; empty if unknown
-  WrapTemplate wrap_template;
+  ObjFile file;                      ///< the template
+  double mm_per_unit = 10;           ///< millimetres per unit of the template
+  HeadFrame frame;                   ///< up and front axes of the template
+  std::optional<PoseHint> hint;      ///< up and front directions of the scans; empty if unknown
+  WrapTemplate wrap_template;        ///< the template, separated into skin and other parts
   SkinRegions regions;               ///< regions of the template's skin
   std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology
   std::size_t model_head_count = 0;  ///< number of heads of the shape model
-  LandmarkFile landmarks;
+  LandmarkFile landmarks;            ///< landmarks that the user gave; empty if none
   /// for the name of each landmark that the program can detect on a scan: the template's vertex
   std::map<std::string, std::uint32_t> detected_landmarks;
   std::vector<FaceFeature> features;  ///< features of the template's face
@@ -55,7 +59,7 @@ struct WrapInputs {
   Digest digest;                      ///< hash of all inputs in this struct
 };
 
-/// \throws Error that names the faulty file or option.
+/// Reads the files that the options name. \throws Error that names the faulty file or option.
 WrapInputs read_wrap_inputs(const WrapOptions& options);
 
 /// Parses a length unit. \throws UsageError naming the option.

@@ -41,8 +41,8 @@ struct Task {
   TextureFiles textures = {};  ///< empty without --texture
 };
 
-/// Whether a file beside a scan holds landmarks; warns if not. A text or JSON file may hold
-/// anything.
+/// Whether a file that has the name of a scan holds landmarks; warns if it does not, because a text
+/// or JSON file may hold other data.
 bool holds_landmarks(const fs::path& file) {
   try {
     read_landmarks(file);

@@ -70,8 +70,6 @@ std::string WrapTextures::materials_text(const TextureFiles& files) const {
       .text(textures);
 }
 
-/// Copies the textures of the template that the head keeps unchanged, such as the textures of the
-/// eyes.
 void WrapTextures::copy_other_textures(const fs::path& folder) const {
   const ObjFile& file = inputs_.file;
   NamedTextures named = find_textures(file.material_path(), file.material_libraries);

@@ -48,12 +48,15 @@ class WrapTextures {
   EncodedFile with_material_lines(EncodedFile plain, const TextureFiles& files) const;
 
  private:
+  /// Copies the textures of the template that the head keeps unchanged, such as the textures of the
+  /// eyes.
   void copy_other_textures(const std::filesystem::path& folder) const;
+  /// Returns the text of a head's material file, which names the baked textures.
   std::string materials_text(const TextureFiles& files) const;
 
   const WrapInputs& inputs_;
   BakeOptions options_;
-  BakeTemplate bake_template_;
+  BakeTemplate bake_template_;  ///< the template, prepared for baking
 };
 
 /// Adds the hashes of the material files and textures that an OBJ scan names to `hasher`.

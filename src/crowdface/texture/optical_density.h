@@ -13,7 +13,7 @@ namespace crowdface {
 /// density. One step of the quantized density is finer than one step of 8-bit sRGB for every
 /// colour.
 using Density = std::uint16_t;
-inline constexpr float kMaxDensity = 65535;
+inline constexpr float kMaxDensity = 65535;  ///< largest quantized density: black
 /// Optical densities as real numbers, #rows by 3: red, green and blue.
 using OpticalDensities = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 

@@ -32,7 +32,7 @@ struct RowBuffer {
 
   std::vector<float> values, ramps;
   std::vector<StoredRow> heads;
-  std::vector<float*> sums;  ///< the blended values of the row, in `values`, one row per channel
+  std::vector<float*> sums;  ///< for each channel: the row of blended values inside `values`
 };
 
 /// Blends the covered texels of row y, span by span from left to right. Blending a span may also
@@ -45,7 +45,7 @@ void blend_row(const SurfaceTexels& texels, int y, const VertexFactorsOfImage& f
       buffer.heads[h][c] = maps[fields.heads[h]]->row(static_cast<int>(c), y);
     }
   }
-  // All rows but the last are followed by further texels
+  // Kernels may read texels of the next row, which the last row does not have.
   const auto width = static_cast<std::size_t>(texels.width());
   const std::size_t readable = y + 1 < texels.height() ? width + kRowSlack : width;
   const auto row = static_cast<float>(y);

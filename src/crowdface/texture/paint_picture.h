@@ -13,7 +13,7 @@ namespace crowdface {
 /// base value per channel, and for each head a factor on the head's map. Both are interpolated
 /// linearly within triangles.
 struct VertexFactorsOfImage {
-  std::size_t channels = 3;
+  std::size_t channels = 3;        ///< number of channels of the image
   std::vector<std::size_t> heads;  ///< heads whose maps contribute to the image, ascending
   /// for each vertex: a base value per channel, then a factor per head; see `resize`
   std::vector<float> values;
@@ -22,6 +22,7 @@ struct VertexFactorsOfImage {
   void resize(std::size_t vertex_count) {
     values.resize(vertex_count * values_per_vertex() + kRowSlack);
   }
+  /// Number of `values` of each vertex.
   std::size_t values_per_vertex() const { return channels + heads.size(); }
 };
 

@@ -14,11 +14,12 @@ namespace crowdface {
 /// Largest number of floats that a kernel may read or write beyond the end of a row.
 inline constexpr std::size_t kRowSlack = 16;
 
-/// A number for each field at the corners of a triangle, interpolated along texels of a row.
+/// Fields with one number at each corner of a triangle. Kernels interpolate the fields along a row
+/// of texels.
 struct InterpolatedFields {
   /// for each corner: `count` numbers, and kRowSlack further floats that may be read
   std::array<const float*, 3> corners;
-  std::size_t count;
+  std::size_t count;  ///< number of fields
   /// barycentric coordinates of the second and the third corner at the first texel
   std::array<float, 2> barycentrics;
   std::array<float, 2> barycentric_steps;  ///< increase from texel to texel

@@ -12,6 +12,7 @@ namespace crowdface {
 /// Low-frequency statistics of the heads' texture maps, per vertex. The statistics are smoothed on
 /// the mesh and not in texture space, so that texture seams have no effect.
 struct SurfaceStatistics {
+  /// Three channels per vertex: #V by 3.
   using Colours = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
   /// for each head, #V by 3: values of the head's maps, smoothed over the mesh

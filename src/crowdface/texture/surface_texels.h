@@ -13,12 +13,13 @@ namespace crowdface {
 
 /// Assigns each polygon to one of the texture's images (pictures).
 struct TextureLayout {
+  /// The size of one image.
   struct Picture {
     int width = 0;   ///< texels
     int height = 0;  ///< texels
     bool operator==(const Picture&) const = default;
   };
-  std::vector<Picture> pictures;
+  std::vector<Picture> pictures;  ///< the images
   /// one per polygon: index into `pictures`, or kNoIndex
   std::vector<std::uint32_t> picture_of_polygon;
   /// For each polygon: the lower corner (u, v) of the unit square of texture space that contains
@@ -37,12 +38,12 @@ class SurfaceTexels {
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  ///< indices into `vertices()`
     std::array<float, 3> second_barycentric, third_barycentric;
-    std::uint32_t face = 0;
+    std::uint32_t face = 0;  ///< index of the polygon in the topology
   };
   /// The texels [begin, end) of one row that one triangle covers.
   struct Span {
-    std::uint32_t triangle;
-    std::uint16_t begin, end;
+    std::uint32_t triangle;    ///< index of the triangle, see `triangle()`
+    std::uint16_t begin, end;  ///< columns
   };
   /// An uncovered texel near the surface (`target`), which gets the colour of a covered texel
   /// (`source`). Such texels keep texture filtering from mixing the background into the surface.
@@ -54,25 +55,29 @@ class SurfaceTexels {
   SurfaceTexels(const Topology& topology, const TextureCoordinates& uvs,
                 const TextureLayout& layout, std::uint32_t picture);
 
-  int width() const { return size_.width; }
-  int height() const { return size_.height; }
+  int width() const { return size_.width; }    ///< in texels
+  int height() const { return size_.height; }  ///< in texels
   /// Vertices of the triangles in this texture image, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
+  /// The triangle with the index of a Span.
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
+  /// The covered texels of row y, from left to right.
   std::span<const Span> row(int y) const {
     const auto r = static_cast<std::size_t>(y);
     return {spans_.data() + row_begin_[r], row_begin_[r + 1] - row_begin_[r]};
   }
+  /// All gutter texels of the image.
   const std::vector<GutterTexel>& gutter() const { return gutter_; }
   /// Number of covered texels.
   std::size_t covered_texel_count() const { return covered_texel_count_; }
+  /// Memory of this object, in bytes.
   std::size_t memory_bytes() const;
 
  private:
   TextureLayout::Picture size_;
-  std::vector<std::uint32_t> vertices_;
+  std::vector<std::uint32_t> vertices_;  ///< indices of mesh vertices, see `vertices()`
   std::vector<Triangle> triangles_;
-  std::vector<Span> spans_;
+  std::vector<Span> spans_;             ///< the spans of all rows, one row after another
   std::vector<std::size_t> row_begin_;  ///< #rows + 1: index of each row's first span
   std::vector<GutterTexel> gutter_;
   std::size_t covered_texel_count_ = 0;
@@ -80,6 +85,7 @@ class SurfaceTexels {
 
 /// The mesh rasterized into each image of a layout.
 using LayoutTexels = std::vector<SurfaceTexels>;
+/// Rasterizes the mesh into each image of a layout.
 std::shared_ptr<const LayoutTexels> rasterize_layout(const Topology& topology,
                                                      const TextureCoordinates& uvs,
                                                      const TextureLayout& layout);

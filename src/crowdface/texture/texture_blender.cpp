@@ -19,7 +19,8 @@ namespace {
 
 constexpr Index kVerticesPerBlock = 1024;
 
-using HeadWeights = std::vector<double>;  ///< #heads; the weights sum to one, or all are zero
+using HeadWeights =
+    std::vector<double>;  ///< one weight per head; the weights sum to one, or all are zero
 
 /// Each head's weight in the target colours: the recipe's colour weights if given, otherwise the
 /// head's share of the target shape.

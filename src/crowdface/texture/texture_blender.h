@@ -14,6 +14,7 @@
 
 namespace crowdface {
 
+/// Options of TextureBlender.
 struct TextureBlendOptions {
   StatisticsScale statistics_scale;  ///< how many smoothing iterations the statistics use
   /// one per vertex: its weight in means over the face; not all zero
@@ -61,9 +62,11 @@ class TextureBlender {
   /// \param picture  index of an image (picture) of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
+  /// The low-frequency statistics of the heads' maps: C_h and the covariances c.
   const SurfaceStatistics& statistics() const { return statistics_; }
 
   const TextureLayout& layout() const { return textures_.layout; }
+  /// The mesh rasterized into the layout.
   const std::shared_ptr<const LayoutTexels>& texels() const { return texels_; }
 
   /// Number of bytes of memory that this object uses, without the texels, which blenders share.
@@ -79,9 +82,9 @@ class TextureBlender {
   const RegionWeights& regions_;
   const CrowdTextures& textures_;
   TextureBlendOptions options_;
-  std::shared_ptr<const LayoutTexels> texels_;
+  std::shared_ptr<const LayoutTexels> texels_;  ///< the mesh rasterized into the layout
   std::vector<MapCoding> codings_;  ///< for each picture: the coding of the blended picture
-  SurfaceStatistics statistics_;
+  SurfaceStatistics statistics_;    ///< low-frequency statistics of the heads' maps
   /// #regions: fraction of the face that each region covers
   std::vector<double> region_area_fractions_;
 };
@@ -97,6 +100,9 @@ std::vector<double> region_area_fractions(const RegionWeights& regions,
 struct FaceColourWeights {
   std::vector<double> weights_for_skin, weights_for_eyes_and_teeth;
 };
+/// Computes the colour weights of the heads in the face of a recipe.
+/// \param heads  number of heads
+/// \param region_area_fractions  for each region: the fraction of the face's area that it covers
 FaceColourWeights face_colour_weights(const Recipe& recipe, std::size_t heads,
                                       const std::vector<double>& region_area_fractions);
 

@@ -16,7 +16,7 @@ constexpr int kRowsPerBlock = 16;
 /// their weights.
 struct Taps {
   int first = 0;               ///< index of the first source texel
-  std::vector<float> weights;  ///< of consecutive source texels; the weights sum to one
+  std::vector<float> weights;  ///< weights of consecutive source texels; they sum to one
 };
 
 std::vector<Taps> taps_of(int from, int to) {

@@ -30,9 +30,9 @@ enum class MapContent {
 /// The 16-bit encoding of a map's numbers: number = low + step · stored.
 struct MapCoding {
   MapContent content = MapContent::kColours;
-  int channels = 3;
-  float low = 0;
-  float step = 1;
+  int channels = 3;  ///< number of channels of the map
+  float low = 0;     ///< the number that the stored value 0 encodes
+  float step = 1;    ///< difference between the numbers of adjacent stored values
 
   /// Decodes a stored value.
   float decode(StoredValue stored) const { return low + step * static_cast<float>(stored); }
@@ -56,14 +56,15 @@ struct MapCoding {
 
 /// One head's texture map for one image of the texture layout, in 16-bit planes.
 struct TextureMap {
-  int width = 0;
-  int height = 0;
+  int width = 0;                    ///< in texels
+  int height = 0;                   ///< in texels
   std::vector<StoredValue> planes;  ///< one plane per channel: height by width, first row at v = 1
-  MapCoding coding = {};
+  MapCoding coding = {};            ///< how the stored values encode numbers
   /// the planes in a mapped file, instead of `planes`
   std::span<const StoredValue> mapped_planes = {};
-  std::shared_ptr<const MappedFile> mapped_file = {};
+  std::shared_ptr<const MappedFile> mapped_file = {};  ///< keeps the file mapped; null: not used
 
+  /// The number that a stored value encodes.
   float decode(StoredValue stored) const { return coding.decode(stored); }
   std::size_t texel_count() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -72,6 +73,7 @@ struct TextureMap {
   std::span<const StoredValue> stored() const {
     return mapped_file == nullptr ? std::span(planes) : mapped_planes;
   }
+  /// The stored values of row y of a channel.
   const StoredValue* row(int channel, int y) const {
     return stored().data() + plane_row_offset(channel, y);
   }
@@ -79,6 +81,7 @@ struct TextureMap {
   StoredValue* row(int channel, int y) { return planes.data() + plane_row_offset(channel, y); }
 
  private:
+  /// Index of the first texel of row y of a channel in stored().
   std::size_t plane_row_offset(int channel, int y) const {
     return (static_cast<std::size_t>(channel) * static_cast<std::size_t>(height) +
             static_cast<std::size_t>(y)) *

@@ -8,6 +8,7 @@
 
 namespace crowdface {
 
+/// Twice the signed area of the triangle with the corners 0, a and b.
 inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

@@ -29,17 +29,18 @@ std::filesystem::path picture_path(const std::filesystem::path& file, const std:
 /// teeth. Each vertex is a weighted mean of three vertices of the base mesh, plus an offset. This
 /// is the content of MakeHuman's .mhclo files, which the package stores as JSON.
 struct FittedMesh {
+  /// An alternative material of the mesh.
   struct Picture {
     std::string name;            ///< name of the material: "brown"
     std::filesystem::path path;  ///< colour texture; empty: none
   };
-  Topology topology;
+  Topology topology;                                  ///< #V vertices
   TextureCoordinates uvs;                             ///< #T by 2
   std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V: three vertices of the base mesh
   Positions weights;              ///< #V by 3: weights of the three anchors in the mean
   Positions offsets;              ///< #V by 3, decimetres: added to the mean of the anchors
   std::vector<Picture> pictures;  ///< one for each alternative material
-  AssetLicence licence;
+  AssetLicence licence;           ///< licence and author of the asset
 
   /// Returns the vertices fitted to a body: #V by 3, decimetres.
   /// \param base  positions of all vertices of the base mesh.

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// Sex and age of a head.
 struct HeadPerson {
-  bool is_male = false;
+  bool is_male = false;  ///< false: female
   double age_years = 0;
 };
 
@@ -36,7 +36,7 @@ class HeadModel {
 
 /// Heights (y coordinates) of the eyes and of the mouth in the neutral head.
 struct FeatureHeights {
-  double eye_height = 0, mouth_height = 0;
+  double eye_height = 0, mouth_height = 0;  ///< in centimetres; in MakeHumanMesh in decimetres
 };
 
 /// Returns the vertices of all polygons whose material's name contains one of the words, ascending.
@@ -44,8 +44,8 @@ std::vector<std::uint32_t> vertices_of_material(const Topology& topology,
                                                 const std::vector<MaterialRange>& materials,
                                                 const std::vector<std::string>& words);
 
-/// Returns the mean of the given rows. Adds them in the order of `rows`. \throws InvalidInput if
-/// `rows` is empty.
+/// Returns the mean of some rows of `positions`. Adds them in the order of their indices in `rows`.
+/// \throws InvalidInput if `rows` is empty.
 Eigen::RowVector3d mean_of(const Positions& positions, const std::vector<std::uint32_t>& rows);
 
 }  // namespace crowdface

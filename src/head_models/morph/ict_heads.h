@@ -27,13 +27,15 @@ class IctHeads : public HeadModel {
 
   /// Returns the file of the neutral mesh. All heads have its groups and materials.
   const ObjFile& file() const { return file_; }
+  /// Returns the number of identity modes in the folder.
   std::size_t mode_count() const { return modes_.size(); }
-  /// \throws InvalidInput if the neutral mesh has no eyeballs or no teeth.
+  /// Returns the heights of eyes and mouth. \throws InvalidInput if the neutral mesh has no
+  /// eyeballs or no teeth.
   FeatureHeights heights() const;
 
  private:
-  ObjFile file_;
-  Mesh neutral_;
+  ObjFile file_;                  ///< file of the neutral mesh
+  Mesh neutral_;                  ///< see neutral()
   std::vector<Positions> modes_;  ///< displacements from the neutral mesh, each #V by 3
 };
 

@@ -17,15 +17,18 @@ constexpr double kYoung = 25, kOld = 80;
 constexpr double kUnaged = 33;  // age in years at which `Control::aged` changes nothing
 constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
-/// A measure of the face with two morph targets, one to decrease and one to increase the measure.
-/// '*' in `stem` stands for l and r (left and right), whose values differ slightly. `spread` is the
-/// standard deviation. `aged` is the change of the mean per 20 years of age above kUnaged. `weight` is
-/// the change of the mean for the heaviest body. `female` is the change of the mean for women: with
-/// the targets of the sexes alone, many women have the face of a man. `mean` is the mean of all.
+/// A random measure of the face, from −1 to 1. Negative values use the morph target stem + less,
+/// positive values use stem + more. '*' in `stem` stands for l and r (left and right), whose values
+/// differ slightly.
 struct Control {
   std::string_view stem, less, more;
-  double spread;
-  double aged = 0, weight = 0, female = 0, mean = 0;
+  double spread;      ///< standard deviation of the measure
+  double aged = 0;    ///< change of the mean per 20 years of age above kUnaged
+  double weight = 0;  ///< change of the mean for the heaviest body
+  /// Change of the mean for women: with MakeHuman's targets for sex alone, many women have the face
+  /// of a man.
+  double female = 0;
+  double mean = 0;  ///< mean for men of age kUnaged with average weight
 };
 
 // clang-format off
@@ -210,7 +213,7 @@ MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index)
 std::vector<TargetWeight> makehuman_targets(const MakeHumanPerson& person, std::uint64_t seed,
                                             std::uint64_t index) {
   std::vector<TargetWeight> out;
-  // From 20 % beyond the targets of the person's own sex to 5 % of those of the other sex.
+  // Weight of the other sex's targets: from −20 %, which exaggerates the person's own sex, to 5 %.
   const double mixed = random_between({seed, index, "makehuman/sex_share"}, -0.2, 0.05);
   add_person(person, person.is_male ? 1 - mixed : mixed, out);
   for (const Control& control : kControls) {

@@ -11,11 +11,12 @@
 
 namespace crowdface {
 
+/// The ancestries that MakeHuman's targets model.
 inline constexpr std::array<std::string_view, 3> kAncestries = {"african", "asian", "caucasian"};
 
 /// Attributes of a person. They determine the means of the person's random measures.
 struct MakeHumanPerson {
-  bool is_male = false;
+  bool is_male = false;               ///< false: female
   double age_years = 0;               ///< 20 … 80
   std::array<double, 3> ancestry{};   ///< shares of kAncestries, which sum to 1
   double muscle = 0.5, weight = 0.5;  ///< 0 (least) … 1 (most)

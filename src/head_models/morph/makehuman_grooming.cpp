@@ -28,7 +28,7 @@ using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kParting = 46;  // where the swept hair begins, in degrees
 
-/// A mesh, for finding the outermost point on a line.
+/// Finds the outermost point of a mesh on a line.
 class OuterSurface {
  public:
   explicit OuterSurface(const Mesh& mesh)
@@ -51,11 +51,11 @@ class OuterSurface {
   RayScene scene_;
 };
 
-/// A position as angle about, height along and distance from the head's vertical axis.
+/// A position in cylindrical coordinates around the head's vertical axis.
 struct RoundTheHead {
-  static constexpr double kAxisZ = -6;
-  double degrees;  ///< 0 to the front, negative on the right side (x < 0)
-  double height, radius;
+  static constexpr double kAxisZ = -6;  // z of the axis, in centimetres
+  double degrees;         ///< angle: 0 to the front, negative on the right side (x < 0)
+  double height, radius;  ///< along the axis, and from the axis, in centimetres
 
   static RoundTheHead of(const Vector3d& p) {
     return {std::atan2(p.x(), p.z() - kAxisZ) / kDegree, p.y(), std::hypot(p.x(), p.z() - kAxisZ)};
@@ -67,8 +67,8 @@ struct RoundTheHead {
   Vector3d position() const { return origin() + radius * direction(); }
 };
 
-/// The range of angles in front of the face that is free of hair, in degrees by height: (height,
-/// angle), ascending.
+/// For each height, the range of angles in front of the face in which there is no hair. An element
+/// is a pair (height, angle in degrees); heights ascend.
 struct FreeRange {
   std::vector<Vector2d> begin, end;
 };
@@ -151,7 +151,7 @@ Positions levelled_brows(const Positions& brows, const Mesh& head) {
       if (side * brows(v, 0) > 0) rows.push_back(v);
     }
     if (rows.empty()) continue;
-    // The slope of the inner two thirds, by least squares; brows fall again further outside.
+    // Fit the slope of the brow's inner two thirds by least squares. The outer third falls again.
     std::ranges::sort(rows, {}, [&](Index v) { return std::abs(brows(v, 0)); });
     const std::vector<Index> inner(rows.begin(),
                                    rows.begin() + std::ptrdiff_t(rows.size() + 2) * 2 / 3);
@@ -198,7 +198,8 @@ Mesh with_cap(const Mesh& hair, const Mesh& head, Index skin_faces, const Eigen:
     }
     covered = std::move(wider);
   };
-  // Close slits of up to four polygons, and keep one row of polygons away from the edge of the hair.
+  // Close slits that are at most 2 · kClosed polygons wide. Then remove kMargin rows of polygons at
+  // the edge of the cap, so that the cap ends inside the hair.
   constexpr int kClosed = 2, kMargin = 1;
   for (int i = 0; i < kClosed; ++i) spread(true);
   for (int i = 0; i < kClosed + kMargin; ++i) spread(false);
@@ -250,7 +251,7 @@ Mesh cut_below(const Mesh& hair, double height) {
 Mesh mirrored(const Mesh& mesh) {
   Mesh other{{}, mesh.positions, mesh.uvs};
   other.positions.col(0) *= -1;
-  // A mirrored polygon shows its back; the opposite order of corners turns it round.
+  // Reverse the order of corners, so that the mirrored polygons face outwards again.
   for (Index f = 0; f < mesh.topology.face_count(); ++f) {
     const auto corners = mesh.topology.face(f), uvs = mesh.topology.face_uvs(f);
     other.topology.add_face(std::vector(corners.rbegin(), corners.rend()),

@@ -7,9 +7,9 @@
 
 namespace crowdface {
 
-/// Combs hair out of the face. The fringes of the package sweep from a parting above the left eye
-/// down over the right eye (x < 0). Afterwards they cross the forehead and end beside the right
-/// brow. Other hair stays where it is.
+/// Combs hair out of the face. In the package, fringes sweep from a parting above the left eye down
+/// over the right eye (x < 0). The combed fringes cross the forehead and end beside the right brow.
+/// Other hair stays where it is.
 ///
 /// \param hair  #V by 3
 /// \param head  the average head; hair outside the head stays outside
@@ -21,8 +21,8 @@ Positions combed_aside(const Positions& hair, const Mesh& head);
 /// \param head   the average head; each vertex keeps its distance from the head along z
 Positions levelled_brows(const Positions& brows, const Mesh& head);
 
-/// Adds a cap to hair: the polygons of the skin that lie well below the hair, moved outwards by half
-/// a millimetre. Without the cap, skin shows through slits between the strands.
+/// Adds a cap to hair: copies of the skin polygons that the hair covers, moved outwards by half a
+/// millimetre. Without the cap, skin shows through slits between the strands.
 ///
 /// \param head        the average head
 /// \param skin_faces  number of skin polygons, which come first in `head`
@@ -33,7 +33,7 @@ Mesh with_cap(const Mesh& hair, const Mesh& head, Index skin_faces, const Eigen:
 /// have only lower vertices.
 Mesh cut_below(const Mesh& hair, double height);
 
-/// Exchanges left and right.
+/// Exchanges left and right: negates x.
 Mesh mirrored(const Mesh& mesh);
 
 }  // namespace crowdface

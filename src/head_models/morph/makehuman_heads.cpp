@@ -58,7 +58,8 @@ std::vector<std::string> read_target_names(const std::filesystem::path& file) {
   return names;
 }
 
-/// Copies to `mesh` the vertices and texture coordinates that its polygons use, and renumbers its
+/// Copies from `all` to `mesh` the vertices and texture coordinates that the polygons of `mesh`
+/// use. Renumbers the corners of these
 /// polygons.
 /// \return for each vertex of `mesh`: its row in `all.positions`
 std::vector<std::uint32_t> keep_used_rows(const ThreeMesh& all, Mesh& mesh) {
@@ -87,8 +88,8 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file) {
       if (!in_head && &part == kParts.data()) out.body.topology.add_face(face.vertices, face.uvs);
     }
     if (out.materials.back().first_face == topology.face_count()) {
-      refuse_file(file, concat("expected a head of material ", part.in_file,
-                               " above the neck's cut, ", "found none"));
+      refuse_file(file, concat("expected polygons of the material ", part.in_file,
+                               " above the cut through the neck, found none"));
     }
   }
   out.head_rows = keep_used_rows(all, out.head);
@@ -122,9 +123,6 @@ MakeHumanHeads::MakeHumanHeads(const std::filesystem::path& package)
               kCentimetresPerUnit * (mesh_.heights.mouth_height - origin)};
 }
 
-/// Converts positions to centimetres and moves the mean of the eyeballs to the origin. Without the
-/// move, heads would lie at different heights, because bodies differ in height. \param base  all
-/// vertices of the same body.
 Positions MakeHumanHeads::to_head_frame(const Positions& decimetres, const Positions& base) const {
   const Eigen::RowVector3d origin = mean_of(base, eye_rows_);
   return kCentimetresPerUnit * (decimetres.rowwise() - origin);
@@ -188,7 +186,7 @@ std::vector<bool> MakeHumanHeads::is_skin() const {
 }
 
 std::vector<double> MakeHumanHeads::lip_weights() const {
-  // The lips are what the targets for fuller lips move most.
+  // The lips consist of the vertices that the morph targets for fuller lips move most.
   constexpr double kOutside = 0.25, kInside = 0.6;  // as fractions of the largest displacement
   const std::vector<std::uint32_t>& rows = parts_.empty() ? mesh_.head_rows : skin_rows_;
   Positions moved = Positions::Zero(static_cast<Index>(rows.size()), 3);

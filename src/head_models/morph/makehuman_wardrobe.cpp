@@ -26,8 +26,9 @@ struct AgeShare {
   double share;
 };
 
-/// Returns the blending weights of the package's skins for a person's age, interpolated linearly
-/// between 27, 42 and 64 years. The skins are said to show people of 27, 48 and 68 years, but look younger.
+/// Returns the blending weights of the package's skins for a person's age: linear interpolation
+/// between 27, 42 and 64 years. According to the package, the skins show people of 27, 48 and 68
+/// years, but the people look younger.
 std::array<AgeShare, 3> age_shares(double years) {
   const double middle = std::clamp((years - 27) / (42 - 27), 0.0, 1.0);
   const double old = std::clamp((years - 42) / (64 - 42), 0.0, 1.0);
@@ -119,10 +120,9 @@ void add_eyeballs(const FittedMesh& eyes, const fs::path& file, const Positions&
 struct Wearable {
   std::string_view name, folder, kind, tags;
   double share = 1;
-  bool young = false;  ///< whether old people never wear the attachment
-  /// How the mesh of the package is changed.
-  bool is_mirrored = false;
-  double end = -HUGE_VAL;  ///< height in centimetres above the eyes at which hair is cut
+  bool young = false;        ///< whether old people never wear the attachment
+  bool is_mirrored = false;  ///< whether left and right of the package's mesh are exchanged
+  double end = -HUGE_VAL;    ///< height in centimetres above the eyes at which hair is cut
 };
 // For hair, the tags "male" and "female" come from the package. For brows, the thickness of the
 // brows determines these tags.
@@ -190,8 +190,8 @@ std::vector<MakeHumanAttachment> makehuman_attachments(const fs::path& package) 
   return out;
 }
 
-/// Returns the shares of ancestry for the colours of hair and eyes. Light colours are recessive, so
-/// that they need mostly Caucasian ancestry.
+/// Returns the shares of ancestry from which the colours of hair and eyes are drawn. The Caucasian
+/// share is reduced unless it is above 0.8, because light colours are recessive.
 std::array<double, 3> ancestry_of_colours(const MakeHumanPerson& person) {
   std::array<double, 3> shares = person.ancestry;
   shares[2] *= std::clamp((person.ancestry[2] - 0.5) / 0.3, 0.0, 1.0);

@@ -15,8 +15,8 @@ namespace crowdface {
 
 /// A skin texture of the package, and its weight in a person's blended skin.
 struct WeightedSkin {
-  std::filesystem::path picture;
-  double share = 0;  ///< weight of `picture` in the blended skin, 0 … 1
+  std::filesystem::path picture;  ///< file of the texture
+  double share = 0;               ///< weight of `picture` in the blended skin, 0 … 1
 };
 
 /// Returns the skin textures that are blended for a person, by sex, age and ancestry. The shares
@@ -48,7 +48,7 @@ struct IrisLook {
   double darkening;          ///< factor on the optical density
   double greying;            ///< 0: keep the colour … 1: grey
 };
-/// \param colour  a result of makehuman_eye_colour
+/// Returns how irises of an eye colour are made. \param colour  a result of makehuman_eye_colour
 IrisLook makehuman_iris_look(const std::string& colour);
 
 /// Returns the random hair colour of a person's youth, before greying: a name of
@@ -58,9 +58,9 @@ std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t s
 
 /// The parts that all heads have in addition to skin.
 struct MakeHumanParts {
-  std::vector<FittedPart> fitted_parts;  ///< eyeball_r, eyeball_l, teeth, tongue
-  std::vector<FittedMesh::Picture> eye_colours;
-  std::filesystem::path teeth, tongue;  ///< texture of each part
+  std::vector<FittedPart> fitted_parts;          ///< eyeball_r, eyeball_l, teeth, tongue
+  std::vector<FittedMesh::Picture> eye_colours;  ///< iris textures of the package, by colour
+  std::filesystem::path teeth, tongue;           ///< texture of each part
   AssetLicence eyes_licence, teeth_licence, tongue_licence;
 };
 
@@ -71,13 +71,14 @@ MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const 
 
 /// A mesh of the package that some heads wear: hair, a brow, lashes, a beard.
 struct MakeHumanAttachment {
-  std::string name, kind;
-  std::filesystem::path file;        ///< path in the package
+  std::string name;                  ///< such as "bob01_left"
+  std::string kind;                  ///< "hair", "brow", "lashes" or "beard"
+  std::filesystem::path file;        ///< path of the mesh file
   std::vector<std::string> tags;     ///< tags that a head needs to wear the attachment
   bool excludes_old_people = false;  ///< whether old people never wear the attachment
   double relative_frequency = 1;     ///< relative frequency among attachments of the same kind
-  bool is_mirrored = false;          ///< whether left and right are exchanged
-  double end;                        ///< height at which hair is cut, in centimetres above the eyes
+  bool is_mirrored = false;          ///< whether left and right of the mesh are exchanged
+  double end;  ///< height at which hair is cut, in centimetres above the eyes; −∞: not cut
 };
 
 /// Returns the package's attachments that have a named author and a contemporary style, brows

