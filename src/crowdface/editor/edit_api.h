@@ -77,9 +77,10 @@ class EditApi {
   // \throws UsageError with the name of the key if the value is not valid.
   std::vector<std::size_t> bands_in(const Json& body, const std::string& key) const;
   FacePlan face_in(const Json& body, const std::string& key = "recipe") const;
+  /// Reads the id of the crowd's face from which the user began the edit; empty if there is none.
   static std::string opened_id(const Json& body);
 
-  /// The value of a section in the file of edits, as a text; null if the file has no such section.
+  /// Returns the result of section_in_edits as a JSON string, or null.
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json measures_json(const FaceMeasures& measures) const;
   /// Stores the number of a request, if it is the largest number that the page has sent.

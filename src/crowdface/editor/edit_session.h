@@ -25,6 +25,7 @@
 
 namespace crowdface {
 
+/// Loads the job that the user edits.
 /// \param config_or_crowd  a config file or the folder of a crowd. For a folder, loads the
 ///                         config.yaml in the folder, and the job writes its output into the
 ///                         folder.
@@ -67,6 +68,8 @@ class EditSession {
 
   const Job& job() const { return job_; }
   const CastingOptions& casting() const { return casting_; }
+  /// The faces of the plan in the job's output folder; null if there is no plan or if the plan was
+  /// made with other settings.
   const std::vector<FacePlan>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
   const PreviewMesh& preview() const { return preview_; }
   /// The atlas with the heads' textures. The preview's texture coordinates refer to this atlas.
@@ -118,6 +121,7 @@ class EditSession {
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
   /// preview vertex.
+  /// \param face  result of `build`
   std::vector<float> preview_normals(const Positions& face) const;
   /// Roughness of a face at the preview's vertices, 0 … 255 for the range 0 … 1; empty if there is
   /// no roughness map.
@@ -131,9 +135,9 @@ class EditSession {
   struct JudgingData {
     std::unique_ptr<const CastingSpace> space;
     FaceJudge judge;
-    NearestFaceSearch crowd_search;
+    NearestFaceSearch crowd_search;            ///< the faces of crowd(), in the same order
     std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
-    std::unique_ptr<const TraitRules> rules;
+    std::unique_ptr<const TraitRules> rules;   ///< limits on measurements; null with `traits`
   };
   JudgingData make_judging_data() const;
   /// Finds the nearest face of the crowd, except the faces with the ids `recipe.id` and
@@ -154,7 +158,7 @@ class EditSession {
   /// The preview mesh. A separate thread computes the preview mesh while the following members are
   /// constructed.
   std::future<PreviewMesh> preview_future_;
-  std::optional<std::vector<FacePlan>> crowd_;
+  std::optional<std::vector<FacePlan>> crowd_;  ///< see crowd()
   PreparedHeads prepared_;
   /// Set only with `levels: exact`: the heads prepared with `levels: basis`, because the page needs
   /// displacement fields.
@@ -162,11 +166,12 @@ class EditSession {
   FaceBuilder builder_;
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;
+  /// the face of the previous call of `build`, which then recomputes only what differs
   mutable FaceBuilder::PreviousFace previous_face_;
   std::shared_future<JudgingData> judging_data_;
   CastingOptions casting_;
   PreviewMesh preview_;
-  VertexFaces vertex_faces_;
+  VertexFaces vertex_faces_;  ///< for each vertex of the heads: its polygons
   /// For each preview vertex: the visible fraction of the sky, for ambient occlusion. The
   /// computation takes about a second.
   std::shared_future<std::vector<float>> sky_visibility_;
