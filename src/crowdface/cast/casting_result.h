@@ -70,8 +70,8 @@ struct CastingResult {
   /// Changed faces, by index in `crowd`. (`crowd` itself holds the faces without their changes, and
   /// no other face depends on a change.)
   std::map<std::size_t, ChangedFace> changed = {};
-  RejectionCounts rejections;
-  std::optional<Shortfall> shortfall;
+  RejectionCounts rejections;  ///< how often each constraint rejected a candidate for any face
+  std::optional<Shortfall> shortfall;  ///< set if casting stopped early
 };
 
 /// Number of sampled faces whose candidates are generated in parallel. Afterwards, casting chooses

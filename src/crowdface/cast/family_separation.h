@@ -56,6 +56,7 @@ class UnrelatedFaces {
                          std::optional<std::size_t> group = std::nullopt) const;
 
  private:
+  /// by index of the group; nullopt: faces drawn with the parameters of the crowd
   std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> points_by_group_;
 };
 

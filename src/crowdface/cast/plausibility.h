@@ -30,7 +30,7 @@ class Plausibility {
     /// Cholesky factor of ridge·(H − 1)·I + Y Yᵀ, where H is the number of heads and Y has one row
     /// of `head_offsets` per head
     std::vector<std::vector<double>> cholesky_factor;
-    double ridge = 1;
+    double ridge = 1;  ///< variance that is added in every direction
   };
   /// Returns the metric of all heads except one.
   ///
@@ -42,7 +42,7 @@ class Plausibility {
                                Index left_out_head);
   static double squared_distance(const Metric& metric, const Eigen::VectorXf& point);
 
-  Metric metric_;
+  Metric metric_;  ///< computed from all heads
   /// the Mahalanobis distance from the mean that a new head typically has
   double typical_distance_ = 1;
 };

@@ -28,7 +28,7 @@ class PopulationBalance {
   void add(const Positions& landmarks);
 
  private:
-  static constexpr std::size_t kBins = 256;
+  static constexpr std::size_t kBins = 256;  ///< of the grid on which distributions are compared
   struct Trait {
     TraitTarget target;
     /// for each bin: the number of faces in this bin and all lower bins, minus the number that the

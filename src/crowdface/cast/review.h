@@ -16,7 +16,7 @@ struct ReviewMark {
     kKeep,    ///< the face stays as it is
     kReject,  ///< the face is redrawn, except for the locked parts
   };
-  std::string id;
+  std::string id;  ///< id of the face
   Verdict verdict = Verdict::kKeep;
   /// Bands of regions that stay the same when the face is redrawn. The number of a band is (index
   /// of the region) · #bands + (index of the band). If the crowd has no bands, #bands is 1, and the
@@ -30,7 +30,7 @@ struct ReviewMark {
 /// run/changed_faces.cpp).
 struct FaceChange {
   enum class AgeStep { kOlder, kYounger };
-  std::string id;
+  std::string id;  ///< id of the face
   std::optional<AgeStep> age_step;
   std::optional<Age> age;  ///< not together with `age_step`
   /// id of the face of which this face becomes a variant

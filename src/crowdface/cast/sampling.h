@@ -58,8 +58,8 @@ struct PositionDistribution {
   std::optional<Eigen::Index> head;
   double radius = 0;  ///< kAround: radius of the disc, in units of the weight plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed: the point at which the position always is
-  /// kAnchored: the largest distance from the anchor, as a fraction of the distance between the
-  /// anchor and the random point of the hull. 0: the position is always the anchor.
+  /// kAnchored: the position lies at most this fraction (0 … 1) of the way from the anchor to the
+  /// random point of the hull. 0: the position is always the anchor.
   double pull = 0.25;
 };
 
@@ -86,6 +86,7 @@ struct RegionSampling {
 /// The parameters of one band of detail. If a member is empty, the value of the band's region or of
 /// the crowd applies.
 struct BandSampling {
+  /// The distributions of this band in one region.
   struct Region {
     std::optional<PositionDistribution> position;
     /// level at which the band begins; may be empty for the first band only
@@ -141,9 +142,9 @@ struct SamplingOptions {
   AgeRange age = {};         ///< range of the ages of sampled faces
   Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
-  std::vector<Eigen::Index> heads_tagged_old;  ///< heads with the tag `old`, ascending
-  std::vector<Eigen::Index> heads_tagged_young;
-  TraitLimits traits = {};  ///< limits on the measurements of the faces
+  std::vector<Eigen::Index> heads_tagged_old;    ///< heads with the tag `old`, ascending
+  std::vector<Eigen::Index> heads_tagged_young;  ///< heads with the tag `young`, ascending
+  TraitLimits traits = {};                       ///< limits on the measurements of the faces
 };
 
 /// Returns the number of bands of each region's detail.

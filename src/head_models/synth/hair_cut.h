@@ -29,7 +29,7 @@ struct HairCut {
   double wave_amplitude = 0;    ///< amplitude of waves in the locks
   /// 1: combed locks. Larger numbers: the number of layers of curls, which have random directions
   int layers = 1;
-  /// tied at the back; in front of the tie, the hair lies on the head
+  /// whether the hair is tied at the back; in front of the tie, the hair lies on the head
   bool is_tied = false;
   bool excludes_old_people = false;  ///< true: the cut is not for old people
 
@@ -47,6 +47,7 @@ struct HairColour {
 };
 /// Returns the natural hair colours, without grey.
 std::span<const HairColour> hair_colours();
+/// Returns the most similar colour of hair_colours().
 const HairColour& nearest_hair_colour(const ScreenColour& colour);
 
 }  // namespace crowdface::synth

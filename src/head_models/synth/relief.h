@@ -36,7 +36,8 @@ class Relief {
   struct Stroke {
     static constexpr int kPieces = 12;
     std::array<Eigen::Vector2d, kPieces + 1> points;
-    double width, depth, bulge;
+    double width, depth;
+    double bulge;  ///< height of a ridge beside the curve, relative to the depth; positive: left
     Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
   };
   /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
@@ -62,11 +63,12 @@ class Relief {
     double offset;          ///< 0 … 1: shifts the wrinkles by this fraction of the spacing
   };
   std::vector<Wrinkles> wrinkles_;
+  /// Noise of one wavelength.
   struct Octave {
     SmoothNoise noise;
-    double amplitude;
+    double amplitude;  ///< cm
   };
-  std::vector<Octave> broad_octaves_, fine_octaves_;
+  std::vector<Octave> broad_octaves_, fine_octaves_;  ///< uneven skin, and pores
   SmoothNoise lip_creases_;
   double lip_depth_;  ///< amplitude of lip_creases_
 };
