@@ -44,8 +44,8 @@ struct AppliedChange {
 
 /// A face after the changes that the config and reviews request.
 struct ChangedFace {
-  FacePlan face;  ///< the face's plan; its colours and attachments are not set
-  FaceSpace::Point point;
+  FacePlan face;           ///< the face's plan; its colours and attachments are not set
+  FaceSpace::Point point;  ///< point of the changed face in the face space
   /// in the order of application: first the config's changes
   std::vector<AppliedChange> changes = {};
   TraitLimits traits = {};  ///< the limits on the measurements that all changes together request

@@ -39,6 +39,7 @@ class FaceSearch {
   /// may run in parallel.
   void prepare(const CrowdSoFar& crowd);
 
+  /// The face that the search chose.
   struct FoundFace {
     FacePlan face;
     FaceSpace::Point point;
@@ -57,6 +58,7 @@ class FaceSearch {
   const RejectionCounts& rejections() const { return rejections_; }
 
  private:
+  /// A generated candidate, and the results of its checks so far.
   struct Candidate {
     FacePlan face;
     FaceSpace::Point point = {};
@@ -66,7 +68,7 @@ class FaceSearch {
     /// whether `distance_to_crowd_mm` is the exact distance, not an upper bound
     bool is_distance_exact = true;
     bool is_skin_judged = false;  ///< whether `check_skin` was called
-    std::optional<RejectionReason> violated_constraint = std::nullopt;
+    std::optional<RejectionReason> violated_constraint = std::nullopt;  ///< result of `judge_skin`
   };
 
   /// Returns whether a round needs another candidate. Candidates that are too near to the crowd
@@ -106,7 +108,7 @@ class FaceSearch {
   GenerateCandidate generate_candidate_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
-  std::size_t wanted_candidate_count_;
+  std::size_t wanted_candidate_count_;          ///< number of acceptable candidates in a round
   std::uint32_t first_attempt_, next_attempt_;  ///< numbers of the candidates
   /// Number of the attempt after the last allowed attempt. Each candidate that violates limits on
   /// measurements raises `attempts_end_` by one, up to a bound.

@@ -51,6 +51,7 @@ class FaceSpace {
   static bool have_matching_sizes(const FaceSpaceTables& tables, const HeadsAtSamples& heads);
   const FaceSpaceTables& tables() const { return tables_; }
 
+  /// Returns the point of a recipe's face.
   Point point(const Recipe& recipe) const;
   /// Returns the points of several recipes. Faster than separate calls of `point`.
   std::vector<Point> points(std::span<const Recipe* const> recipes) const;
@@ -70,12 +71,13 @@ class FaceSpace {
   static double distance(const Point& a, const Point& b);
   /// A point, and one region's metric multiplied by the point's coordinates.
   struct RegionPoint {
-    const Point* point = nullptr;
+    const Point* point = nullptr;  ///< the point itself
     /// the region's metric multiplied by the point's coordinates with and without extrapolation,
     /// #dimensions each; empty if there is only one region
     Eigen::VectorXf metric_times_coordinates_with_extrapolation,
         metric_times_coordinates_without_extrapolation;
   };
+  /// Prepares a point for calls of `region_distance`.
   RegionPoint region_point(const Point& point, Index region) const;
   /// Returns the distance between two faces over one region, after the whole faces are aligned.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;

@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// A parent of a family: an input head, or a face of the plan, given by its id.
 struct Parent {
-  std::optional<Eigen::Index> head;
+  std::optional<Eigen::Index> head;  ///< index of the head, if the parent is an input head
   std::string id;  ///< id of the face, with or without the crowd's name; or name of the head
   /// whether the parent does not exist yet, so that casting makes a face with this id
   bool is_new = false;

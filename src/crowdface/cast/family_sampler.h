@@ -80,6 +80,7 @@ class FamilySampler {
   double fraction_of_strangers_nearer_than_parent(const FaceSpace::Point& point) const;
 
  private:
+  /// A parent whose plan is known: an input head, or a face of the crowd or of `new_parents_`.
   struct KnownParent {
     std::string name;  ///< name of the parent's head, or id of the parent's face
     /// The parent's plan without the effects of the parent's age. If the parent is an input head,
@@ -141,7 +142,7 @@ class FamilySampler {
   std::vector<KnownParent> parents_;
   /// indices in `parents_` of the parents that are not in the crowd yet
   std::vector<std::size_t> parents_not_in_crowd_;
-  std::vector<FaceSearch::FoundFace> new_parents_;
+  std::vector<FaceSearch::FoundFace> new_parents_;  ///< see new_parents()
   /// Distribution of the third contributor: a random face from which members inherit what comes
   /// from neither parent.
   FaceDistribution third_contributor_distribution_;

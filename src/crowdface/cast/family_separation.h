@@ -34,6 +34,7 @@ class FamilySeparation {
   void add(const std::string& family, const std::vector<FaceSpace::Point>& members);
 
  private:
+  /// A member of any of the families.
   struct Member {
     std::string family;
     FaceSpace::Point point;

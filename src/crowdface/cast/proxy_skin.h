@@ -40,7 +40,7 @@ class ProxySkin {
 
  private:
   std::vector<Triangle> triangles_;
-  std::vector<TrianglePair> nearby_pairs_;
+  std::vector<TrianglePair> nearby_pairs_;  ///< pairs that are checked for intersection
   std::vector<ReferenceSkin> reference_skins_of_heads_;
 };
 

@@ -45,6 +45,7 @@ struct AgeRange {
 /// The distribution of a region's random position on the weight plane: a plane on which each head
 /// has a point (its anchor). The position determines the weights of the heads in the region.
 struct PositionDistribution {
+  /// How the position is drawn.
   enum class Kind {
     /// on the straight line from a random source's anchor to a random point in the convex hull of
     /// the sources' anchors; `pull` limits the distance from the anchor
@@ -65,6 +66,7 @@ struct PositionDistribution {
 
 /// Distribution of the smoothing level, L.
 struct SmoothnessDistribution {
+  /// The unit of `range`.
   enum class Unit {
     kFraction,    ///< a fraction of L_max, like the slider in the paper
     kIterations,  ///< a number of smoothing iterations
@@ -188,6 +190,7 @@ struct Group {
 /// A face that the user specifies by hand. Values that are not specified are random, as for a
 /// sampled face.
 struct ManualRecipe {
+  /// The values of one band; empty values are random.
   struct Band {
     std::optional<PlanePoint> position;
     /// weights of the heads that lend detail; empty: not given. Not together with `position`.

@@ -12,6 +12,7 @@
 
 namespace crowdface {
 
+/// Options of `crowdface edit`.
 struct EditOptions {
   CacheFolder cache;                      ///< folder of prepared heads
   int port = 0;                           ///< 0: any free port

@@ -72,8 +72,8 @@ class EditAttachments {
   std::mutex mutex_;
   /// for the name of each attachment requested so far: its binding
   std::map<std::string, BindingFuture> bindings_;
-  AttachmentSurfaces surfaces_;
-  ShownAttachments shown_;
+  AttachmentSurfaces surfaces_;  ///< meshes and materials of the attachments
+  ShownAttachments shown_;       ///< converts attachments to the data of the page
 };
 
 }  // namespace crowdface

@@ -44,12 +44,12 @@ struct FaceMeasures {
   /// which the user began the edit.
   std::optional<std::size_t> nearest_face;
   double nearest_face_distance_mm = 0;
-  /// A measurement of the face. `value` is in the unit of the measurement; `difference_from_mean`
-  /// is the value minus the heads' mean.
+  /// A measurement of the face.
   struct Trait {
-    std::size_t trait = 0;  ///< index into measurements()
-    double value = 0, difference_from_mean = 0;
-    double low = 0, high = 0;  ///< smallest and largest value of any head
+    std::size_t trait = 0;            ///< index into measurements()
+    double value = 0;                 ///< in the unit of the measurement
+    double difference_from_mean = 0;  ///< `value` minus the mean of the heads' values
+    double low = 0, high = 0;         ///< smallest and largest value of any head
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads
   /// One sentence for each limit of the config that the face violates.
@@ -71,6 +71,7 @@ class EditSession {
   /// The faces of the plan in the job's output folder; null if there is no plan or if the plan was
   /// made with other settings.
   const std::vector<FacePlan>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
+  /// The mesh with fewer triangles that the page shows.
   const PreviewMesh& preview() const { return preview_; }
   /// The atlas with the heads' textures. The preview's texture coordinates refer to this atlas.
   const TextureAtlas& textures() const { return textures_; }
@@ -146,6 +147,7 @@ class EditSession {
   NearestFaceSearch::NearestFace nearest_other_face(const FaceSpace::Point& point,
                                                     const FacePlan& recipe,
                                                     const std::string& opened_id) const;
+  /// The part of description() about the regions.
   nlohmann::ordered_json regions_json() const;
   /// The face that the page shows first: the first face of the crowd. If there is no crowd, all
   /// regions are at the first head's anchor.

@@ -74,7 +74,7 @@ class EditedFolder {
   std::filesystem::path save_review(const Config& config, const std::function<void(Review&)>& edit);
 
   std::filesystem::path path_;
-  DirectoryHandle handle_;
+  DirectoryHandle handle_;  ///< detects whether another folder has replaced this folder
   std::mutex mutex_;
   std::string editing_page_id_;  ///< see set_only_saving_page
 };

@@ -48,11 +48,11 @@ class GenerateRun {
   void update_state(int wait_options);
 
   std::vector<std::string> arguments_;
-  std::filesystem::path log_;
+  std::filesystem::path log_;  ///< file with the output of the newest run
   std::mutex mutex_;
   State state_ = State::kIdle;
   bool was_stopped_ = false;  ///< whether `stop` was called during the newest run
-  pid_t process_ = 0;
+  pid_t process_ = 0;         ///< process of the newest run
 };
 
 /// "idle", "running", "done", "failed" or "stopped".

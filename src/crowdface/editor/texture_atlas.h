@@ -50,9 +50,9 @@ class TextureAtlas {
   const Inputs& inputs_;
   /// for each polygon: index of the cell, or TextureLayer::kNone; empty: no head has textures
   std::vector<std::uint32_t> cell_of_polygon_;
-  std::uint32_t cell_count_ = 0;
-  int columns_ = 1, rows_ = 1;  ///< number of columns and rows of cells
-  int cell_px_ = 0;             ///< width and height of a cell
+  std::uint32_t cell_count_ = 0;  ///< number of cells; each shows one texture of a head
+  int columns_ = 1, rows_ = 1;    ///< number of columns and rows of cells
+  int cell_px_ = 0;               ///< width and height of a cell
 };
 
 }  // namespace crowdface

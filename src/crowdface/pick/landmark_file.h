@@ -50,6 +50,7 @@ std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
 /// A named landmark on the template, on the scan, or on both.
 struct PickedLandmark {
   std::string name;
+  /// vertex number from 0, if the landmark is on the template
   std::optional<std::uint32_t> template_vertex;
   std::optional<Eigen::Vector3d> scan_point;  ///< in the unit of the scan's file
   /// Scan vertex of the landmark, if the landmark file gives a vertex number instead of a point.

@@ -89,9 +89,9 @@ class PickableMesh {
   Positions normals_;        ///< unit normals of the vertices, #V by 3
   Eigen::AlignedBox3d box_;  ///< bounding box of the skin
   Eigen::Vector3d middle_;   ///< centre of `box_`; origin of all coordinates in single precision
-  RayDevice device_;
-  RayScene scene_;    ///< `quads_` relative to `middle_`, for ray casts
-  SurfaceTree tree_;  ///< finds nearest points on the skin
+  RayDevice device_;         ///< Embree device of `scene_`
+  RayScene scene_;           ///< `quads_` relative to `middle_`, for ray casts
+  SurfaceTree tree_;         ///< finds nearest points on the skin
 };
 
 }  // namespace crowdface

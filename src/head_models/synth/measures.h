@@ -12,6 +12,7 @@ namespace crowdface::synth {
 /// the distance from the centre relative to the radii. The displacement is mirrored at x = 0 unless
 /// the centre has x = 0. Lengths in cm.
 struct LocalDisplacement {
+  /// the parameters of the formula; cm, `stretch` has no unit
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 

@@ -34,9 +34,9 @@ class Relief {
   /// A curve in the front view of the face, engraved (depth > 0) or raised (depth < 0). Lengths in
   /// cm.
   struct Stroke {
-    static constexpr int kPieces = 12;
+    static constexpr int kPieces = 12;  ///< number of straight pieces of the curve
     std::array<Eigen::Vector2d, kPieces + 1> points;
-    double width, depth;
+    double width, depth;  ///< of the groove
     double bulge;  ///< height of a ridge beside the curve, relative to the depth; positive: left
     Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
   };
@@ -69,8 +69,8 @@ class Relief {
     double amplitude;  ///< cm
   };
   std::vector<Octave> broad_octaves_, fine_octaves_;  ///< uneven skin, and pores
-  SmoothNoise lip_creases_;
-  double lip_depth_;  ///< amplitude of lip_creases_
+  SmoothNoise lip_creases_;  ///< noise that is stretched to creases across the lips
+  double lip_depth_;         ///< amplitude of lip_creases_
 };
 
 }  // namespace crowdface::synth

@@ -60,7 +60,7 @@ class SkinPaint {
       flush_;
   double aged_;  ///< 0 … 1: signs of age of the skin, from 36 to 68 years
   Hair hair_;
-  double scalp_hair_;
+  double scalp_hair_;  ///< see the constructor
 };
 
 }  // namespace crowdface::synth
