@@ -35,8 +35,8 @@ struct ChangedFace;
 struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< source of the change: "config", or a review such as "review 2"
-  /// If the change turns the face into a variant of another face (the original): the original
-  /// before all changes of `origin`. Otherwise null.
+  /// If the change turns the face into a variant of another face (the original): a copy of the
+  /// original, as it was before the changes of the same `origin`. Otherwise null.
   std::shared_ptr<const ChangedFace> variant_of;
   /// smallest allowed distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;

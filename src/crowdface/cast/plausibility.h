@@ -21,8 +21,8 @@ class Plausibility {
   double score(const FaceSpace::Point& point) const;
 
  private:
-  /// The quadratic form that gives the squared distance. Computed from all heads, or from all heads
-  /// except one.
+  /// The data that determine the Mahalanobis distance from the mean of a set of heads: of all
+  /// heads, or of all heads except one.
   struct Metric {
     std::vector<double> mean;  ///< mean of the points of the heads, #D
     /// for each head: the head's point minus the mean, #D

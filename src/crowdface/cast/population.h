@@ -28,7 +28,7 @@ class PopulationBalance {
   void add(const Positions& landmarks);
 
  private:
-  static constexpr std::size_t kBins = 256;  ///< of the grid on which distributions are compared
+  static constexpr std::size_t kBins = 256;  ///< number of bins of a distribution
   /// A measurement, and the crowd's distribution so far.
   struct Trait {
     TraitTarget target;  ///< the measurement and its requested distribution

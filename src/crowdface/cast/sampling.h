@@ -60,7 +60,7 @@ struct PositionDistribution {
   double radius = 0;  ///< kAround: radius of the disc, in units of the weight plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed: the point at which the position always is
   /// kAnchored: the position lies at most this fraction (0 … 1) of the way from the anchor to the
-  /// random point of the hull. 0: the position is always the anchor.
+  /// random point in the convex hull. 0: the position is always the anchor.
   double pull = 0.25;
 };
 

@@ -101,6 +101,7 @@ class EditSession {
   /// such as the gap between the lips.
   /// \param opened_id  id of the crowd's face from which the edit began, or empty
   FaceMeasures measure(const FacePlan& recipe, const std::string& opened_id = "") const;
+  /// Like the other overload, but also checks the gaps of the mesh.
   /// \param face  result of `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
                        const std::string& opened_id = "") const;

@@ -71,7 +71,7 @@ class RegionPainting {
   MaskPainter& painter();
   /// Reads a point {triangle, u, v} on the preview.
   SurfacePoint surface_point_of(const nlohmann::ordered_json& point);
-  /// Returns the index of the region whose name is the value of `key`.
+  /// Returns the index of the region whose name is the value of `key` in `body`.
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
   /// Applies one brush stroke as apply_stroke does, but does not store the stroke.
   void paint(const nlohmann::ordered_json& body);

@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// Finds the landmarks of a template's face by their shape (find_face_landmarks).
+/// Finds the landmarks of a template's face by the shape of the surface.
 /// \return no points if no face is found.
 FaceLandmarks find_face_landmarks(const WrapTemplate& wrap_template);
 

@@ -29,8 +29,8 @@ struct Complexion {
   ScreenColour hair;        ///< colour of the scalp hair, including grey
   ScreenColour brow_hair;   ///< colour of brows and beard; turns grey later than `hair`
   double redness = 0;       ///< 0 … 1: redness of cheeks, nose and ears
-  double freckles = 0;      ///< 0 … 1
-  double age_spots = 0;     ///< 0 … 1
+  double freckles = 0;      ///< 0 … 1: amount of freckles
+  double age_spots = 0;     ///< 0 … 1: amount of age spots
   double brow_density = 1;  ///< density of the brows
   double brow_width = 1;    ///< factor on the height of the brows
   double brow_arch = 0;     ///< additional height of the brows' arch in cm; 0 for men
