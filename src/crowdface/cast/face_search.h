@@ -109,7 +109,7 @@ class FaceSearch {
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
   std::size_t wanted_candidate_count_;          ///< number of acceptable candidates in a round
-  std::uint32_t first_attempt_, next_attempt_;  ///< numbers of the candidates
+  std::uint32_t first_attempt_, next_attempt_;  ///< numbers of the first and of the next candidate
   /// Number of the attempt after the last allowed attempt. Each candidate that violates limits on
   /// measurements raises `attempts_end_` by one, up to a bound.
   std::uint32_t attempts_end_;

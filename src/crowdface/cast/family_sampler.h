@@ -92,7 +92,7 @@ class FamilySampler {
   struct MemberDraft {
     FacePlan random_face;
     Age age;
-    /// for twins, whose age is that of their prototype: this age in years, if it was given in years
+    /// for twins: the age of their prototype in years, if this age was given in years
     std::optional<double> age_years_of_twins = {};
     double distance_mm = 0;  ///< distance from the founder
   };

@@ -32,7 +32,7 @@ class Plausibility {
     std::vector<std::vector<double>> cholesky_factor;
     double ridge = 1;  ///< variance that is added in every direction
   };
-  /// Returns the metric of all heads except one.
+  /// Returns the metric of all heads, or of all heads except one.
   ///
   /// \param heads          The heads, then their mirror images if faces may be mirrored.
   /// \param head_count     Number of heads without mirror images.

@@ -35,8 +35,8 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
-  /// Distance to `nearest_head`: the smaller of two distances, with the extrapolation factors of
-  /// the recipe (the next field) and with all extrapolation factors set to 1.
+  /// Distance to `nearest_head`: the smaller of the distances of two faces, one with the recipe's
+  /// extrapolation factors and one with all extrapolation factors set to 1.
   double nearest_head_distance_mm = 0;
   /// distance of the finished face, with the extrapolation factors of its recipe, to `nearest_head`
   double nearest_head_distance_with_extrapolation_mm = 0;

@@ -38,11 +38,11 @@ class EditedFolder {
 
   /// Returns the state text that a page saved last; empty if no page has saved a state.
   std::string saved_state() const;
-  /// Makes `page` the only browser page that may save the state, so that two open pages do not
-  /// overwrite each other's editing steps.
+  /// Makes the browser page with this id the only page that may save the state, so that two open
+  /// pages do not overwrite each other's editing steps.
   void set_only_saving_page(std::string page);
   /// Saves the state of a page.
-  /// \param page  the page that sends the state, or empty if no page has called
+  /// \param page  id of the page that sends the state, or empty if no page has called
   ///              set_only_saving_page
   /// \return false if only another page may save; the state is then not saved
   bool save_state(std::string_view text, const std::string& page);

@@ -188,7 +188,7 @@ struct TableColumns {
   std::size_t count = 0;             ///< number of columns; 0 if there is no such header
   std::vector<std::size_t> numbers;  ///< columns of x, y and z, or the column of the vertex
   std::optional<std::size_t> name;
-  std::optional<std::size_t> placed;  ///< column that is 0 if the point was not placed
+  std::optional<std::size_t> placed;  ///< column that has 0 for points that were not placed
   bool is_ras = false;                ///< whether the axes are right, anterior, superior
 };
 

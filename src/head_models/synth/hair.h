@@ -12,8 +12,8 @@ namespace crowdface::synth {
 
 /// A hair style. The thicknesses of the hair layer are in cm, before age-related thinning.
 struct HairStyle {
-  double top_thickness = 0;   ///< above the forehead and on the crown
-  double side_thickness = 0;  ///< above and behind the ears
+  double top_thickness = 0;   ///< thickness above the forehead and on the crown
+  double side_thickness = 0;  ///< thickness above and behind the ears
   double nape_length = 0;     ///< length of the hair that falls behind the ears and down the neck
   double bun_height = 0;      ///< height of a bun on top; 0: none
   double curliness = 0;       ///< 0 (straight) … 1 (tight curls)

@@ -22,10 +22,10 @@ struct LocalDisplacement {
 ///     + build_effect · Person::build + spread · N(0, 1) + mean
 struct Measure {
   std::string_view name;
-  double maleness_effect, age_effect, build_effect;  ///< coefficients of the mean of the value
+  double maleness_effect, age_effect, build_effect;  ///< see the formula of the value
   double spread;                                     ///< standard deviation of the random part
   LocalDisplacement displacement;                    ///< displacement for a value of 1
-  double mean = 0;                                   ///< value of an average person
+  double mean = 0;                                   ///< value of a person with average attributes
 };
 /// Returns all measures.
 std::span<const Measure> measures();
