@@ -116,7 +116,7 @@ class FaceSpace {
   }
   /// Returns the index of the i-th sample with nonzero weight.
   Index sample_at(Index i) const { return nonzero_weight_samples_[static_cast<std::size_t>(i)]; }
-  /// Sets `nonzero_weight_samples_` and `weight_square_roots_`.
+  /// Stores the samples with nonzero weight, and the square roots of their weights.
   void choose_nonzero_weight_samples(const std::vector<double>& weights);
   /// Finds a few modes whose linear combinations give the displacements of all heads at all
   /// smoothing levels. Displacement fields are needed for these modes only. The modes are an

@@ -106,7 +106,7 @@ std::vector<PickedLandmark> landmarks_in(const PickSession& session, const Json&
   std::vector<PickedLandmark> landmarks;
   std::set<std::string> names;
   for (const Json& item : list) {
-    if (!item.is_object()) throw UsageError("landmarks: expected mappings");
+    if (!item.is_object()) throw UsageError("landmarks: expected a list of mappings");
     PickedLandmark landmark;
     landmark.name = name_in(item);
     if (!names.insert(landmark.name).second) {
