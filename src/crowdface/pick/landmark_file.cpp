@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMaxLandmarks = 100;
+constexpr std::size_t kMaxFileLandmarks = 100;
 constexpr std::uint64_t kMaxVertices = 0xfffffffe;
 
 std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Complaints& out) {
@@ -25,8 +25,8 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
     out.add_mismatch(*node, "a mapping of names to vertices, such as {chin: 966}");
     return places;
   }
-  if (node->entries.size() > kMaxLandmarks) {
-    out.add_at(*node, concat("expected at most ", kMaxLandmarks, " landmarks, found ",
+  if (node->entries.size() > kMaxFileLandmarks) {
+    out.add_at(*node, concat("expected at most ", kMaxFileLandmarks, " landmarks, found ",
                              node->entries.size()));
     return places;
   }

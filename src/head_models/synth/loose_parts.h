@@ -52,6 +52,7 @@ class LooseParts {
   /// \param up             1: upper row, −1: lower row.
   /// \param along, around  quads along the row and around its cross-section.
   void add_teeth(double up, int along, int around);
+  /// Adds the quads of the band, and closes each end with a centre vertex and a fan of quads.
   /// \param first  index of the band's first vertex.
   void close_band(Index first, int along, int around);
 

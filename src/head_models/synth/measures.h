@@ -22,7 +22,7 @@ struct LocalDisplacement {
 ///     + build_effect · Person::build + spread · N(0, 1) + mean
 struct Measure {
   std::string_view name;
-  double maleness_effect, age_effect, build_effect;  ///< see the formula of the value
+  double maleness_effect, age_effect, build_effect;  ///< factors of the formula above
   double spread;                                     ///< standard deviation of the random part
   LocalDisplacement displacement;                    ///< displacement for a value of 1
   double mean = 0;                                   ///< value of a person with average attributes
