@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// An attachment that a face may wear.
 struct AttachmentItem {
-  std::string name, kind;
+  std::string name, kind;  ///< name of the item, and its kind, such as "hair"
   /// the typical head of the face (see typical_head) must have all of these tags
   std::vector<std::string> tags;
   /// frequency relative to the other items of the same kind (key `share`)
@@ -21,7 +21,7 @@ struct AttachmentItem {
   /// inherit this colour.
   std::string colour = {};
   std::vector<std::string> excluded_tags = {};  ///< the typical head must have none of these tags
-  Tint tint = Tint::kNone;
+  Tint tint = Tint::kNone;  ///< kind of the face's hair whose colour the item gets
 };
 
 /// Returns whether `word` is the item's kind, name or colour.

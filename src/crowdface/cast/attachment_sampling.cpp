@@ -299,18 +299,18 @@ class AttachmentChooser {
   /// item has either colour, keeps all items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
-    const auto take = [&](const std::string& colour) {
+    const auto keep_colour = [&](const std::string& colour) {
       return !colour.empty() && keep_matching(items, [&](const AttachmentItem& item) {
         return item.colour == colour;
       });
     };
     if (std::any_of(placed.begin(), placed.end(),
-                    [&](const auto* item) { return take(item->colour); }))
+                    [&](const auto* item) { return keep_colour(item->colour); }))
       return;
     if (face.parents.empty()) {
       const auto found =
           face.family ? family_colours_.find({*face.family, kind}) : family_colours_.end();
-      if (found != family_colours_.end()) take(found->second);
+      if (found != family_colours_.end()) keep_colour(found->second);
       return;
     }
     const Index head = heads_.at(face.id);
@@ -321,7 +321,7 @@ class AttachmentChooser {
     for (const std::string& parent : parents) {
       const std::string colour = colour_of(kind, parent);
       if (!contains(tags_of(head), "old") && is_only_for_old_faces(kind, colour)) continue;
-      if (take(colour)) return;
+      if (keep_colour(colour)) return;
       Items others = matching_items(wearable_items(kind, head, colour),
                                     [&](const auto& item) { return item.colour == colour; });
       if (colour.empty() || others.empty()) continue;

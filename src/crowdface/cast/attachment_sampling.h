@@ -51,7 +51,8 @@ struct AttachmentOptions {
 ///   hair colour, unless no other item is allowed.
 ///
 /// \param crowd     In the order of the plan.
-/// \param groups    Group of each sampled face 1, 2, …, or −1. Empty: no face is in a group.
+/// \param groups    For each sampled face: the index of its group, or −1. Empty: there are no
+///                  groups.
 /// \param rejected  Faces that reviews rejected, in order. The replacement of a rejected face gets
 ///                  its attachments after all other faces of the reviewed crowd, so that no other
 ///                  face changes.

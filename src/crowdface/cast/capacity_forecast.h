@@ -30,8 +30,8 @@ class CapacityForecast {
   /// Statistics of the candidates for the faces n + 1 to 2·n, with n = `face_count`. A rejected
   /// candidate was too near to a face of the crowd.
   struct FaceRange {
-    std::uint64_t face_count = 16;
-    std::uint64_t too_near_count = 0;
+    std::uint64_t face_count = 16;     ///< n; the range has the faces n + 1 to 2·n
+    std::uint64_t too_near_count = 0;  ///< number of rejected candidates for the faces of the range
     /// sum over the faces of this range: the fraction of the face's candidates that were rejected
     double rejected_fraction_sum = 0;
     double mean_rejected_fraction() const {
@@ -41,8 +41,8 @@ class CapacityForecast {
     double middle_face_number() const { return 1.5 * static_cast<double>(face_count); }
   };
   std::uint64_t placed_count_ = 0;
-  FaceRange current_, previous_,
-      before_previous_;  ///< the current range of faces, and the two complete ranges before it
+  FaceRange current_;                     ///< the range of the next face
+  FaceRange previous_, before_previous_;  ///< the two complete ranges before `current_`
 };
 
 }  // namespace crowdface

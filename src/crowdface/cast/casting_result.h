@@ -35,8 +35,8 @@ struct ChangedFace;
 struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< source of the change: "config", or a review such as "review 2"
-  /// If the change turns the face into a variant of another face (the original): the original
-  /// before all changes of `origin`. Otherwise null.
+  /// If the change turns the face into a variant of another face (the original): a copy of the
+  /// original, as it was before the changes of the same `origin`. Otherwise null.
   std::shared_ptr<const ChangedFace> variant_of;
   /// smallest allowed distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;
@@ -44,8 +44,8 @@ struct AppliedChange {
 
 /// A face after the changes that the config and reviews request.
 struct ChangedFace {
-  FacePlan face;  ///< the face's plan; its colours and attachments are not set
-  FaceSpace::Point point;
+  FacePlan face;           ///< the face's plan; its colours and attachments are not set
+  FaceSpace::Point point;  ///< point of the changed face in the face space
   /// in the order of application: first the config's changes
   std::vector<AppliedChange> changes = {};
   TraitLimits traits = {};  ///< the limits on the measurements that all changes together request
@@ -70,8 +70,8 @@ struct CastingResult {
   /// Changed faces, by index in `crowd`. (`crowd` itself holds the faces without their changes, and
   /// no other face depends on a change.)
   std::map<std::size_t, ChangedFace> changed = {};
-  RejectionCounts rejections;
-  std::optional<Shortfall> shortfall;
+  RejectionCounts rejections;  ///< how often each constraint rejected a candidate for any face
+  std::optional<Shortfall> shortfall;  ///< set if casting stopped early
 };
 
 /// Number of sampled faces whose candidates are generated in parallel. Afterwards, casting chooses

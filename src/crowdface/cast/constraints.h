@@ -72,7 +72,7 @@ std::string describe_violation(RejectionReason reason, const DiversityOptions& d
 
 /// Number of rejected candidates for each reason.
 struct RejectionCounts {
-  std::array<std::uint64_t, kReasonCount> counts = {};
+  std::array<std::uint64_t, kReasonCount> counts = {};  ///< indexed by RejectionReason
   void add(RejectionReason reason, std::uint64_t candidate_count = 1) {
     counts[static_cast<std::size_t>(reason)] += candidate_count;
   }

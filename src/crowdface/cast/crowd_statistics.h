@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// Count, minimum, maximum and quartiles of a set of values.
 struct Quartiles {
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;  ///< number of values
   double min = 0, lower_quartile = 0, median = 0, upper_quartile = 0, max = 0;
 };
 Quartiles quartiles(std::vector<double> values);

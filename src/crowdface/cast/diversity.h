@@ -9,6 +9,7 @@ namespace crowdface {
 
 /// How different the faces of a crowd must be.
 struct DiversityOptions {
+  /// How casting chooses the sampled faces.
   enum class Mode {
     /// accept candidates that are far enough from all earlier faces; if the crowd is made larger
     /// later, its first faces stay the same

@@ -167,25 +167,25 @@ BandRecipe random_band(const CastingOptions& casting, const FaceDistribution& di
   const std::vector<Index>& sources = sources_of(distribution, draw.band);
   const ManualRecipe::Band& manual = draw.manual;
   BandRecipe recipe;
-  const auto take = [&](const PlanePoint& position) {
+  const auto set_position = [&](const PlanePoint& position) {
     recipe.position = position;
     recipe.weights = weights_at_position(casting.anchors, target, sources, position,
                                          casting.normalization, all.max_sources);
   };
-  const auto take_random = [&](std::uint32_t retry) {
-    take(
+  const auto set_random_position = [&](std::uint32_t retry) {
+    set_position(
         random_position(casting, draw.sampling.position, sources, target, draws, draw.name, retry));
   };
   if (!manual.weights.empty()) {
     recipe.weights = normalized_source_weights(manual.weights);
   } else if (manual.position) {
-    take(*manual.position);
+    set_position(*manual.position);
   } else {
-    take_random(0);
+    set_random_position(0);
     for (std::uint32_t retry = 1;
          retry <= kPositionRetries && largest_weight(recipe) > casting.diversity.max_weight;
          ++retry) {
-      take_random(retry);
+      set_random_position(retry);
     }
   }
   draw_smoothness(manual.smoothness.value_or(draw.sampling.smoothness), casting.level_scale, draws,

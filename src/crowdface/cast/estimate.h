@@ -9,12 +9,12 @@
 
 namespace crowdface {
 
-/// The distances that a crowd of a given number of faces can keep.
+/// An estimate for one size of the crowd: how far apart the faces of such a crowd can be.
 struct EstimateRow {
-  std::uint64_t face_count = 0;
-  /// smallest distance between two faces if the crowd is cast in spread mode
+  std::uint64_t face_count = 0;  ///< size of the crowd
+  /// smallest distance in mm between two faces if the crowd is cast in spread mode
   double distance_in_spread_mode_mm = 0;
-  /// largest min_distance at which first-fit casting finds this many faces
+  /// largest minimum distance in mm at which first-fit casting finds this many faces
   double distance_in_first_fit_casting_mm = 0;
 };
 

@@ -44,17 +44,18 @@ class ColourChooser {
     }
     const std::string purpose = concat("colours/", who);
     const RandomKey key = {draw_.seed, index, purpose, attempt};
-    const auto take = [&](double u) {
+    // Chooses one of the remaining heads by a random number u, and removes it from `heads`.
+    const auto draw_head = [&](double u) {
       const auto at = static_cast<std::size_t>(u * static_cast<double>(heads.size()));
       const Index head = heads[std::min(at, heads.size() - 1)];
       std::erase(heads, head);
       return head;
     };
     const auto [first, second] = random_pair(key);
-    std::vector<SourceWeight> colours = {{take(first), 1}};
+    std::vector<SourceWeight> colours = {{draw_head(first), 1}};
     if (!heads.empty()) {
       const double share = kMaxSecondWeight * random_pair(key, 1)[0];
-      colours.push_back({take(second), share});
+      colours.push_back({draw_head(second), share});
       colours.front().weight = 1 - share;
     }
     return normalized_weights(std::move(colours));

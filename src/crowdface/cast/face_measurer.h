@@ -18,8 +18,8 @@ class FaceMeasurer {
   /// A landmark as a weighted mean of three samples. All weights are zero if no measurement needs
   /// the landmark.
   struct Landmark {
-    std::array<Index, 3> samples = {};
-    std::array<double, 3> weights = {};
+    std::array<Index, 3> samples = {};   ///< indices of the samples, see HeadsAtSamples
+    std::array<double, 3> weights = {};  ///< weights of the samples
   };
   /// Computes the landmarks on the mesh that is written for a face, #landmarks by 3 in millimetres.
   /// Must be callable from any thread.

@@ -36,8 +36,8 @@ struct FacePlan {
   std::string id;
   /// number of the sampled face, from 1; empty if the face is not sampled
   std::optional<std::uint64_t> index;
-  std::optional<std::string> family;
-  std::optional<std::string> group;
+  std::optional<std::string> family;  ///< name of the family of which the face is a member
+  std::optional<std::string> group;   ///< name of the group that the face belongs to
   Recipe recipe;
   std::optional<double> age;        ///< age from −1 to 1; empty if the face was not aged
   std::optional<double> age_years;  ///< the wanted age, if it was given in years

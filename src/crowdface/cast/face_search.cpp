@@ -18,10 +18,6 @@ FaceSearch::FaceSearch(GenerateCandidate generate_candidate, const FaceJudge& ju
       attempts_end_(first_attempt + static_cast<std::uint32_t>(diversity.max_attempts)),
       initial_attempts_end_(attempts_end_) {}
 
-/// Returns whether a candidate is far enough from all faces of the crowd. If several candidates are
-/// wanted, also stores the candidate's distance from the crowd's sampled faces. If another
-/// candidate is farther, stores only an upper bound of this distance, because the bound is faster
-/// to compute and usually sufficient.
 bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const {
   const double least = diversity_.min_distance_mm;
   if (least > 0 && crowd.nearest_search().nearest(candidate.point, least).face >= 0) return false;
@@ -38,13 +34,6 @@ bool FaceSearch::is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd
   return true;
 }
 
-/// Returns whether a round needs another candidate. Candidates that are too near to the crowd
-/// count, so that a nearly full crowd does not need many more candidates. A face with limits on
-/// measurements may need many more attempts than other faces. So after the usual number of
-/// attempts, one acceptable candidate is enough.
-///
-/// \param unchecked_count  number of generated candidates that are not checked yet
-/// \param too_near_count   number of candidates of this round that were too near to the crowd
 bool FaceSearch::needs_candidates(std::size_t unchecked_count, std::size_t too_near_count) const {
   const std::size_t count = candidates_.size() + unchecked_count;
   if (count + too_near_count >= wanted_candidate_count_ || next_attempt_ >= attempts_end_)
@@ -68,8 +57,6 @@ bool FaceSearch::meets_limits(Candidate& candidate) {
   return false;
 }
 
-/// Generates a round of candidates, and further rounds until a candidate passes all checks or no
-/// attempts are left.
 void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   compared_face_count_ = crowd.size();
   while (candidates_.empty() && next_attempt_ < attempts_end_) {
@@ -78,11 +65,6 @@ void FaceSearch::find_candidates(const CrowdSoFar& crowd) {
   }
 }
 
-/// Generates as many candidates as a round still needs, and keeps those that pass all checks.
-/// Computes the points of the candidates in one call, which is faster than separate calls.
-///
-/// \param too_near_count  number of candidates of this round that were too near to the crowd;
-///                        increased by the new ones
 void FaceSearch::add_candidates(const CrowdSoFar& crowd, std::size_t& too_near_count) {
   std::vector<Candidate> unchecked;
   std::vector<const Recipe*> recipes;
@@ -107,7 +89,6 @@ void FaceSearch::add_candidates(const CrowdSoFar& crowd, std::size_t& too_near_c
   }
 }
 
-/// Compares the candidates with the faces that have joined the crowd since the last comparison.
 void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   if (compared_face_count_ == crowd.size()) return;
   for (Candidate& candidate : candidates_) {
@@ -122,8 +103,6 @@ void FaceSearch::compare_with_added_faces(const CrowdSoFar& crowd) {
   compared_face_count_ = crowd.size();
 }
 
-/// Returns the candidate farthest from the crowd's sampled faces; of equally far candidates, the
-/// earliest.
 FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
   for (;;) {
     Candidate& first = *std::min_element(candidates_.begin(), candidates_.end(),
@@ -142,7 +121,6 @@ FaceSearch::Candidate& FaceSearch::farthest_candidate(const CrowdSoFar& crowd) {
   }
 }
 
-/// Returns the candidate with the smallest cost; of candidates with equal cost, the earliest.
 FaceSearch::Candidate& FaceSearch::cheapest_candidate(const Cost& cost) {
   std::vector<double> costs;
   for (const Candidate& candidate : candidates_) costs.push_back(cost(candidate.landmarks));

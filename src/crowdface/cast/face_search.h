@@ -29,6 +29,8 @@ class FaceSearch {
   /// Costs serve only to compare candidates.
   using Cost = std::function<double(const Positions& landmarks)>;
 
+  /// \param wanted_candidate_count  Number of acceptable candidates in a round, among which the
+  ///                                search chooses the face.
   FaceSearch(GenerateCandidate generate_candidate, const FaceJudge& judge,
              const DiversityOptions& diversity, int wanted_candidate_count,
              std::uint32_t first_attempt = 0);
@@ -37,6 +39,7 @@ class FaceSearch {
   /// may run in parallel.
   void prepare(const CrowdSoFar& crowd);
 
+  /// The face that the search chose.
   struct FoundFace {
     FacePlan face;
     FaceSpace::Point point;
@@ -55,6 +58,7 @@ class FaceSearch {
   const RejectionCounts& rejections() const { return rejections_; }
 
  private:
+  /// A generated candidate, and the results of its checks so far.
   struct Candidate {
     FacePlan face;
     FaceSpace::Point point = {};
@@ -64,24 +68,48 @@ class FaceSearch {
     /// whether `distance_to_crowd_mm` is the exact distance, not an upper bound
     bool is_distance_exact = true;
     bool is_skin_judged = false;  ///< whether `check_skin` was called
-    std::optional<RejectionReason> violated_constraint = std::nullopt;
+    std::optional<RejectionReason> violated_constraint = std::nullopt;  ///< result of `judge_skin`
   };
 
+  /// Returns whether a round needs another candidate. Candidates that are too near to the crowd
+  /// count, so that a nearly full crowd does not need many more candidates. A face with limits on
+  /// measurements may need many more attempts than other faces. So after the usual number of
+  /// attempts, one acceptable candidate is enough.
+  ///
+  /// \param unchecked_count  number of generated candidates that are not checked yet
+  /// \param too_near_count   number of candidates of this round that were too near to the crowd
   bool needs_candidates(std::size_t unchecked_count, std::size_t too_near_count) const;
+  /// Measures a candidate and checks the limits on measurements, if the config has any.
   bool meets_limits(Candidate& candidate);
+  /// Generates a round of candidates, and further rounds until a candidate passes all checks or no
+  /// attempts are left.
   void find_candidates(const CrowdSoFar& crowd);
+  /// Generates as many candidates as a round still needs, and keeps those that pass all checks.
+  /// Computes the points of the candidates in one call, which is faster than separate calls.
+  ///
+  /// \param too_near_count  number of candidates of this round that were too near to the crowd;
+  ///                        increased by the new ones
   void add_candidates(const CrowdSoFar& crowd, std::size_t& too_near_count);
+  /// Returns whether a candidate is far enough from all faces of the crowd. If several candidates
+  /// are wanted, also stores the candidate's distance from the crowd's sampled faces. If another
+  /// candidate is farther, stores only an upper bound of this distance, because the bound is faster
+  /// to compute and usually sufficient.
   bool is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
+  /// Compares the candidates with the faces that have joined the crowd since the last comparison.
   void compare_with_added_faces(const CrowdSoFar& crowd);
+  /// Returns the candidate farthest from the crowd's sampled faces; of equally far candidates, the
+  /// earliest.
   Candidate& farthest_candidate(const CrowdSoFar& crowd);
+  /// Returns the candidate with the smallest cost; of candidates with equal cost, the earliest.
   Candidate& cheapest_candidate(const Cost& cost);
+  /// Checks a candidate's exact measurements and skin, unless they have been checked already.
   void judge_skin(Candidate& candidate) const;
 
   GenerateCandidate generate_candidate_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
-  std::size_t wanted_candidate_count_;
-  std::uint32_t first_attempt_, next_attempt_;
+  std::size_t wanted_candidate_count_;          ///< number of acceptable candidates in a round
+  std::uint32_t first_attempt_, next_attempt_;  ///< numbers of the first and of the next candidate
   /// Number of the attempt after the last allowed attempt. Each candidate that violates limits on
   /// measurements raises `attempts_end_` by one, up to a bound.
   std::uint32_t attempts_end_;

@@ -106,10 +106,6 @@ void FaceSpace::choose_nonzero_weight_samples(const std::vector<double>& weights
   }
 }
 
-/// Finds a few modes whose linear combinations give the displacements of all heads at all smoothing
-/// levels. Displacement fields are needed for these modes only. The modes are an orthonormal basis
-/// of the rows of a matrix with one row per level, and one column per head, coordinate (x, y or z)
-/// and sample. An entry is the sample's displacement times √w, where w is the weight of the sample.
 SpanBasis FaceSpace::smoothing_displacement_modes() const {
   const Index heads = head_point_count(), size = weight_square_roots_.size();
   const auto level_count = static_cast<Index>(heads_.levels.size());
@@ -129,8 +125,6 @@ SpanBasis FaceSpace::smoothing_displacement_modes() const {
   return span_basis(std::move(levels), kFieldTolerance, level_count);
 }
 
-/// Subtracts the mean over the face from a scalar function, and writes the function's values at the
-/// samples, times √w. (Rigid alignment would remove the mean anyway.)
 template <class Value>
 void FaceSpace::write_centred_values(const Value& value, float* row) const {
   double mean = 0;
@@ -185,16 +179,6 @@ FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
   return functions;
 }
 
-/// Finds P orthonormal scalar functions on the samples such that each coordinate (x, y, z) of each
-/// face is a linear combination of these functions. A 3 by #P matrix of coefficients then
-/// represents a face. The distance between two such matrices is the distance between the samples of
-/// the two faces, and rotating a matrix rotates the face.
-///
-/// Every face is a linear combination of the heads and of displacement fields. A displacement field
-/// is the displacement of one head by smoothing, multiplied by the weights of one region. The basis
-/// functions span the coordinates of all heads and all displacement fields.
-///
-/// \return  The functions, #P by #S.
 FloatRows FaceSpace::compute_basis_functions() {
   const SpanBasis modes = smoothing_displacement_modes();
   tables_.level_coefficients = modes.coordinates;
@@ -211,11 +195,6 @@ FloatRows FaceSpace::compute_basis_functions() {
   return std::move(basis.directions);
 }
 
-/// Adds the coefficients of a face with respect to the coordinate functions, times a factor.
-///
-/// \param extrapolation  whether to use the recipe's extrapolation factors, or 1.
-/// \param orientation    0: the unmirrored face; 1: its mirror image.
-/// \param to             #functions, in the order of FunctionOrder.
 void FaceSpace::add_coefficients(const Recipe& recipe, Extrapolation extrapolation,
                                  Index orientation, double factor, float* to) const {
   const FunctionOrder order{head_point_count(), tables_.level_coefficients.cols()};
@@ -240,8 +219,6 @@ void FaceSpace::add_coefficients(const Recipe& recipe, Extrapolation extrapolati
   }
 }
 
-/// Returns the coefficients of a face with respect to the coordinate functions, mirrored like the
-/// face.
 std::vector<float> FaceSpace::coefficients(const Recipe& recipe,
                                            Extrapolation extrapolation) const {
   const double w = mirror_image_weight(recipe);
@@ -259,10 +236,6 @@ std::vector<float> FaceSpace::head_coefficients(Index head) const {
   return sum;
 }
 
-/// Returns for each face its aligned deviation from the mean head, #faces by 3·#P.
-///
-/// \param coefficients  the coefficients of all faces with respect to the coordinate functions, one
-///                      face after the other.
 FloatRows FaceSpace::aligned_deviations(const std::vector<float>& coefficients) const {
   const auto functions = function_count();
   const std::size_t faces = coefficients.size() / functions;
@@ -274,7 +247,6 @@ FloatRows FaceSpace::aligned_deviations(const std::vector<float>& coefficients) 
   return shapes;
 }
 
-/// Rotates a shape to the best fit with the mean head, and subtracts the mean head.
 void FaceSpace::align_and_subtract_mean(Eigen::Map<Shape> shape) const {
   const auto size = static_cast<std::size_t>(shape.cols());
   Eigen::Matrix3d covariance;
@@ -308,7 +280,6 @@ void FaceSpace::find_principal_directions(std::size_t bands) {
   tables_.principal_directions = principal_basis(span, kFaceTolerance).directions;
 }
 
-/// Transposes the principal directions, and pads them with zeros to whole SIMD vectors.
 void FaceSpace::transpose_directions() {
   constexpr Index kLanes = 16;
   const Index rank = tables_.principal_directions.rows();
@@ -317,10 +288,6 @@ void FaceSpace::transpose_directions() {
   directions_transposed_.leftCols(rank) = tables_.principal_directions.transpose();
 }
 
-/// Returns the coordinates of faces along the principal directions.
-///
-/// \param coefficients  the coefficients of all faces with respect to the coordinate functions, one
-///                      face after the other.
 std::vector<Eigen::VectorXf> FaceSpace::coordinates(const std::vector<float>& coefficients) const {
   const FloatRows deviations = aligned_deviations(coefficients);
   const Index count = deviations.rows(), rank = tables_.principal_directions.rows();
@@ -391,11 +358,6 @@ void FaceSpace::compute_region_area_fractions() {
   }
 }
 
-/// Finds the metric M_k of each region k. For two points x and y of faces in the span of the
-/// principal directions, (x − y)ᵀ M_k (x − y) = Σ_s w_s α_k(s) d(s)², where w_s is the weight of
-/// sample s, α_k(s) is the weight of region k at sample s, and d(s) is the distance between the two
-/// faces at sample s. M_k = V G_k Vᵀ, where the rows of V are the principal directions, G_k = U
-/// diag(α_k) Uᵀ, and U holds the values of the basis functions at the samples, times √w_s.
 void FaceSpace::find_region_metrics(const FloatRows& basis) {
   const FloatRows& directions = tables_.principal_directions;
   const Index functions = basis.rows(), rank = directions.rows();

@@ -51,6 +51,7 @@ class FaceSpace {
   static bool have_matching_sizes(const FaceSpaceTables& tables, const HeadsAtSamples& heads);
   const FaceSpaceTables& tables() const { return tables_; }
 
+  /// Returns the point of a recipe's face.
   Point point(const Recipe& recipe) const;
   /// Returns the points of several recipes. Faster than separate calls of `point`.
   std::vector<Point> points(std::span<const Recipe* const> recipes) const;
@@ -70,12 +71,13 @@ class FaceSpace {
   static double distance(const Point& a, const Point& b);
   /// A point, and one region's metric multiplied by the point's coordinates.
   struct RegionPoint {
-    const Point* point = nullptr;
+    const Point* point = nullptr;  ///< the point itself
     /// the region's metric multiplied by the point's coordinates with and without extrapolation,
     /// #dimensions each; empty if there is only one region
     Eigen::VectorXf metric_times_coordinates_with_extrapolation,
         metric_times_coordinates_without_extrapolation;
   };
+  /// Prepares a point for calls of `region_distance`.
   RegionPoint region_point(const Point& point, Index region) const;
   /// Returns the distance between two faces over one region, after the whole faces are aligned.
   double region_distance(const RegionPoint& a, const RegionPoint& b, Index region) const;
@@ -94,7 +96,7 @@ class FaceSpace {
   /// The coefficients of a face in the basis of P functions, 3 by #P: a row for each of x, y and z.
   using Shape = Eigen::Matrix<float, 3, Eigen::Dynamic, Eigen::RowMajor>;
 
-  struct FunctionOrder;
+  struct FunctionOrder;  ///< the order of the coordinate functions; see face_space.cpp
 
   /// Returns 2 if each head has a mirror image (the mirror images are the heads from number
   /// head_count() on), otherwise 1.
@@ -108,13 +110,22 @@ class FaceSpace {
   std::size_t function_count() const {
     return static_cast<std::size_t>(tables_.basis_coefficients.rows() / 3);
   }
+  /// Returns the index of a head or, for a mirror image, of the mirrored head.
   std::size_t unmirrored_index(Index head) const {
     return static_cast<std::size_t>(head % head_count());
   }
   /// Returns the index of the i-th sample with nonzero weight.
   Index sample_at(Index i) const { return nonzero_weight_samples_[static_cast<std::size_t>(i)]; }
+  /// Stores the samples with nonzero weight, and the square roots of their weights.
   void choose_nonzero_weight_samples(const std::vector<double>& weights);
+  /// Finds a few modes whose linear combinations give the displacements of all heads at all
+  /// smoothing levels. Displacement fields are needed for these modes only. The modes are an
+  /// orthonormal basis of the rows of a matrix with one row per level, and one column per head,
+  /// coordinate (x, y or z) and sample. An entry is the sample's displacement times √w, where w is
+  /// the weight of the sample.
   SpanBasis smoothing_displacement_modes() const;
+  /// Subtracts the mean over the face from a scalar function, and writes the function's values at
+  /// the samples, times √w. (Rigid alignment would remove the mean anyway.)
   template <class Value>
   void write_centred_values(const Value& value, float* row) const;
   /// Returns the coordinate functions at the samples, 3·#functions by #S; see FaceSpaceTables.
@@ -122,20 +133,53 @@ class FaceSpace {
   /// \param modes  orthonormal basis of the detail that smoothing removes from the heads
   FloatRows coordinate_functions(const SpanBasis& modes, const std::vector<float>& max_coefficients,
                                  const FunctionOrder& order) const;
+  /// Finds P orthonormal scalar functions on the samples such that each coordinate (x, y, z) of
+  /// each face is a linear combination of these functions. A 3 by #P matrix of coefficients then
+  /// represents a face. The distance between two such matrices is the distance between the samples
+  /// of the two faces, and rotating a matrix rotates the face.
+  ///
+  /// Every face is a linear combination of the heads and of displacement fields. A displacement
+  /// field is the displacement of one head by smoothing, multiplied by the weights of one region.
+  /// The basis functions span the coordinates of all heads and all displacement fields.
+  ///
+  /// \return  The functions, #P by #S.
   FloatRows compute_basis_functions();
+  /// Computes the principal directions of random faces with this number of bands per region.
   void find_principal_directions(std::size_t bands);
+  /// Finds the metric M_k of each region k. For two points x and y of faces in the span of the
+  /// principal directions, (x − y)ᵀ M_k (x − y) = Σ_s w_s α_k(s) d(s)², where w_s is the weight of
+  /// sample s, α_k(s) is the weight of region k at sample s, and d(s) is the distance between the
+  /// two faces at sample s. M_k = V G_k Vᵀ, where the rows of V are the principal directions, G_k =
+  /// U diag(α_k) Uᵀ, and U holds the values of the basis functions at the samples, times √w_s.
   void find_region_metrics(const FloatRows& basis);
   void compute_region_area_fractions();
+  /// Transposes the principal directions, and pads them with zeros to whole SIMD vectors.
   void transpose_directions();
+  /// Adds the coefficients of a face with respect to the coordinate functions, times a factor.
+  ///
+  /// \param extrapolation  whether to use the recipe's extrapolation factors, or 1.
+  /// \param orientation    0: the unmirrored face; 1: its mirror image.
+  /// \param to             #functions, in the order of FunctionOrder.
   void add_coefficients(const Recipe& recipe, Extrapolation extrapolation, Index orientation,
                         double factor, float* to) const;
+  /// Returns the coefficients of a face with respect to the coordinate functions, mirrored like the
+  /// face.
   std::vector<float> coefficients(const Recipe& recipe,
                                   Extrapolation extrapolation = Extrapolation::kAsGiven) const;
   /// Returns the coefficients of a head, or of its mirror image, with respect to the coordinate
   /// functions.
   std::vector<float> head_coefficients(Index head) const;
+  /// Returns for each face its aligned deviation from the mean head, #faces by 3·#P.
+  ///
+  /// \param coefficients  the coefficients of all faces with respect to the coordinate functions,
+  ///                      one face after the other.
   FloatRows aligned_deviations(const std::vector<float>& coefficients) const;
+  /// Rotates a shape to the best fit with the mean head, and subtracts the mean head.
   void align_and_subtract_mean(Eigen::Map<Shape> shape) const;
+  /// Returns the coordinates of faces along the principal directions.
+  ///
+  /// \param coefficients  the coefficients of all faces with respect to the coordinate functions,
+  ///                      one face after the other.
   std::vector<Eigen::VectorXf> coordinates(const std::vector<float>& coefficients) const;
 
   HeadsAtSamples heads_;

@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// A parent of a family: an input head, or a face of the plan, given by its id.
 struct Parent {
-  std::optional<Eigen::Index> head;
+  std::optional<Eigen::Index> head;  ///< index of the head, if the parent is an input head
   std::string id;  ///< id of the face, with or without the crowd's name; or name of the head
   /// whether the parent does not exist yet, so that casting makes a face with this id
   bool is_new = false;
@@ -36,10 +36,10 @@ struct FamilyOptions {
   /// one entry for each band of each region, region by region: 0 if the detail comes from the
   /// mother, 1 from the father, −1 from a random parent
   std::vector<int> parent_of_band;
-  /// largest distance of a member from the founder, a face outside the crowd from which all members
-  /// are derived
+  /// largest allowed distance of a member from the founder, a face outside the crowd from which all
+  /// members are derived
   double max_distance_mm = 2.5;
-  double min_distance_mm = 0;  ///< smallest distance between members
+  double min_distance_mm = 0;  ///< smallest allowed distance between two members of the family
   /// Whether members are as similar as twins: all are within 0.5 mm of the same face. This face is
   /// not in the crowd.
   bool are_twins = false;

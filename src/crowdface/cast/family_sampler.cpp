@@ -112,8 +112,6 @@ void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan fa
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
-/// Sets the distribution of the third contributor, and the substitutes for the parents' heads that
-/// are outside the family's group. Called when the parents are known.
 void FamilySampler::prepare_inheritance() {
   third_contributor_distribution_ = third_contributor_distribution();
   if (!family_.group || parents_.empty()) return;
@@ -136,16 +134,10 @@ void FamilySampler::prepare_inheritance() {
   }
 }
 
-/// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
-/// replaced by similar heads of the group.
 std::vector<SourceWeight> FamilySampler::coarse_shape_of(std::size_t parent) const {
   return target_substitutes_.substituted(target_head_weights(parents_[parent].face.recipe));
 }
 
-/// Returns the distribution of the third contributor, who provides what members inherit from
-/// neither parent. The third contributor is a random mixture of heads that share the most tags with
-/// both parents (at least three heads, if there are as many), so that a child's skin tone stays
-/// plausible.
 FaceDistribution FamilySampler::third_contributor_distribution() const {
   constexpr std::size_t kMin = 3;
   FaceDistribution kind = distribution_of_group(casting_, family_.group);
@@ -224,9 +216,6 @@ const SamplingOptions& FamilySampler::sampling_of(const FacePlan& face) const {
   return casting_.sampling;
 }
 
-/// Returns the band of detail that a parent passes on: the band of the parent's recipe or, if the
-/// parent is an input head, the head's own detail. Heads outside the family's group are replaced by
-/// similar heads of the group.
 BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, std::size_t band,
                                       const BandRecipe& random_band) const {
   BandRecipe own = random_band;
@@ -276,7 +265,6 @@ FacePlan FamilySampler::founder(std::uint32_t attempt) const {
   return face;
 }
 
-/// Returns (1 − t)·from + t·draft.random_face, with the age of the draft applied.
 FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draft, double t) const {
   FacePlan face = draft.random_face;
   face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.level_scale);
@@ -286,14 +274,10 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draf
   return face;
 }
 
-/// Returns the parent from whom all members inherit this band of this region: 0 for the mother, 1
-/// for the father, −1 for a parent drawn at random for each member.
 int FamilySampler::parent_to_inherit_from(std::size_t region, std::size_t band) const {
   return family_.parent_of_band[region * band_count(casting_.sampling) + band];
 }
 
-/// Mixes the coarse shape of a face with the coarse shapes of both parents, and each band of each
-/// region with the same band of one parent.
 void FamilySampler::inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const {
   const auto parent_of = [&](const std::string& what) -> std::size_t {
     const std::string purpose = concat(key.purpose_prefix, "/inherits/", what);
@@ -417,9 +401,6 @@ std::optional<RejectionReason> FamilySampler::rejection_reason(
   return std::nullopt;
 }
 
-/// Returns whether a child resembles the parents. If the parents are far apart, not even the
-/// founder (their mean) resembles both parents. Then a child is accepted if its distance from each
-/// parent is not much larger than the founder's distance from this parent.
 bool FamilySampler::resembles_parents(const FamilyPlan& family_plan,
                                       const FaceSpace::Point& point) const {
   if (fraction_of_strangers_nearer_than_parent(point) <= kMaxFractionOfNearerStrangersForChild)

@@ -80,6 +80,7 @@ class FamilySampler {
   double fraction_of_strangers_nearer_than_parent(const FaceSpace::Point& point) const;
 
  private:
+  /// A parent whose plan is known: an input head, or a face of the crowd or of `new_parents_`.
   struct KnownParent {
     std::string name;  ///< name of the parent's head, or id of the parent's face
     /// The parent's plan without the effects of the parent's age. If the parent is an input head,
@@ -91,24 +92,46 @@ class FamilySampler {
   struct MemberDraft {
     FacePlan random_face;
     Age age;
-    /// for twins, whose age is that of their prototype: this age in years, if it was given in years
+    /// for twins: the age of their prototype in years, if this age was given in years
     std::optional<double> age_years_of_twins = {};
     double distance_mm = 0;  ///< distance from the founder
   };
 
+  /// Stores a parent in `parents_`, without the effects of the parent's age.
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
+  /// Sets the distribution of the third contributor, and the substitutes for the parents' heads
+  /// that are outside the family's group. Called when the parents are known.
   void prepare_inheritance();
+  /// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
+  /// replaced by similar heads of the group.
   std::vector<SourceWeight> coarse_shape_of(std::size_t parent) const;
+  /// Returns the distribution of the third contributor, who provides what members inherit from
+  /// neither parent. The third contributor is a random mixture of heads that share the most tags
+  /// with both parents (at least three heads, if there are as many), so that a child's skin tone
+  /// stays plausible.
   FaceDistribution third_contributor_distribution() const;
   const SamplingOptions& sampling_of(const FacePlan& face) const;
+  /// Returns the band of detail that a parent passes on: the band of the parent's recipe or, if the
+  /// parent is an input head, the head's own detail. Heads outside the family's group are replaced
+  /// by similar heads of the group.
   BandRecipe parent_band(std::size_t parent, std::size_t region, std::size_t band,
                          const BandRecipe& random_band) const;
+  /// Returns the parent from whom all members inherit this band of this region: 0 for the mother, 1
+  /// for the father, −1 for a parent drawn at random for each member.
   int parent_to_inherit_from(std::size_t region, std::size_t band) const;
+  /// Mixes the coarse shape of a face with the coarse shapes of both parents, and each band of each
+  /// region with the same band of one parent.
   void inherit_from_parents(FacePlan& face, const FaceRandomKey& key) const;
+  /// Draws the random values of candidate number `attempt` for a member.
   MemberDraft member_draft(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
+  /// Returns (1 − t)·from + t·draft.random_face, with the age of the draft applied.
   FacePlan mixed_face(const FacePlan& from, const MemberDraft& draft, double t) const;
+  /// Returns the mixture of founder and random face at the draft's distance from the founder.
   FacePlan face_at_chosen_distance(const FamilyPlan& family_plan, const MemberDraft& draft) const;
   double max_distance_from_founder_mm(const FamilyPlan& family_plan) const;
+  /// Returns whether a child resembles the parents. If the parents are far apart, not even the
+  /// founder (their mean) resembles both parents. Then a child is accepted if its distance from
+  /// each parent is not much larger than the founder's distance from this parent.
   bool resembles_parents(const FamilyPlan& family_plan, const FaceSpace::Point& point) const;
 
   const CastingOptions& casting_;
@@ -119,7 +142,7 @@ class FamilySampler {
   std::vector<KnownParent> parents_;
   /// indices in `parents_` of the parents that are not in the crowd yet
   std::vector<std::size_t> parents_not_in_crowd_;
-  std::vector<FaceSearch::FoundFace> new_parents_;
+  std::vector<FaceSearch::FoundFace> new_parents_;  ///< see new_parents()
   /// Distribution of the third contributor: a random face from which members inherit what comes
   /// from neither parent.
   FaceDistribution third_contributor_distribution_;

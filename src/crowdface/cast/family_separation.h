@@ -34,6 +34,7 @@ class FamilySeparation {
   void add(const std::string& family, const std::vector<FaceSpace::Point>& members);
 
  private:
+  /// A member of any of the families.
   struct Member {
     std::string family;
     FaceSpace::Point point;
@@ -56,6 +57,7 @@ class UnrelatedFaces {
                          std::optional<std::size_t> group = std::nullopt) const;
 
  private:
+  /// by index of the group; nullopt: faces drawn with the parameters of the crowd
   std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> points_by_group_;
 };
 

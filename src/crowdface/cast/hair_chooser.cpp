@@ -75,15 +75,11 @@ HairColour HairChooser::colour_of(const FacePlan& face, Index head) {
   return rounded_colour(own);
 }
 
-/// Returns the key of `hair_colours` (a group's name or "") that applies to a face.
 std::string HairChooser::key_in_hair_colours(const FacePlan& face) const {
   const std::string group = face.group.value_or("");
   return options_.hair_colours.contains(group) ? group : "";
 }
 
-/// Returns the colour that `hair_colours` gives the face. The colours are distributed so that,
-/// among the faces with the same key in `entries_of_faces_`, each colour has the fraction that the
-/// config specifies. If a face looks grey, a later face also gets the face's colour.
 std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face, bool is_grey) {
   const std::string entry = key_in_hair_colours(face);
   const auto shares = options_.hair_colours.find(entry);
@@ -121,7 +117,6 @@ std::optional<HairColour> HairChooser::configured_colour(const FacePlan& face, b
   return chosen < 0 ? std::nullopt : std::optional(colours[static_cast<std::size_t>(chosen)]);
 }
 
-/// Returns the hair colour that a face inherits from its parents or shares with its family.
 std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
                                                         const std::string& person) const {
   if (face.parents.empty()) {
@@ -142,7 +137,6 @@ std::optional<HairColour> HairChooser::inherited_colour(const FacePlan& face,
   return mix(known[0], known[1], share);
 }
 
-/// Returns a parent's hair colour without the grey of age; nothing if the parent is unknown.
 std::optional<HairColour> HairChooser::colour_of_parent(const std::string& parent) const {
   if (const auto face = base_colours_.find(parent); face != base_colours_.end())
     return face->second;
@@ -151,8 +145,6 @@ std::optional<HairColour> HairChooser::colour_of_parent(const std::string& paren
   return colour_of_tags(head - options_.head_names.begin(), concat("hair/tone/", parent));
 }
 
-/// Returns the hair colour that the head's tags name. If the tags name no colour, returns a random
-/// colour; colours that are frequent in the world are more likely.
 HairColour HairChooser::colour_of_tags(Index head, const std::string& random_number_purpose) const {
   constexpr std::string_view kEnding = "_hair";
   for (const std::string& tag : options_.tags[static_cast<std::size_t>(head)]) {
@@ -166,9 +158,6 @@ HairColour HairChooser::colour_of_tags(Index head, const std::string& random_num
   return *hair_colour_named(drawn < 0.4 ? "black" : drawn < 0.75 ? "dark_brown" : "brown");
 }
 
-/// Returns the mean age, from 0 (young) to 1 (old), of the heads that a face is blended from. The
-/// ages of the heads are estimated from the heads' tags. Three quarters of the weight go to the
-/// target, one quarter to the heads that lend the finest detail.
 double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
   const auto of_head = [&](Index head) {
     const std::vector<std::string>& tags = options_.tags[static_cast<std::size_t>(head)];
@@ -192,7 +181,6 @@ double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
                            : of_target;
 }
 
-/// Returns the apparent age of a face, from 0 (young) to 1 (old).
 double HairChooser::apparent_age(const FacePlan& face) const {
   if (face.age_years) return apparent_age_of(*face.age_years);
   const double of_heads = mean_age_of_heads(face.recipe);
@@ -203,7 +191,6 @@ double HairChooser::apparent_age(const FacePlan& face) const {
   return of_heads + way * ((age < 0 ? 0.15 : std::max(0.9, of_heads)) - of_heads);
 }
 
-/// Returns the fraction of grey hair at the face's age.
 double HairChooser::grey_fraction(const FacePlan& face,
                                   const std::string& random_number_purpose) const {
   // Each person's hair begins to turn grey at a random age, but never while the person is young.

@@ -21,8 +21,9 @@ struct HairOptions {
   std::uint64_t seed = 1;
   HeadTags tags;                        ///< the tags of each head
   std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
+  /// for each group: the fraction of the faces that have each named hair colour
   std::map<std::string, std::map<std::string, double>> hair_colours;
-  std::set<std::string> twin_families;
+  std::set<std::string> twin_families;  ///< names of the families whose members are twins
 };
 
 /// Chooses the hair colours of faces, in the order of the plan; see choose_attachments. The colour
@@ -39,13 +40,26 @@ class HairChooser {
   HairColour colour_of(const FacePlan& face, Index head);
 
  private:
+  /// Returns the key of `hair_colours` (a group's name or "") that applies to a face.
   std::string key_in_hair_colours(const FacePlan& face) const;
+  /// Returns the colour that `hair_colours` gives the face. The colours are distributed so that,
+  /// among the faces with the same key in `entries_of_faces_`, each colour has the fraction that
+  /// the config specifies. If a face looks grey, a later face also gets the face's colour.
   std::optional<HairColour> configured_colour(const FacePlan& face, bool is_grey);
+  /// Returns the hair colour that a face inherits from its parents or shares with its family.
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
+  /// Returns a parent's hair colour without the grey of age; nothing if the parent is unknown.
   std::optional<HairColour> colour_of_parent(const std::string& parent) const;
+  /// Returns the hair colour that the head's tags name. If the tags name no colour, returns a
+  /// random colour; colours that are frequent in the world are more likely.
   HairColour colour_of_tags(Index head, const std::string& random_number_purpose) const;
+  /// Returns the mean age, from 0 (young) to 1 (old), of the heads that a face is blended from. The
+  /// ages of the heads are estimated from the heads' tags. Three quarters of the weight go to the
+  /// target, one quarter to the heads that lend the finest detail.
   double mean_age_of_heads(const Recipe& recipe) const;
+  /// Returns the apparent age of a face, from 0 (young) to 1 (old).
   double apparent_age(const FacePlan& face) const;
+  /// Returns the fraction of grey hair at the face's age.
   double grey_fraction(const FacePlan& face, const std::string& random_number_purpose) const;
 
   HairOptions options_;

@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// A face that is similar to another face, and the distance between both faces.
 struct Neighbour {
-  std::size_t face = 0;
+  std::size_t face = 0;  ///< index of the similar face
   double distance_mm = 0;
 };
 

@@ -17,6 +17,7 @@ namespace crowdface {
 /// leading coordinates only.
 class PointTree {
  public:
+  /// \param points  blocks whose points the tree copies
   PointTree(Index dimensions, const std::vector<const PointBlocks*>& points);
 
   const PointBlocks& points() const { return points_; }

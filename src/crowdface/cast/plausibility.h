@@ -21,8 +21,8 @@ class Plausibility {
   double score(const FaceSpace::Point& point) const;
 
  private:
-  /// The quadratic form that gives the squared distance. Computed from all heads, or from all heads
-  /// except one.
+  /// The data that determine the Mahalanobis distance from the mean of a set of heads: of all
+  /// heads, or of all heads except one.
   struct Metric {
     std::vector<double> mean;  ///< mean of the points of the heads, #D
     /// for each head: the head's point minus the mean, #D
@@ -30,9 +30,9 @@ class Plausibility {
     /// Cholesky factor of ridge·(H − 1)·I + Y Yᵀ, where H is the number of heads and Y has one row
     /// of `head_offsets` per head
     std::vector<std::vector<double>> cholesky_factor;
-    double ridge = 1;
+    double ridge = 1;  ///< variance that is added in every direction
   };
-  /// Returns the metric of all heads except one.
+  /// Returns the metric of all heads, or of all heads except one.
   ///
   /// \param heads          The heads, then their mirror images if faces may be mirrored.
   /// \param head_count     Number of heads without mirror images.
@@ -42,7 +42,7 @@ class Plausibility {
                                Index left_out_head);
   static double squared_distance(const Metric& metric, const Eigen::VectorXf& point);
 
-  Metric metric_;
+  Metric metric_;  ///< computed from all heads
   /// the Mahalanobis distance from the mean that a new head typically has
   double typical_distance_ = 1;
 };

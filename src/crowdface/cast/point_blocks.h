@@ -29,9 +29,10 @@ struct NearestPoint {
 /// Bounding box of points in their leading (first few) coordinates. If points have fewer
 /// coordinates than the box, the missing coordinates are zero.
 struct LeadingCoordinatesBox {
-  static constexpr std::size_t kDimensions = 8;
+  static constexpr std::size_t kDimensions = 8;  ///< number of leading coordinates
   std::array<float, kDimensions> low, high;
 
+  /// Returns the squared distance from a point to the box; 0 inside the box.
   float squared_distance(const std::vector<float>& query) const {
     std::array<float, kDimensions> squared_distances_outside;
     for (std::size_t d = 0; d < kDimensions; ++d) {
@@ -51,7 +52,7 @@ struct LeadingCoordinatesBox {
 class PointBlocks {
  public:
   using Index = Eigen::Index;
-  static constexpr Index kLanes = 16;
+  static constexpr Index kLanes = 16;  ///< number of points in a block
   /// Relative tolerance for the rounding of sums in single precision. A search skips points that
   /// are farther than the best point by more than this tolerance.
   static constexpr double kRoundingTolerance = 1e-4;
@@ -66,6 +67,7 @@ class PointBlocks {
   /// Returns the number that the caller of `add` gave to a point.
   /// \param index  0 for the point that was added first.
   Index point_number(Index index) const { return point_numbers_[static_cast<std::size_t>(index)]; }
+  /// Returns a coordinate of the point with this index; see point_number.
   float coordinate(Index index, Index dimension) const {
     return chunk_of(dimension)[chunk_offset(index, dimension)];
   }
@@ -93,6 +95,7 @@ class PointBlocks {
         (index / kLanes * kCoordinatesPerChunk + dimension % kCoordinatesPerChunk) * kLanes +
         index % kLanes);
   }
+  /// Returns the chunk that contains a coordinate.
   const std::vector<float>& chunk_of(Index dimension) const {
     return chunks_[static_cast<std::size_t>(dimension / kCoordinatesPerChunk)];
   }

@@ -28,9 +28,10 @@ class PopulationBalance {
   void add(const Positions& landmarks);
 
  private:
-  static constexpr std::size_t kBins = 256;
+  static constexpr std::size_t kBins = 256;  ///< number of bins of a distribution
+  /// A measurement, and the crowd's distribution so far.
   struct Trait {
-    TraitTarget target;
+    TraitTarget target;  ///< the measurement and its requested distribution
     /// for each bin: the number of faces in this bin and all lower bins, minus the number that the
     /// requested distribution has in these bins
     std::vector<double> cumulative_excess;
@@ -38,6 +39,7 @@ class PopulationBalance {
     /// adding one face to bin b.
     std::vector<double> squared_excess_after_adding;
   };
+  /// Returns the bin of the grid that contains the face's measurement.
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);
   static void update_squared_excess(Trait& trait);
 

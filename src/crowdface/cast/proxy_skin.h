@@ -27,6 +27,7 @@ class ProxySkin {
   const ReferenceSkin& reference_skin_of_head(Index head) const {
     return reference_skins_of_heads_[static_cast<std::size_t>(head)];
   }
+  /// Prepares a target that is a mixture of heads.
   /// \param samples  #S by 3, samples of the target in millimetres
   ReferenceSkin make_reference_skin(const Positions& samples) const;
 
@@ -40,7 +41,7 @@ class ProxySkin {
 
  private:
   std::vector<Triangle> triangles_;
-  std::vector<TrianglePair> nearby_pairs_;
+  std::vector<TrianglePair> nearby_pairs_;  ///< pairs that are checked for intersection
   std::vector<ReferenceSkin> reference_skins_of_heads_;
 };
 

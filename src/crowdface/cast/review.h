@@ -16,13 +16,13 @@ struct ReviewMark {
     kKeep,    ///< the face stays as it is
     kReject,  ///< the face is redrawn, except for the locked parts
   };
-  std::string id;
+  std::string id;  ///< id of the face
   Verdict verdict = Verdict::kKeep;
   /// Bands of regions that stay the same when the face is redrawn. The number of a band is (index
   /// of the region) · #bands + (index of the band). If the crowd has no bands, #bands is 1, and the
   /// numbers are the indices of the regions.
   std::vector<std::size_t> locked_bands;
-  std::optional<std::string> note;
+  std::optional<std::string> note;  ///< text of the reviewer
 };
 
 /// A change of one face. To add a config key, add a member here, a row in config/changes_keys.cpp,
@@ -30,9 +30,9 @@ struct ReviewMark {
 /// run/changed_faces.cpp).
 struct FaceChange {
   enum class AgeStep { kOlder, kYounger };
-  std::string id;
-  std::optional<AgeStep> age_step;
-  std::optional<Age> age;  ///< not together with `age_step`
+  std::string id;                   ///< id of the face
+  std::optional<AgeStep> age_step;  ///< makes the face older or younger by a fixed step
+  std::optional<Age> age;           ///< not together with `age_step`
   /// id of the face of which this face becomes a variant
   std::optional<std::string> variant_of;
   double variant_distance_mm = 1.5;  ///< distance between this face and `variant_of`

@@ -30,7 +30,9 @@ std::vector<double> sample_weights(const SampleCells& cells, const FaceSamples& 
     total += areas[v];
   }
   if (!(total > 0)) {
-    throw InvalidInput("faces cannot be compared: the area that counts is empty");
+    throw InvalidInput(
+        "distance: expected skin with a weight above 0, found none; change distance.mask or "
+        "distance.area");
   }
   for (double& weight : weights) weight /= total;
   return weights;

@@ -45,6 +45,7 @@ struct AgeRange {
 /// The distribution of a region's random position on the weight plane: a plane on which each head
 /// has a point (its anchor). The position determines the weights of the heads in the region.
 struct PositionDistribution {
+  /// How the position is drawn.
   enum class Kind {
     /// on the straight line from a random source's anchor to a random point in the convex hull of
     /// the sources' anchors; `pull` limits the distance from the anchor
@@ -58,13 +59,14 @@ struct PositionDistribution {
   std::optional<Eigen::Index> head;
   double radius = 0;  ///< kAround: radius of the disc, in units of the weight plane
   PlanePoint at = PlanePoint::Zero();  ///< kFixed: the point at which the position always is
-  /// kAnchored: the largest distance from the anchor, as a fraction of the distance between the
-  /// anchor and the random point of the hull. 0: the position is always the anchor.
+  /// kAnchored: the position lies at most this fraction (0 … 1) of the way from the anchor to the
+  /// random point in the convex hull. 0: the position is always the anchor.
   double pull = 0.25;
 };
 
 /// Distribution of the smoothing level, L.
 struct SmoothnessDistribution {
+  /// The unit of `range`.
   enum class Unit {
     kFraction,    ///< a fraction of L_max, like the slider in the paper
     kIterations,  ///< a number of smoothing iterations
@@ -86,6 +88,7 @@ struct RegionSampling {
 /// The parameters of one band of detail. If a member is empty, the value of the band's region or of
 /// the crowd applies.
 struct BandSampling {
+  /// The distributions of this band in one region.
   struct Region {
     std::optional<PositionDistribution> position;
     /// level at which the band begins; may be empty for the first band only
@@ -141,9 +144,9 @@ struct SamplingOptions {
   AgeRange age = {};         ///< range of the ages of sampled faces
   Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
-  std::vector<Eigen::Index> heads_tagged_old;  ///< heads with the tag `old`, ascending
-  std::vector<Eigen::Index> heads_tagged_young;
-  TraitLimits traits = {};  ///< limits on the measurements of the faces
+  std::vector<Eigen::Index> heads_tagged_old;    ///< heads with the tag `old`, ascending
+  std::vector<Eigen::Index> heads_tagged_young;  ///< heads with the tag `young`, ascending
+  TraitLimits traits = {};                       ///< limits on the measurements of the faces
 };
 
 /// Returns the number of bands of each region's detail.
@@ -187,6 +190,7 @@ struct Group {
 /// A face that the user specifies by hand. Values that are not specified are random, as for a
 /// sampled face.
 struct ManualRecipe {
+  /// The values of one band; empty values are random.
   struct Band {
     std::optional<PlanePoint> position;
     /// weights of the heads that lend detail; empty: not given. Not together with `position`.

@@ -10,8 +10,8 @@ using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 /// Returns a·b. Sums are computed in a fixed order, so the result is bit-identical everywhere.
 FloatRows fixed_order_product(const FloatRows& a, const FloatRows& b);
 
-/// An orthonormal basis of the linear span of given rows, and the coordinates of these rows in the
-/// basis.
+/// An orthonormal basis of the linear span of the rows of a matrix, and the coordinates of these
+/// rows in the basis.
 struct SpanBasis {
   FloatRows directions;   ///< #P by #S, one basis vector per row
   FloatRows coordinates;  ///< #N by #P: row n is approximately Σ_p coordinates(n, p) directions(p)

@@ -41,6 +41,7 @@ class FarthestPoints {
  public:
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);
 
+  /// A candidate of the pool, and its distance.
   struct Pick {
     Index candidate = -1;  ///< index of the candidate; −1: no candidate is left
     /// distance to the nearest picked or initial face; infinite if there is no such face
@@ -59,7 +60,7 @@ class FarthestPoints {
   const CandidatePool& pool_;
   /// for each candidate: the squared distance from the nearest picked or initial face
   std::vector<double> squared_distances_;
-  std::vector<bool> removed_;
+  std::vector<bool> removed_;  ///< for each candidate: whether it was removed
 };
 
 /// Casts all sampled faces in spread mode: generates a pool of candidates, and picks the faces by

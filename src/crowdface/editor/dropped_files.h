@@ -38,11 +38,13 @@ class DroppedFiles {
   std::vector<std::filesystem::path> move_to_config_folder();
 
  private:
+  /// Deletes the files of the current upload.
   void discard();
 
-  std::filesystem::path added_folder_, upload_folder_;
+  std::filesystem::path added_folder_;   ///< `added`, beside the config
+  std::filesystem::path upload_folder_;  ///< hidden folder in `added_folder_`, for arriving files
   std::mutex mutex_;
-  std::map<std::string, std::uint64_t> expected_bytes_, received_bytes_;
+  std::map<std::string, std::uint64_t> expected_bytes_, received_bytes_;  ///< by name of the file
 };
 
 }  // namespace crowdface

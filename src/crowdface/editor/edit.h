@@ -12,10 +12,11 @@
 
 namespace crowdface {
 
+/// Options of `crowdface edit`.
 struct EditOptions {
-  CacheFolder cache;  ///< folder of prepared heads
-  int port = 0;       ///< 0: any free port
-  std::size_t preview_vertices = 50'000;
+  CacheFolder cache;                      ///< folder of prepared heads
+  int port = 0;                           ///< 0: any free port
+  std::size_t preview_vertices = 50'000;  ///< approximate maximum for the mesh on the page
   /// additional arguments for `crowdface generate`
   std::vector<std::string> generate_arguments = {};
 };
@@ -27,10 +28,10 @@ struct EditOptions {
 void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started);
 
-/// Measures how long the editor takes to rebuild a complete face after the user has moved a
-/// controller, changed the smoothness or changed the target. Starts no server and writes no files.
-/// Returns a table of the times. For comparison, the table includes the frame time that the paper
-/// reports.
+/// Measures how long the editor takes to rebuild a face after a change of the position of one or of
+/// all regions, of the smoothness of one region, or of the target. Starts no server and writes no
+/// files. Returns a table of the times. For comparison, the table includes the frame time that the
+/// paper on Laplacian face blending reports.
 std::string benchmark_edit(const std::filesystem::path& config_or_crowd,
                            const ConfigOverrides& overrides, const EditOptions& options);
 

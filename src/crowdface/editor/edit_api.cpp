@@ -228,8 +228,6 @@ nlohmann::ordered_json EditApi::measures_json(const FaceMeasures& measures) cons
   return json;
 }
 
-/// The id of the face of the crowd from which the user began the edit; empty if the edit did not
-/// begin from a face of the crowd.
 std::string EditApi::opened_id(const Json& body) {
   return body.contains("face") && body["face"].is_string() ? body["face"].get<std::string>() : "";
 }
@@ -277,7 +275,8 @@ HttpAnswer EditApi::face(const HttpRequest& request, const std::string&) {
   answer.add("positions", std::span(points));
   answer.add("normals", std::span(normals));
   const Json chosen = body.contains("wears") ? body["wears"] : Json::object();
-  if (!chosen.is_object()) throw UsageError("wears: expected a mapping from kinds");
+  if (!chosen.is_object())
+    throw UsageError("wears: expected a mapping from kinds of attachments to names");
   const std::string opened = opened_id(body);
   answer.json["worn"] = Json::array();
   const auto worn = attachments_.attachments_of(face, opened, chosen, positions, moves);

@@ -46,16 +46,16 @@ class EditApi {
   ///              '/'
   using Handler = HttpAnswer(const HttpRequest& request, const std::string& rest);
 
-  // Handlers of requests about the job and its faces.
+  /// Handlers of requests about the job and its faces.
   Handler job, mesh, light, head, attachment, face, skin, measures, faults, draw, steer,
       face_picture;
-  // Handlers of requests that save the editor's state or write other files.
+  /// Handlers of requests that save the editor's state or write other files.
   Handler saved_state, take_over_editing, save_state, save_face, put_recipe, review;
-  // Handlers of requests that generate the crowd and load the result.
+  /// Handlers of requests that generate the crowd and load the result.
   Handler generate, stop_generate, generate_progress, reload_job;
-  // Handlers of requests that paint masks.
+  /// Handlers of requests that paint masks.
   Handler paint_masks, undo_masks, save_masks, use_regions;
-  // Handlers of requests that add heads.
+  /// Handlers of requests that add heads.
   Handler begin_drop, receive_dropped_file, add_heads;
   /// The answer to requests that paint: the painted masks.
   HttpAnswer painted_masks() const;
@@ -73,13 +73,17 @@ class EditApi {
   /// \throws UsageError while `crowdface generate` is running.
   void require_no_run();
 
-  // These functions read the value of a key from the body of a request.
-  // \throws UsageError with the name of the key if the value is not valid.
+  /// Reads the bands that a key in the body of a request lists.
+  /// \return band indices as in ReviewMark::locked_bands
+  /// \throws UsageError with the name of the key if the value is not valid.
   std::vector<std::size_t> bands_in(const Json& body, const std::string& key) const;
+  /// Reads the face that a key in the body of a request contains.
+  /// \throws UsageError as bands_in does.
   FacePlan face_in(const Json& body, const std::string& key = "recipe") const;
+  /// Reads the id of the crowd's face from which the user began the edit; empty if there is none.
   static std::string opened_id(const Json& body);
 
-  /// The value of a section in the file of edits, as a text; null if the file has no such section.
+  /// Returns the result of section_in_edits as a JSON string, or null.
   static Json edit_json(const std::filesystem::path& edits, const std::string& section);
   Json measures_json(const FaceMeasures& measures) const;
   /// Stores the number of a request, if it is the largest number that the page has sent.
@@ -88,11 +92,11 @@ class EditApi {
   bool is_outdated_request(const std::string& page, std::uint64_t request_number);
 
   const EditSession& session_;
-  bool may_edit_config_;
+  bool may_edit_config_;  ///< see the constructor
   EditedFolder& folder_;
   GenerateRun& run_;
   std::function<void()> reload_job_;
-  PageFiles page_;
+  PageFiles page_;  ///< HTML, script and style of the page
   EditPictures pictures_;
   EditAttachments attachments_;
   EditExpressions expressions_;

@@ -271,8 +271,8 @@ HttpAnswer EditApi::receive_dropped_file(const HttpRequest& request, const std::
 }
 
 /// Adds the head files that the user dropped on the page to the config. If the heads cannot be
-/// loaded, undoes this change of the config. A request with {"back": value} adds nothing, but sets
-/// the section `faces` of the edits to `value` again.
+/// loaded, undoes this change of the config. A request with {"back": value} adds no heads; it only
+/// restores the earlier `value` of the section `faces` in the edits.
 HttpAnswer EditApi::add_heads(const HttpRequest& request, const std::string& rest) {
   require_editable_config();
   require_no_run();

@@ -41,8 +41,8 @@ std::optional<std::string> EditAttachments::appearance_json(const std::string& n
   return std::nullopt;
 }
 
-FacePlan EditAttachments::with_sampled_attachments(const FacePlan& face,
-                                                   const std::string& opened_id) const {
+FacePlan EditAttachments::plan_with_attachments(const FacePlan& face,
+                                                const std::string& opened_id) const {
   if (crowd_ != nullptr) {
     const auto found = std::ranges::find(*crowd_, opened_id, &FacePlan::id);
     if (found != crowd_->end()) return *found;
@@ -71,7 +71,7 @@ std::optional<std::vector<PlacedAttachment>> EditAttachments::attachments_of(
   const std::vector<Attachment>& items = job_.inputs.attachments.items;
   std::vector<PlacedAttachment> placed;
   if (items.empty()) return placed;
-  const FacePlan plan = with_sampled_attachments(face, opened_id);
+  const FacePlan plan = plan_with_attachments(face, opened_id);
   const std::vector<std::string>& drawn = plan.attachments;
   const Json known = kinds();
   for (const auto& [kind, choice] : chosen.items()) {

@@ -18,13 +18,13 @@ std::vector<std::string> EditExpressions::names() const {
 EditExpressions::WeightedDisplacements EditExpressions::weighted_displacements(
     const nlohmann::ordered_json& weights, const Recipe& recipe, const Positions& positions) {
   if (!weights.is_object())
-    throw UsageError("expression: expected a mapping from shapes to shares");
+    throw UsageError("expression: expected a mapping from names of shapes to weights");
   const std::vector<std::string> known = names();
   std::vector<std::pair<std::size_t, double>> wanted;
   for (const auto& [name, ignored] : weights.items()) {
     const auto found = std::ranges::find(known, name);
     if (found == known.end()) {
-      throw UsageError(concat("expression: no shape is called ", quoted(name)));
+      throw UsageError(concat("expression: expected a shape of the config, found ", quoted(name)));
     }
     const double weight = number_in(weights, name, 0, 1);
     if (weight > 0) wanted.emplace_back(found - known.begin(), weight);

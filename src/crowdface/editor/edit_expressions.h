@@ -29,7 +29,7 @@ class EditExpressions {
   /// Returns the weighted displacements of a face for the expressions in `weights`. Computes the
   /// displacements of all expressions of a face at once, and caches them until the face changes.
   /// \param weights    {name: weight 0 … 1}; missing expressions have weight 0
-  /// \param positions  the face at rest
+  /// \param positions  vertices of the face without expressions, #V by 3
   /// \throws UsageError if a name does not exist or a weight is outside its range.
   WeightedDisplacements weighted_displacements(const nlohmann::ordered_json& weights,
                                                const Recipe& recipe, const Positions& positions);
@@ -37,7 +37,7 @@ class EditExpressions {
  private:
   const Job& job_;
   std::mutex mutex_;
-  std::unique_ptr<const FaceShapes> shapes_;
+  std::unique_ptr<const FaceShapes> shapes_;  ///< null until the first expression is requested
   Positions cached_face_;  ///< the face for which `cached_displacements_` was computed
   /// displacements of each expression at weight 1
   std::vector<Displacements> cached_displacements_;

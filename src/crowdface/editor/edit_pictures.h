@@ -22,6 +22,7 @@ class EditPictures {
 
   /// A PNG file that shows a head from the front.
   std::string thumbnail(Index head);
+  /// Returns the object that blends the faces' textures. The first call creates the object.
   const FaceTextures& textures();
   /// The textures of a face, with the resolution and content that contact sheets show; nothing if
   /// faces have no textures.
@@ -31,7 +32,7 @@ class EditPictures {
   const Job& job_;
   std::mutex mutex_;
   std::unique_ptr<CrowdRenders> thumbnail_renders_;
-  std::map<Index, std::string> thumbnails_;
+  std::map<Index, std::string> thumbnails_;  ///< PNG files by head
   std::unique_ptr<FaceTextures> textures_;
 };
 

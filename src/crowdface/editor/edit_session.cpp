@@ -238,7 +238,8 @@ FacePlan EditSession::steer(FacePlan face, const std::string& trait, double want
     throw UsageError(concat("trait: ", quoted(trait), " cannot be measured on these heads"));
   }
   if (casting_.normalization == Normalization::kPrinted) {
-    throw UsageError("with the printed normalization, weights come from places on the plane only");
+    throw UsageError(
+        "blending.normalization: expected partition to change a measurement, found printed");
   }
   std::vector<SteeredBand> bands;
   const std::size_t count = band_count(casting_.sampling);

@@ -25,6 +25,7 @@
 
 namespace crowdface {
 
+/// Loads the job that the user edits.
 /// \param config_or_crowd  a config file or the folder of a crowd. For a folder, loads the
 ///                         config.yaml in the folder, and the job writes its output into the
 ///                         folder.
@@ -34,8 +35,8 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
-  /// Distance to `nearest_head`: the smaller of two distances, with the extrapolation factors of
-  /// the recipe (the next field) and with all extrapolation factors set to 1.
+  /// Distance to `nearest_head`: the smaller of the distances of two faces, one with the recipe's
+  /// extrapolation factors and one with all extrapolation factors set to 1.
   double nearest_head_distance_mm = 0;
   /// distance of the finished face, with the extrapolation factors of its recipe, to `nearest_head`
   double nearest_head_distance_with_extrapolation_mm = 0;
@@ -43,12 +44,12 @@ struct FaceMeasures {
   /// which the user began the edit.
   std::optional<std::size_t> nearest_face;
   double nearest_face_distance_mm = 0;
-  /// A measurement of the face. `value` is in the unit of the measurement; `difference_from_mean`
-  /// is the value minus the heads' mean.
+  /// A measurement of the face.
   struct Trait {
-    std::size_t trait = 0;  ///< index into measurements()
-    double value = 0, difference_from_mean = 0;
-    double low = 0, high = 0;  ///< smallest and largest value of any head
+    std::size_t trait = 0;            ///< index into measurements()
+    double value = 0;                 ///< in the unit of the measurement
+    double difference_from_mean = 0;  ///< `value` minus the mean of the heads' values
+    double low = 0, high = 0;         ///< smallest and largest value of any head
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads
   /// One sentence for each limit of the config that the face violates.
@@ -67,7 +68,10 @@ class EditSession {
 
   const Job& job() const { return job_; }
   const CastingOptions& casting() const { return casting_; }
+  /// The faces of the plan in the job's output folder; null if there is no plan or if the plan was
+  /// made with other settings.
   const std::vector<FacePlan>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
+  /// The mesh with fewer triangles that the page shows.
   const PreviewMesh& preview() const { return preview_; }
   /// The atlas with the heads' textures. The preview's texture coordinates refer to this atlas.
   const TextureAtlas& textures() const { return textures_; }
@@ -97,6 +101,7 @@ class EditSession {
   /// such as the gap between the lips.
   /// \param opened_id  id of the crowd's face from which the edit began, or empty
   FaceMeasures measure(const FacePlan& recipe, const std::string& opened_id = "") const;
+  /// Like the other overload, but also checks the gaps of the mesh.
   /// \param face  result of `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
                        const std::string& opened_id = "") const;
@@ -118,6 +123,7 @@ class EditSession {
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
   /// preview vertex.
+  /// \param face  result of `build`
   std::vector<float> preview_normals(const Positions& face) const;
   /// Roughness of a face at the preview's vertices, 0 … 255 for the range 0 … 1; empty if there is
   /// no roughness map.
@@ -131,9 +137,9 @@ class EditSession {
   struct JudgingData {
     std::unique_ptr<const CastingSpace> space;
     FaceJudge judge;
-    NearestFaceSearch crowd_search;
+    NearestFaceSearch crowd_search;            ///< the faces of crowd(), in the same order
     std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
-    std::unique_ptr<const TraitRules> rules;
+    std::unique_ptr<const TraitRules> rules;   ///< limits on measurements; null with `traits`
   };
   JudgingData make_judging_data() const;
   /// Finds the nearest face of the crowd, except the faces with the ids `recipe.id` and
@@ -142,6 +148,7 @@ class EditSession {
   NearestFaceSearch::NearestFace nearest_other_face(const FaceSpace::Point& point,
                                                     const FacePlan& recipe,
                                                     const std::string& opened_id) const;
+  /// The part of description() about the regions.
   nlohmann::ordered_json regions_json() const;
   /// The face that the page shows first: the first face of the crowd. If there is no crowd, all
   /// regions are at the first head's anchor.
@@ -154,7 +161,7 @@ class EditSession {
   /// The preview mesh. A separate thread computes the preview mesh while the following members are
   /// constructed.
   std::future<PreviewMesh> preview_future_;
-  std::optional<std::vector<FacePlan>> crowd_;
+  std::optional<std::vector<FacePlan>> crowd_;  ///< see crowd()
   PreparedHeads prepared_;
   /// Set only with `levels: exact`: the heads prepared with `levels: basis`, because the page needs
   /// displacement fields.
@@ -162,11 +169,12 @@ class EditSession {
   FaceBuilder builder_;
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;
+  /// the face of the previous call of `build`, which then recomputes only what differs
   mutable FaceBuilder::PreviousFace previous_face_;
   std::shared_future<JudgingData> judging_data_;
   CastingOptions casting_;
   PreviewMesh preview_;
-  VertexFaces vertex_faces_;
+  VertexFaces vertex_faces_;  ///< for each vertex of the heads: its polygons
   /// For each preview vertex: the visible fraction of the sky, for ambient occlusion. The
   /// computation takes about a second.
   std::shared_future<std::vector<float>> sky_visibility_;

@@ -38,11 +38,11 @@ class EditedFolder {
 
   /// Returns the state text that a page saved last; empty if no page has saved a state.
   std::string saved_state() const;
-  /// Makes `page` the only browser page that may save the state, so that two open pages do not
-  /// overwrite each other's editing steps.
+  /// Makes the browser page with this id the only page that may save the state, so that two open
+  /// pages do not overwrite each other's editing steps.
   void set_only_saving_page(std::string page);
   /// Saves the state of a page.
-  /// \param page  the page that sends the state, or empty if no page has called
+  /// \param page  id of the page that sends the state, or empty if no page has called
   ///              set_only_saving_page
   /// \return false if only another page may save; the state is then not saved
   bool save_state(std::string_view text, const std::string& page);
@@ -56,8 +56,8 @@ class EditedFolder {
   /// \return the file of the mesh
   std::filesystem::path save(const Job& job, const FacePlan& face, MeshFormat format,
                              const WriteMesh& write);
-  /// Completes saves that a crash or a disk error interrupted: writes each mesh that is older than
-  /// the recipe of the same face.
+  /// Completes saves that a crash or a disk error interrupted: writes the meshes of the faces whose
+  /// recipes were saved without the meshes.
   void finish_interrupted_saves(const Job& job, const WriteMesh& write);
   /// Writes a mark (save_mark) or a change (save_change) of a face to review.yaml. Replaces the
   /// earlier mark or change of this face. An empty change removes the earlier change. If a run has
@@ -67,11 +67,14 @@ class EditedFolder {
   std::filesystem::path save_change(const Config& config, const FaceChange& change);
 
  private:
+  /// Writes the face's mesh with the extension `ending`, and rewrites the existing meshes of this
+  /// face in other formats.
   void write_meshes(const FacePlan& face, const std::string& ending, const WriteMesh& write) const;
+  /// Reads review.yaml or begins a new review, applies `edit`, and writes review.yaml.
   std::filesystem::path save_review(const Config& config, const std::function<void(Review&)>& edit);
 
   std::filesystem::path path_;
-  DirectoryHandle handle_;
+  DirectoryHandle handle_;  ///< detects whether another folder has replaced this folder
   std::mutex mutex_;
   std::string editing_page_id_;  ///< see set_only_saving_page
 };

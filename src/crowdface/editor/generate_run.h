@@ -18,11 +18,11 @@ struct RunProgress {
   double seconds_left = 0;            ///< estimated from the rate; 0 if unknown
   std::string message;                ///< the last line of the log; a prefix "info: " is removed
 };
+/// Parses the last line of a log.
 RunProgress read_progress(std::string_view log);
 
-/// Runs `crowdface generate` as a separate process, so that neither a failure of the run stops the
-/// editor nor a failure of the editor stops the run. After a stop, the next start continues the
-/// work. Thread-safe.
+/// Runs `crowdface generate` as a separate process, so that a crash of one process does not stop
+/// the other process. After a stop, the next start continues the work. Thread-safe.
 class GenerateRun {
  public:
   enum class State { kIdle, kRunning, kDone, kFailed, kStopped };
@@ -37,6 +37,7 @@ class GenerateRun {
   /// Starts the run unless it is running.
   /// \throws IoError if the program cannot be started.
   void start();
+  /// Asks the run to stop. Does not wait for its end.
   void stop();
   State state();
   RunProgress progress() const;
@@ -47,11 +48,11 @@ class GenerateRun {
   void update_state(int wait_options);
 
   std::vector<std::string> arguments_;
-  std::filesystem::path log_;
+  std::filesystem::path log_;  ///< file with the output of the newest run
   std::mutex mutex_;
   State state_ = State::kIdle;
-  bool was_stopped_ = false;
-  pid_t process_ = 0;
+  bool was_stopped_ = false;  ///< whether `stop` was called during the newest run
+  pid_t process_ = 0;         ///< process of the newest run
 };
 
 /// "idle", "running", "done", "failed" or "stopped".

@@ -20,25 +20,27 @@ class MeshFaults {
   /// \param job, builder  must outlive this object.
   MeshFaults(const Job& job, const FaceBuilder& builder) : job_(job), builder_(builder) {}
 
-  /// One sentence for each fault that is visible on the mesh: gums or mouth lining that protrude
-  /// through the skin, and exceeded limits of believability. Returns nothing if the config turns
-  /// these checks off or if the meshes are too large for these checks. Takes some tenths of a
-  /// second.
+  /// One sentence for each visible fault of the mesh: gums, teeth or other parts that protrude
+  /// through the skin, and violated limits of the config's section `believability`. Returns nothing
+  /// if the config turns these checks off or if the meshes are too large for these checks. Takes
+  /// some tenths of a second.
   /// \param face  built from this recipe, #V by 3.
   std::vector<std::string> faults_of(const Recipe& recipe, const Positions& face) const;
 
  private:
   /// The faults that a target head itself has. Faces built on this head may have the same faults.
   struct TargetFaults {
-    SkinCheck skin_check;
+    SkinCheck skin_check;      ///< compares the skin of faces with the head's skin
     double exposed_parts_mm2;  ///< area of the head's parts that protrudes through the skin
   };
+  /// Returns the faults of a head; computed in the first call for this head.
   std::shared_ptr<const TargetFaults> target_faults(Index head) const;
 
   const Job& job_;
   const FaceBuilder& builder_;
   mutable std::mutex mutex_;
   mutable std::optional<const ProtrudingPartsCheck> protruding_parts_check_;
+  /// by index of the head
   mutable std::map<Index, std::shared_ptr<const TargetFaults>> target_faults_;
 };
 

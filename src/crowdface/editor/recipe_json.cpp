@@ -25,8 +25,8 @@ bool comes_from_position(const BandRecipe& band, const std::vector<Index>& sourc
 Json band_to_json(const BandRecipe& band, const std::vector<Index>& sources, Index target,
                   const CastingOptions& casting, const std::vector<std::string>& heads) {
   Json json;
-  // Write the position if the weights are empty, because a config cannot express empty weights. The
-  // normalisation that the paper prints may yield empty weights.
+  // Write the position if the weights are empty, because a config cannot express empty weights.
+  // With `normalization: printed`, the weights may be empty.
   if (comes_from_position(band, sources, target, casting) || band.weights.empty()) {
     const PlanePoint at = band.position.value_or(PlanePoint::Zero());
     json["position"] = {at.x(), at.y()};

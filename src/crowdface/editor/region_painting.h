@@ -38,10 +38,11 @@ class RegionPainting {
   /// Undoes the last brush stroke.
   /// \throws UsageError if there is no stroke to undo.
   void undo();
-  /// Whether the painted masks differ from the config's masks: whether a stroke can be undone.
+  /// Whether the painted masks differ from the config's masks, that is, whether there is a stroke
+  /// to undo.
   bool differs_from_config() const { return painter_ && painter_->can_undo(); }
 
-  /// For each preview vertex: the weights α of all regions, one region after the other. Zero at
+  /// The weights α at the preview's vertices: for each vertex, one number per region. Zero at
   /// vertices of components that are not skin.
   std::vector<float> masks() const;
 
@@ -68,9 +69,11 @@ class RegionPainting {
  private:
   /// Returns `painter_`; creates the painter at the first call.
   MaskPainter& painter();
+  /// Reads a point {triangle, u, v} on the preview.
   SurfacePoint surface_point_of(const nlohmann::ordered_json& point);
-  /// Returns the index of the region whose name is the value of `key`.
+  /// Returns the index of the region whose name is the value of `key` in `body`.
   Index region_in(const nlohmann::ordered_json& body, const std::string& key) const;
+  /// Applies one brush stroke as apply_stroke does, but does not store the stroke.
   void paint(const nlohmann::ordered_json& body);
   /// Discards the painted masks. Then applies all strokes and undo steps that the file stores.
   void replay_strokes();

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// A request to sample several faces. The user chooses among the sampled faces.
 struct SampleRequest {
-  /// the face to sample again: its id and its locked bands stay
+  /// the face to sample again; the sampled faces keep its id and its locked bands
   FacePlan start_face;
   /// bands that do not change, indexed as in ReviewMark::locked_bands. If the list is not empty,
   /// the target does not change either.

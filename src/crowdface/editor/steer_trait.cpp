@@ -23,10 +23,10 @@ PerHead weights_of(const BandRecipe& band, const std::vector<Index>& heads) {
 }
 
 void set_weights(BandRecipe& band, const std::vector<Index>& heads, const PerHead& row) {
-  constexpr double kLeast = 1e-4;
+  constexpr double kMinWeight = 1e-4;
   std::vector<SourceWeight> weights;
   for (std::size_t i = 0; i < row.size(); ++i) {
-    if (row[i] > kLeast) weights.push_back({heads[i], row[i]});
+    if (row[i] > kMinWeight) weights.push_back({heads[i], row[i]});
   }
   band.weights = normalized_weights(std::move(weights));
   band.position.reset();
@@ -81,12 +81,14 @@ double range_of(const PerHead& gradient) {
 Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double wanted,
                    const std::function<double(const Recipe&)>& measure) {
   constexpr int kMaxSteps = 8, kHalvings = 60;
-  constexpr double kEnough = 0.005, kHardly = 0.1, kLongest = 1e3;
+  constexpr double kTolerance = 0.005;   // in the unit of the measurement
+  constexpr double kMinInfluence = 0.1;  // a band takes part if its range is this part of `widest`
+  constexpr double kMaxChange = 1e3;     // of a weight in one step, before the projection
   double value = measure(recipe);
   std::vector<bool> takes_part;
-  for (int step = 0; step < kMaxSteps && std::abs(wanted - value) > kEnough; ++step) {
+  for (int step = 0; step < kMaxSteps && std::abs(wanted - value) > kTolerance; ++step) {
     std::vector<PerHead> weights, gradients;
-    double widest = 0;
+    double widest = 0;  // largest range of a band's gradient
     for (const SteeredBand& band : bands) {
       weights.push_back(weights_of(band_of(recipe.regions[band.region], band.band), band.heads));
       gradients.push_back(gradient_of(recipe, band, value, measure));
@@ -95,7 +97,7 @@ Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double 
     if (!(widest > 0)) break;
     if (takes_part.empty()) {
       for (const PerHead& gradient : gradients)
-        takes_part.push_back(range_of(gradient) > kHardly * widest);
+        takes_part.push_back(range_of(gradient) > kMinInfluence * widest);
     }
     const auto gain = [&](double length) {
       double sum = 0;
@@ -111,7 +113,7 @@ Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double 
     // The predicted change of the measurement grows with the step length. Use bisection to find the
     // step length with which the measurement reaches the wanted value.
     const double missing = wanted - value;
-    double low = 0, high = std::copysign(kLongest / widest, missing);
+    double low = 0, high = std::copysign(kMaxChange / widest, missing);
     for (int i = 0; i < kHalvings && std::abs(gain(high)) > std::abs(missing); ++i) {
       const double middle = (low + high) / 2;
       (std::abs(gain(middle)) < std::abs(missing) ? low : high) = middle;
@@ -122,10 +124,10 @@ Recipe steer_trait(Recipe recipe, const std::vector<SteeredBand>& bands, double 
       set_weights(band_of(next.regions[bands[b].region], bands[b].band), bands[b].heads,
                   moved(weights[b], gradients[b], high));
     }
-    const double came = measure(next);
-    if (!(std::abs(wanted - came) < std::abs(wanted - value))) break;
+    const double reached = measure(next);
+    if (!(std::abs(wanted - reached) < std::abs(wanted - value))) break;
     recipe = std::move(next);
-    value = came;
+    value = reached;
   }
   return recipe;
 }

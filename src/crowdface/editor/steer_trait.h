@@ -11,8 +11,8 @@ namespace crowdface {
 
 /// A band of a region. The weights of this band may change.
 struct SteeredBand {
-  std::size_t region = 0, band = 0;
-  std::vector<Index> heads;  ///< heads that may contribute to the band, ascending
+  std::size_t region = 0, band = 0;  ///< indices of the region and of the band
+  std::vector<Index> heads;          ///< heads that may contribute to the band, ascending
 };
 
 /// Changes the weights of bands so that a measurement comes as near to the value `wanted` as the

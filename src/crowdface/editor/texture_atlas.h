@@ -21,8 +21,8 @@ class TextureAtlas {
   /// The heads' texture coordinates converted to atlas coordinates, #uvs by 2.
   TextureCoordinates coordinates() const;
   bool has_textures_of(Index head) const;
-  /// Converts atlas coordinates to texture coordinates within a cell of the atlas: the fractional
-  /// parts of the result.
+  /// Scales atlas coordinates so that each cell of the atlas is a unit square. The fractional parts
+  /// of the result are the texture coordinates within the cell.
   Eigen::Vector2f cell_coordinates(const Eigen::Vector2f& uv) const {
     return {uv.x() * static_cast<float>(columns_), uv.y() * static_cast<float>(rows_)};
   }
@@ -41,14 +41,18 @@ class TextureAtlas {
 
  private:
   using Texel = std::array<std::uint8_t, 3>;
+  /// Arranges the textures of a layer in the atlas, and encodes the atlas as a JPEG file.
+  /// \param default_colour  fills the cells that have no texture
+  /// \param texel_of        converts a value of the layer to the bytes of a texel
   std::string to_jpeg(const TextureLayer& layer, const LinearRgb& default_colour,
                       Texel (*texel_of)(const LinearRgb&)) const;
 
   const Inputs& inputs_;
   /// for each polygon: index of the cell, or TextureLayer::kNone; empty: no head has textures
   std::vector<std::uint32_t> cell_of_polygon_;
-  std::uint32_t cell_count_ = 0;
-  int columns_ = 1, rows_ = 1, cell_px_ = 0;
+  std::uint32_t cell_count_ = 0;  ///< number of cells; each shows one texture of a head
+  int columns_ = 1, rows_ = 1;    ///< number of columns and rows of cells
+  int cell_px_ = 0;               ///< width and height of a cell
 };
 
 }  // namespace crowdface

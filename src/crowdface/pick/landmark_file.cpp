@@ -15,7 +15,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMax = 100;
+constexpr std::size_t kMaxFileLandmarks = 100;
 constexpr std::uint64_t kMaxVertices = 0xfffffffe;
 
 std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Complaints& out) {
@@ -25,9 +25,9 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
     out.add_mismatch(*node, "a mapping of names to vertices, such as {chin: 966}");
     return places;
   }
-  if (node->entries.size() > kMax) {
-    out.add_at(*node,
-               concat("expected at most ", kMax, " landmarks, found ", node->entries.size()));
+  if (node->entries.size() > kMaxFileLandmarks) {
+    out.add_at(*node, concat("expected at most ", kMaxFileLandmarks, " landmarks, found ",
+                             node->entries.size()));
     return places;
   }
   for (const YamlEntry& entry : node->entries) {

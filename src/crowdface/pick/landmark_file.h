@@ -28,27 +28,29 @@ enum class LandmarkMesh { kTemplate, kScan };
 /// Reads a landmark file. The file is YAML with the optional keys `template: {chin: 966}` and
 /// `scan: {chin: [x, y, z]}`, with at most 100 names each, or a list from another program (see
 /// parse_landmark_list).
+/// \param mesh  the mesh to which the landmarks of such a list belong
 /// \throws UsageError, MissingInput with a message that names every invalid landmark position.
 LandmarkFile read_landmarks(const std::filesystem::path& path,
                             LandmarkMesh mesh = LandmarkMesh::kScan);
 
-/// The template vertex of a landmark: the given vertex number, or the vertex nearest to the given
-/// point.
+/// The template vertex of a landmark: the vertex whose number is in the file, or the vertex nearest
+/// to the point in the file.
 /// \throws UsageError if the template has no such vertex.
 std::uint32_t template_vertex(const LandmarkFile::Place& place,
                               const Positions& template_positions);
 /// The position of a landmark on the scan. \throws UsageError if the scan has no such vertex.
 Eigen::Vector3d scan_point(const LandmarkFile::Place& place, const Scan& scan);
 
-/// The landmarks that template and scan have in common: template vertices and points on the scan. A
-/// point on the template is replaced by the nearest template vertex.
-/// \throws UsageError if there is no vertex with the number given.
+/// Pairs the landmarks that the file lists for both the template and the scan. Replaces a point on
+/// the template by the nearest template vertex.
+/// \throws UsageError if the template or the scan has no vertex with a number in the file.
 std::vector<WrapLandmark> match_landmarks(const LandmarkFile& file,
                                           const Positions& template_positions, const Scan& scan);
 
 /// A named landmark on the template, on the scan, or on both.
 struct PickedLandmark {
   std::string name;
+  /// vertex number from 0, if the landmark is on the template
   std::optional<std::uint32_t> template_vertex;
   std::optional<Eigen::Vector3d> scan_point;  ///< in the unit of the scan's file
   /// Scan vertex of the landmark, if the landmark file gives a vertex number instead of a point.
@@ -57,7 +59,7 @@ struct PickedLandmark {
 
 /// The text of a landmark file, from which read_landmarks reads the same landmarks. The text omits
 /// landmarks that are neither on the template nor on the scan.
-/// \param comments  lines put in front, see header_comments.
+/// \param comments  comment lines at the start of the text, see header_comments.
 std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
                              std::string_view comments = {});
 

@@ -114,7 +114,8 @@ void read_fcsv(std::string_view text, LandmarkList& list) {
   for (std::string_view line : split_lines(text)) {
     ++line_number;
     line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
-    // Older versions write numbers for the axes, and their mesh files have the same axes.
+    // Older versions of 3D Slicer write a number here, such as 0. In these versions, the mesh files
+    // have the same axes as the points.
     if (line.starts_with("# CoordinateSystem")) is_ras = line.ends_with("RAS");
     if (line.empty() || line.starts_with('#')) continue;
     const std::vector<std::string_view> fields = split(line, ',');
@@ -187,7 +188,7 @@ struct TableColumns {
   std::size_t count = 0;             ///< number of columns; 0 if there is no such header
   std::vector<std::size_t> numbers;  ///< columns of x, y and z, or the column of the vertex
   std::optional<std::size_t> name;
-  std::optional<std::size_t> placed;  ///< column that is 0 if the point was not placed
+  std::optional<std::size_t> placed;  ///< column that has 0 for points that were not placed
   bool is_ras = false;                ///< whether the axes are right, anterior, superior
 };
 
@@ -281,13 +282,13 @@ std::optional<TableRow> row_by_order(const std::vector<std::string_view>& fields
     row.name = fields[0];
     row.numbers.erase(row.numbers.begin());
   } else if (row.numbers.empty() || before.size() >= 3) {
-    row.numbers = std::move(before);  // the name follows x, y, z, or the vertex
-    // The first of four numbers is a row number; x, y, z follow.
+    row.numbers = std::move(before);  // the name stands behind x, y, z or behind the vertex
+    // Four numbers are a row number and x, y, z.
     if (row.numbers.size() == 4) row.numbers.erase(row.numbers.begin());
   } else if (before.size() > 1) {
     return std::nullopt;
   } else if (row.numbers.size() > 3) {
-    row.numbers.resize(3);  // errors or colours follow x, y, z
+    row.numbers.resize(3);  // drop errors or colours, which stand behind x, y, z
   }
   return row;
 }
@@ -301,7 +302,7 @@ void read_table(std::string_view text, LandmarkList& list) {
   for (const std::string_view line : split_lines(text)) {
     ++line_number;
     if (is_first && lower_case(line).starts_with("sep="))
-      continue;  // names the separator for Excel
+      continue;  // a line such as "sep=;", which tells Excel the separator
     const char separator = separator_of(line);
     const std::vector<std::string_view> fields = fields_of(line, separator);
     if (fields.empty() || line[line.find_first_not_of(" \t")] == '#') continue;

@@ -13,7 +13,7 @@ struct LandmarkDefinition {
   std::string_view name;
   std::string_view location;  ///< where the landmark lies; a text for the user
   /// Whether find_landmarks searches for the landmark on scans. Only landmarks on edges or grooves
-  /// of the skin can be found precisely; the widest or highest point of a form cannot.
+  /// of the skin can be found precisely; the widest point of a nose, for example, cannot.
   bool is_found_on_scans = false;
 };
 

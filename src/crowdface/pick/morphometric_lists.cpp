@@ -91,7 +91,8 @@ Landmarks read_pts(const std::vector<Line>& lines, const FailAtLine& fail) {
   return landmarks;
 }
 
-/// TPS: the line LM3=n, then n points, and lines such as ID= and SCALE=. Other points are curves.
+/// TPS: the line LM3=n, then n points, and lines such as ID= and SCALE=. Ignores all other points,
+/// which belong to curves.
 Landmarks read_tps(const std::vector<Line>& lines, const FailAtLine& fail) {
   constexpr double kNone = -1e300;
   Landmarks landmarks;
@@ -118,8 +119,9 @@ Landmarks read_tps(const std::vector<Line>& lines, const FailAtLine& fail) {
 }
 
 /// NTSYS: comments in quotes, a header such as "1 1L 75 1 9999 DIM=3" (a rectangular matrix of 1
-/// labelled row and 75 columns, in which 9999 means missing), labels, and the matrix. A row has the
-/// points of one specimen; if there are as many columns as dimensions, a row is a point.
+/// labelled row and 75 columns, in which 9999 means missing), labels, and the matrix. If the matrix
+/// has as many columns as there are dimensions, each row is a point; otherwise each row has all
+/// points of one specimen.
 Landmarks read_nts(const std::vector<Line>& all_lines, const FailAtLine& fail) {
   std::vector<Line> lines = all_lines;
   std::erase_if(lines, [](const Line& line) {
@@ -165,7 +167,7 @@ Landmarks read_nts(const std::vector<Line>& all_lines, const FailAtLine& fail) {
   return landmarks;
 }
 
-/// Amira and Avizo: a header, and after the line @1 the points of the first set.
+/// Amira and Avizo: a header, the line @1, and the points of the first set.
 Landmarks read_amira(const std::vector<Line>& lines, const FailAtLine& fail) {
   constexpr double kNone = -1e300;
   Landmarks landmarks;

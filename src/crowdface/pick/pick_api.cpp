@@ -92,7 +92,7 @@ HttpAnswer pick(const PickSession& session, const Json& body) {
   if (!on_template && mesh != "scan") throw UsageError("mesh: expected template or scan");
   const Eigen::Vector3d origin = vector_of(body.value("origin", Json()), "origin");
   const Eigen::Vector3d direction = vector_of(body.value("direction", Json()), "direction");
-  if (direction.isZero()) throw UsageError("direction: expected one");
+  if (direction.isZero()) throw UsageError("direction: expected a vector that is not zero");
   const auto place = on_template ? session.pick_on_template(origin, direction)
                                  : session.pick_on_scan(origin, direction);
   return json_answer({{"place", place ? place_json(*place, on_template) : Json()}});
@@ -106,7 +106,7 @@ std::vector<PickedLandmark> landmarks_in(const PickSession& session, const Json&
   std::vector<PickedLandmark> landmarks;
   std::set<std::string> names;
   for (const Json& item : list) {
-    if (!item.is_object()) throw UsageError("landmarks: expected mappings");
+    if (!item.is_object()) throw UsageError("landmarks: expected a list of mappings");
     PickedLandmark landmark;
     landmark.name = name_in(item);
     if (!names.insert(landmark.name).second) {

@@ -19,13 +19,14 @@ namespace crowdface {
 /// Answers the HTTP requests of the page for picking landmarks.
 class PickApi {
  public:
-  /// \param scans           must outlive this object
-  /// \param pages           folder of the built pages; nothing if there is none
+  /// \param scans          must outlive this object
+  /// \param pages          folder with the HTML pages; nothing if they were not built
   /// \param max_triangles  maximum number of triangles of each mesh that the page shows
   PickApi(PickableScans& scans, std::optional<std::filesystem::path> pages,
           std::size_t max_triangles);
 
-  /// Answers a request; a faulty request gets the answer {"error": sentence} and no exception.
+  /// Never throws because of the content of a request: the answer to a faulty request is {"error":
+  /// sentence}.
   HttpAnswer answer(const HttpRequest& request);
 
  private:
@@ -35,7 +36,8 @@ class PickApi {
   HttpAnswer page_data_answer(const PickSession& session) const;
   /// Opens the scan whose index is in the request's key `scan`.
   HttpAnswer open_scan(const Json& body);
-  /// \param shown  keeps the reduced mesh for further requests
+  /// Returns a mesh reduced to at most `max_triangles_` triangles.
+  /// \param shown  caches the reduced mesh for further requests
   HttpAnswer mesh_answer(const PickableMesh& whole, const ColourRows& colours,
                          ShownMesh& shown) const;
 
@@ -45,7 +47,7 @@ class PickApi {
 };
 
 /// Serves the page for picking landmarks until a signal such as SIGINT arrives.
-/// \param pages    folder of the built pages; nothing if there is none
+/// \param pages    folder with the HTML pages; nothing if they were not built
 /// \param port     0: any free port
 /// \param started  called with the address of the page once the server listens
 /// \throws Error

@@ -29,6 +29,7 @@ struct OpenScan {
 /// The list of scans on which landmarks are picked, one at a time. Thread-safe.
 class PickableScans {
  public:
+  /// A scan, and the file in which its landmarks are stored.
   struct Entry {
     std::filesystem::path scan_file, landmark_file;
   };
@@ -52,7 +53,7 @@ class PickableScans {
   std::function<PickInputs(const Entry&)> read_inputs_;
   /// Guards the members below.
   mutable std::mutex mutex_;
-  std::shared_ptr<OpenScan> current_;
+  std::shared_ptr<OpenScan> current_;  ///< the open scan
   std::size_t current_index_ = 0;
 };
 

@@ -53,8 +53,8 @@ class PickableMesh {
   std::optional<Hit> first_hit(const Eigen::Vector3d& origin,
                                const Eigen::Vector3d& direction) const;
 
-  /// The nearest skin point within `reach` for which the cosine between the surface normal and
-  /// `facing` is at least `min_cosine`.
+  /// The skin point nearest to `point`, among the skin points at most `reach` away at which the
+  /// cosine between the surface normal and `facing` is at least `min_cosine`.
   /// \param facing  unit vector.
   std::optional<PickedPlace> nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                                      double min_cosine, double reach) const;
@@ -69,10 +69,10 @@ class PickableMesh {
   Eigen::Vector3d box_max() const { return box_.max(); }
 
   /// The mesh reduced to about `max_triangles` triangles, with the normals of the full mesh, as a
-  /// BinaryAnswer. JSON: `origin`, `low` and `high` (relative to `origin`), `whole_triangles`
-  /// (number of triangles of the full mesh). Arrays: `positions` (relative to `origin`), `normals`
-  /// (16-bit integers), `triangles`, `part` (per vertex; 0 skin, 1 other), and `colours` if there
-  /// are any.
+  /// BinaryAnswer. JSON: `origin`, `low` and `high` (the skin's bounding box, relative to
+  /// `origin`), `whole_triangles` (number of triangles of the full mesh). Arrays: `positions`
+  /// (relative to `origin`), `normals` (16-bit integers), `triangles`, `part` (per vertex: 0 skin,
+  /// 1 other), and `colours` if there are any.
   /// \param colours  vertex colours; no rows: none
   std::string encode_reduced(std::size_t max_triangles, const ColourRows& colours = {}) const;
 
@@ -86,12 +86,12 @@ class PickableMesh {
   /// The triangles of the skin, followed by the triangles of all other parts. Each triangle is
   /// stored as a quad whose last corner repeats.
   std::vector<Quad> quads_;
-  Positions normals_;
+  Positions normals_;        ///< unit normals of the vertices, #V by 3
   Eigen::AlignedBox3d box_;  ///< bounding box of the skin
   Eigen::Vector3d middle_;   ///< centre of `box_`; origin of all coordinates in single precision
-  RayDevice device_;
-  RayScene scene_;
-  SurfaceTree tree_;
+  RayDevice device_;         ///< Embree device of `scene_`
+  RayScene scene_;           ///< `quads_` relative to `middle_`, for ray casts
+  SurfaceTree tree_;         ///< finds nearest points on the skin
 };
 
 }  // namespace crowdface

@@ -13,12 +13,12 @@
 
 namespace crowdface {
 
-/// Finds the landmarks of a template's face by their shape (find_face_landmarks).
+/// Finds the landmarks of a template's face by the shape of the surface.
 /// \return no points if no face is found.
 FaceLandmarks find_face_landmarks(const WrapTemplate& wrap_template);
 
-/// Like `find_face_landmarks`.
-/// \return the vertices of the template that are nearest to the landmarks, by name
+/// Finds the landmarks of a template's face as find_face_landmarks does.
+/// \return for each name of a landmark: the nearest vertex of the template
 std::map<std::string, std::uint32_t> propose_landmarks(const WrapTemplate& wrap_template);
 
 /// A mesh of the template whose skin can be picked and whose eyes and teeth occlude the skin.

@@ -16,6 +16,7 @@ namespace crowdface {
 /// Similarity transform from template to scan, fitted to landmark pairs.
 struct LandmarkPose {
   Similarity pose;  ///< maps the template (mm) to the scan, in the unit of the scan
+  /// How well a landmark pair agrees with the other pairs.
   struct Residual {
     /// Distance in mm between the pair's template landmark, transformed by a fit, and the pair's
     /// scan landmark. This fit leaves out the pair itself and all outliers. If the remaining pairs
@@ -39,9 +40,9 @@ std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>
 /// position on the scan is the picked or suggested position on the template, mapped by `pose`,
 /// corrected by the residuals of nearby pairs, and projected to the scan's skin.
 struct SuggestedPlaces {
-  std::map<std::string, PickedPlace> template_places;
-  std::map<std::string, PickedPlace> scan_places;
-  std::optional<LandmarkPose> pose;
+  std::map<std::string, PickedPlace> template_places;  ///< suggested positions on the template
+  std::map<std::string, PickedPlace> scan_places;      ///< suggested positions on the scan
+  std::optional<LandmarkPose> pose;                    ///< result of fit_pose_to_picked
 };
 
 /// Suggests likely positions of the landmarks that are not picked yet.

@@ -198,11 +198,12 @@ Mesh with_cap(const Mesh& hair, const Mesh& head, Index skin_faces, const Eigen:
     }
     covered = std::move(wider);
   };
-  // Close slits that are at most 2 · kClosed polygons wide. Then remove kMargin rows of polygons at
-  // the edge of the cap, so that the cap ends inside the hair.
-  constexpr int kClosed = 2, kMargin = 1;
-  for (int i = 0; i < kClosed; ++i) spread(true);
-  for (int i = 0; i < kClosed + kMargin; ++i) spread(false);
+  // Grow the covered area by kGrowth rows of vertices, then shrink it by the same number of rows.
+  // This closes slits with up to 2 · kGrowth rows of uncovered vertices. Shrink by one more row, to
+  // keep the cap away from the edge of the hair.
+  constexpr int kGrowth = 2;
+  for (int i = 0; i < kGrowth; ++i) spread(true);
+  for (int i = 0; i < kGrowth + 1; ++i) spread(false);
   Mesh capped = hair;
   std::vector<std::uint32_t> rows(covered.size(), kNoIndex);
   std::vector<Eigen::RowVector3d> added;

@@ -12,6 +12,7 @@ namespace crowdface::synth {
 
 /// An sRGB colour; components in [0, 1].
 using ScreenColour = Eigen::Array3d;
+/// Converts components from 0 … 255.
 inline ScreenColour from_bytes(double red, double green, double blue) {
   return ScreenColour(red, green, blue) / 255;
 }
@@ -28,18 +29,18 @@ struct Complexion {
   ScreenColour hair;        ///< colour of the scalp hair, including grey
   ScreenColour brow_hair;   ///< colour of brows and beard; turns grey later than `hair`
   double redness = 0;       ///< 0 … 1: redness of cheeks, nose and ears
-  double freckles = 0;      ///< 0 … 1
-  double age_spots = 0;     ///< 0 … 1
+  double freckles = 0;      ///< 0 … 1: amount of freckles
+  double age_spots = 0;     ///< 0 … 1: amount of age spots
   double brow_density = 1;  ///< density of the brows
-  double brow_width = 1;
-  double brow_arch = 0;  ///< additional height of the brows' arch in cm; 0 for men
+  double brow_width = 1;    ///< factor on the height of the brows
+  double brow_arch = 0;     ///< additional height of the brows' arch in cm; 0 for men
   double beard = 0;  ///< hair on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
   double moustache = 0;   ///< hair on the upper lip, on the same scale as `beard`
   double chin_beard = 0;  ///< hair on the chin, on the same scale as `beard`
-  ScreenColour iris;
-  double recession = 0;  ///< recession of the hairline: 0 (full) … 1 (bald on top)
-  double makeup = 0;     ///< 0 … 1: make-up on lids, lashes and cheeks
-  double lipstick = 0;   ///< 0 … 1; 0 for most people
+  ScreenColour iris;      ///< mean colour of the iris
+  double recession = 0;   ///< recession of the hairline: 0 (full) … 1 (bald on top)
+  double makeup = 0;      ///< 0 … 1: make-up on lids, lashes and cheeks
+  double lipstick = 0;    ///< 0 … 1; 0 for most people
 };
 
 /// Returns the random complexion of head `index`. Skin tones are stratified: the five women among

@@ -60,8 +60,8 @@ constexpr std::array<LatticeRow, kRows> kLattice = {{
 }};
 // clang-format on
 
-/// A ray's own origin, instead of the default origin. Around the nose and under the chin, rays
-/// start close to the skin, so that they meet the skin at nearly right angles.
+/// The origin of a lattice point's ray, instead of the default origin. Around the nose and under
+/// the chin, rays start close to the skin, so that they meet the skin at nearly right angles.
 struct NearOrigin {
   int row, column;
   double x, y, z;

@@ -85,8 +85,6 @@ double Hair::strand_brightness(const Vector3d& p) const {
   return straight + style_.curliness * (curled - straight);
 }
 
-/// Returns the amount, 0 … 1, of long hair that hangs over the neck at a point. Hanging hair starts
-/// behind the ears.
 double Hair::hanging_fraction(const Vector3d& p) const {
   if (style_.nape_length <= 0) return 0;
   return smooth_step(1.18, 1.5, around_head(p)) * smooth_step(-1, -10, p.y());
@@ -105,7 +103,6 @@ double height_above_hairline(const Vector3d& p, bool has_low_hairline, double re
          (has_low_hairline ? interpolate_knots(low, around) : interpolate_knots(high, around));
 }
 
-/// Returns the density of the hair that remains after balding, 0 … 1; balding starts at the crown.
 double Hair::density_after_balding(const Vector3d& p) const {
   const double crown = smooth_step(6.5, 11.5, p.y()) * smooth_step(-9, -4, p.z());
   return 1 - smooth_step(0.45, 0.9, recession_) * crown;

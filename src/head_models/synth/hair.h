@@ -12,8 +12,8 @@ namespace crowdface::synth {
 
 /// A hair style. The thicknesses of the hair layer are in cm, before age-related thinning.
 struct HairStyle {
-  double top_thickness = 0;   ///< above the forehead and on the crown
-  double side_thickness = 0;  ///< above and behind the ears
+  double top_thickness = 0;   ///< thickness above the forehead and on the crown
+  double side_thickness = 0;  ///< thickness above and behind the ears
   double nape_length = 0;     ///< length of the hair that falls behind the ears and down the neck
   double bun_height = 0;      ///< height of a bun on top; 0: none
   double curliness = 0;       ///< 0 (straight) … 1 (tight curls)
@@ -50,15 +50,22 @@ class Hair {
   double thickness(const Eigen::Vector3d& p) const;
 
  private:
+  /// Returns the height of a point above this person's hairline, cm; negative below.
   double height_above_style_hairline(const Eigen::Vector3d& p) const {
     return height_above_hairline(p, style_.has_low_hairline, recession_);
   }
+  /// Returns the density of the hair that remains after balding, 0 … 1; balding starts at the
+  /// crown.
   double density_after_balding(const Eigen::Vector3d& p) const;
+  /// Returns the amount, 0 … 1, of long hair that hangs over the neck at a point. Hanging hair
+  /// starts behind the ears.
   double hanging_fraction(const Eigen::Vector3d& p) const;
 
   HairStyle style_;
-  double recession_;
-  SmoothNoise hairs_, tufts_, edge_, locks_;
+  double recession_;           ///< see Complexion::recession
+  SmoothNoise hairs_, tufts_;  ///< brightness of strands and of tufts of strands
+  SmoothNoise edge_;           ///< makes the hairline irregular
+  SmoothNoise locks_;          ///< varies the thickness of curls and hanging locks
 };
 
 }  // namespace crowdface::synth

@@ -18,18 +18,18 @@ struct HairCut {
   bool is_curly = false;
   bool has_bald_crown = false;  ///< the crown is bald
   double recession = 0;  ///< hairline recession, 0 … 1; above 0, the cut is not for young people
-  double parting_x = 0;  ///< x of the parting
+  double parting_x = 0;  ///< x coordinate of the parting
   double sideways_combing = 1;  ///< component of the combing direction away from the parting
   double backward_combing = 0;  ///< backward component of the combing direction
   double top_length = 5;        ///< length on top
   double side_length = 5;       ///< length above and behind the ears; 0: no hair there
-  double hem_y = -30;           ///< height y at which hair is cut
-  double fringe_y = kNoFringe;  ///< height y of the fringe over the forehead, or kNoFringe
+  double hem_y = -30;           ///< y coordinate at which hair is cut
+  double fringe_y = kNoFringe;  ///< y coordinate of the fringe's lower edge, or kNoFringe
   double volume_factor = 1;     ///< factor on the distance of the hair from the scalp
   double wave_amplitude = 0;    ///< amplitude of waves in the locks
-  /// 1: combed locks. Larger numbers: the number of layers of curls, which have random directions
+  /// number of layers of hair; 1: combed locks, above 1: curls with random directions
   int layers = 1;
-  /// tied at the back; in front of the tie, the hair lies on the head
+  /// whether the hair is tied at the back; in front of the tie, the hair lies on the head
   bool is_tied = false;
   bool excludes_old_people = false;  ///< true: the cut is not for old people
 
@@ -47,6 +47,7 @@ struct HairColour {
 };
 /// Returns the natural hair colours, without grey.
 std::span<const HairColour> hair_colours();
+/// Returns the most similar colour of hair_colours().
 const HairColour& nearest_hair_colour(const ScreenColour& colour);
 
 }  // namespace crowdface::synth

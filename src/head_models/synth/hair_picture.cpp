@@ -11,8 +11,9 @@
 namespace crowdface::synth {
 namespace {
 
-constexpr std::size_t kStrands = 56;          // strands per strip
-constexpr double kWaves = 8, kSwing = 0.075;  // least half waves of a curly strand, and amplitude
+constexpr std::size_t kStrands = 56;  // strands per strip
+constexpr double kWaves = 8;          // minimum number of half waves of a curly strand
+constexpr double kSwing = 0.075;      // amplitude of these waves, in units of a strip's width
 
 struct Strand {
   std::uint64_t clump = 0;  ///< number of the clump, unique among all strips

@@ -45,9 +45,10 @@ class Identity {
 
   std::uint64_t seed_ = 0, index_ = 0;
   Person person_;
+  /// displacements of the measures times their values, and the random asymmetry of nose and jaw
   std::vector<LocalDisplacement> displacements_;
-  Eigen::Vector3d scale_{1, 1, 1};
-  double face_length_ = 0;
+  Eigen::Vector3d scale_{1, 1, 1};  ///< factors on width, height and depth
+  double face_length_ = 0;          ///< relative change of the length of the face below the eyes
   double asymmetry_amplitude_ = 0;  ///< amplitude of asymmetry_noise_, cm
   SmoothNoise asymmetry_noise_;     ///< asymmetry between left and right
 };

@@ -42,7 +42,7 @@ double row_distance(int row);
 
 /// A rectangle of the lattice that is cut out of the strip: an eye, an ear, a nostril or the mouth.
 struct Opening {
-  SkinPatch patch;
+  SkinPatch patch;  ///< the patch that fills the opening
   /// first and last lattice column and row, at x > 0; for the mouth column0 = −column1
   int column0, column1, row0, row1;
 };

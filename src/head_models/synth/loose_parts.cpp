@@ -168,7 +168,6 @@ void LooseParts::add_teeth(double up, int along, int around) {
   close_band(first, along, around);
 }
 
-/// Adds the quads of the band, and closes each end with a centre vertex and a fan of quads.
 void LooseParts::close_band(Index first, int along, int around) {
   const auto at = [&](int i, int k) {
     return static_cast<std::uint32_t>(first + i * around + k % around);

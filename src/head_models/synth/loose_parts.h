@@ -44,19 +44,23 @@ class LooseParts {
   Positions positions(const Identity& identity) const;
 
  private:
-  void add_eyeball(double side, int rings);
+  /// Adds an eyeball, a subdivided cube that is projected onto the sphere.
+  /// \param side   1, or −1 for the eyeball at x < 0.
+  /// \param quads  number of quads along an edge of the cube.
+  void add_eyeball(double side, int quads);
   /// Adds a row of teeth, a closed band.
   /// \param up             1: upper row, −1: lower row.
   /// \param along, around  quads along the row and around its cross-section.
   void add_teeth(double up, int along, int around);
+  /// Adds the quads of the band, and closes each end with a centre vertex and a fan of quads.
   /// \param first  index of the band's first vertex.
   void close_band(Index first, int along, int around);
 
   std::vector<Eigen::Vector3d>
       points_;  ///< eyeballs: on the unit sphere; teeth: in the mean head, cm
-  std::vector<Eigen::RowVector2d> uvs_;  ///< one per vertex
-  std::vector<std::uint32_t> corners_;   ///< four per polygon
-  std::vector<Index> first_vertices_, first_faces_;
+  std::vector<Eigen::RowVector2d> uvs_;              ///< one per vertex
+  std::vector<std::uint32_t> corners_;               ///< four per polygon
+  std::vector<Index> first_vertices_, first_faces_;  ///< for each piece, in the order of LoosePiece
 };
 
 }  // namespace crowdface::synth

@@ -12,6 +12,7 @@ namespace crowdface::synth {
 /// the distance from the centre relative to the radii. The displacement is mirrored at x = 0 unless
 /// the centre has x = 0. Lengths in cm.
 struct LocalDisplacement {
+  /// the parameters of the formula; cm, `stretch` has no unit
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 
@@ -21,10 +22,10 @@ struct LocalDisplacement {
 ///     + build_effect · Person::build + spread · N(0, 1) + mean
 struct Measure {
   std::string_view name;
-  double maleness_effect, age_effect, build_effect;  ///< coefficients of the mean of the value
+  double maleness_effect, age_effect, build_effect;  ///< factors of the formula above
   double spread;                                     ///< standard deviation of the random part
   LocalDisplacement displacement;                    ///< displacement for a value of 1
-  double mean = 0;                                   ///< value of an average person
+  double mean = 0;                                   ///< value of a person with average attributes
 };
 /// Returns all measures.
 std::span<const Measure> measures();

@@ -67,7 +67,7 @@ Index QuadCounts::vertex_count() const {
                 ny = quads_to_row(w.row1) - quads_to_row(w.row0);
     Index piece = 2 * (nx + ny) * static_cast<Index>(ring_coordinates(w.patch).size());
     // The initial sum counts the strip's grid without openings. Subtract the grid points inside the
-    // opening, except for an ear: the core inside an ear has the same number of vertices.
+    // opening, except for an ear: the ear's core has as many vertices as the grid there.
     if (w.patch != SkinPatch::kEar) piece -= (nx - 1) * (ny - 1);
     sum += w.patch == SkinPatch::kMouth ? piece : 2 * piece;
   }

@@ -25,7 +25,7 @@ struct QuadCounts {
   /// Returns the number of vertices of the whole layout.
   Index vertex_count() const;
 
-  double quads_per_unit;
+  double quads_per_unit;  ///< parameter `density` of the constructor
   // Number of quads in each interval between two lattice columns (or rows).
   std::array<int, kColumns - 1> columns{};
   std::array<int, kRows - 1> rows{};

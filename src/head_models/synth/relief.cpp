@@ -229,7 +229,7 @@ double Relief::fold_height(const Vector3d& p) const {
 }
 
 double Relief::fold_shade(const Vector3d& p) const {
-  // The divisor is not the width itself, because wide folds would then hardly be visible.
+  // Do not divide the depth by the width itself, because wide folds would hardly be visible.
   return -sum_of_strokes(p, [](const Stroke& stroke) {
     return 1.3 / (0.15 + 0.5 * stroke.width);
   }) - 6 * wrinkle_height(p);

@@ -34,9 +34,10 @@ class Relief {
   /// A curve in the front view of the face, engraved (depth > 0) or raised (depth < 0). Lengths in
   /// cm.
   struct Stroke {
-    static constexpr int kPieces = 12;
+    static constexpr int kPieces = 12;  ///< number of straight pieces of the curve
     std::array<Eigen::Vector2d, kPieces + 1> points;
-    double width, depth, bulge;
+    double width, depth;  ///< of the groove
+    double bulge;  ///< height of a ridge beside the curve, relative to the depth; positive: left
     Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
   };
   /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
@@ -62,13 +63,14 @@ class Relief {
     double offset;          ///< 0 … 1: shifts the wrinkles by this fraction of the spacing
   };
   std::vector<Wrinkles> wrinkles_;
+  /// Noise of one wavelength.
   struct Octave {
     SmoothNoise noise;
-    double amplitude;
+    double amplitude;  ///< cm
   };
-  std::vector<Octave> broad_octaves_, fine_octaves_;
-  SmoothNoise lip_creases_;
-  double lip_depth_;  ///< amplitude of lip_creases_
+  std::vector<Octave> broad_octaves_, fine_octaves_;  ///< uneven skin, and pores
+  SmoothNoise lip_creases_;  ///< noise that is stretched to creases across the lips
+  double lip_depth_;         ///< amplitude of lip_creases_
 };
 
 }  // namespace crowdface::synth

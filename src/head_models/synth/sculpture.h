@@ -42,6 +42,6 @@ Eigen::Vector3d project_onto_skin(const Eigen::Vector3d& origin,
 inline Eigen::Vector3d eye_centre() {
   return {3.12, 0, 6.75};
 }
-inline constexpr double kEyeRadius = 1.70;
+inline constexpr double kEyeRadius = 1.70;  ///< radius of the average head's eyeballs, cm
 
 }  // namespace crowdface::synth

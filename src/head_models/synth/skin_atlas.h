@@ -20,7 +20,7 @@ struct AtlasTexel {
   double mouth_ring_coordinate = 0;
   /// the same around a nostril: 1 at the edge of the nostril
   double nostril_ring_coordinate = 0;
-  double on_eyeball = 0;  ///< 1 on an eyeball
+  double on_eyeball = 0;  ///< 1 on an eyeball, 0 elsewhere
   Eigen::Vector3d point_on_ball =
       Eigen::Vector3d::Zero();   ///< on an eyeball: point on the unit sphere with its pupil at +z
   bool is_covered = false;       ///< whether the texel shows a surface

@@ -32,17 +32,25 @@ class SkinPaint {
   double beard_coverage(const Vector& p) const;
 
  private:
+  /// Returns the colour of an eyeball. \param ball  point on the unit sphere, pupil at +z.
   ScreenColour eyeball_colour(const Vector& ball) const;
+  /// Returns the skin colour without spots, lips, make-up and hair.
   ScreenColour bare_skin_colour(const Vector& p) const;
+  /// Paints freckles and age spots.
   void paint_spots(const Vector& p, ScreenColour& colour) const;
   void paint_lips(const AtlasTexel& place, ScreenColour& colour) const;
   void paint_around_eyes(const AtlasTexel& place, ScreenColour& colour) const;
+  /// Paints the insides of mouth and nostrils dark red.
   void paint_openings(const AtlasTexel& place, ScreenColour& colour) const;
   void paint_beard(const Vector& p, ScreenColour& colour) const;
   /// Whether hair, brows and beard are painted on the skin instead of being separate meshes.
   bool paints_all_hair() const { return scalp_hair_ == 1; }
+  /// Returns the fraction of the skin that single hairs of a brow hide.
   double brow_hairs(const Eigen::Vector2d& place, std::uint64_t side) const;
+  /// Returns 1 in the area where a beard grows, 0 outside.
+  /// \param strand  noise at `p`, −1 … 1, which frays the edge of the area.
   double beard_coverage(const Vector& p, double strand) const;
+  /// Returns the length of the beard at a point, in the units of Complexion::beard.
   double beard_length(const Vector& p) const;
 
   Person person_;
@@ -52,7 +60,7 @@ class SkinPaint {
       flush_;
   double aged_;  ///< 0 … 1: signs of age of the skin, from 36 to 68 years
   Hair hair_;
-  double scalp_hair_;
+  double scalp_hair_;  ///< see the constructor
 };
 
 }  // namespace crowdface::synth

@@ -62,10 +62,10 @@ class SyntheticHeads {
   Topology topology_;
   TextureCoordinates uvs_;
   double edge_cm_ = 0;
-  std::vector<synth::SkinPoint> mean_;
+  std::vector<synth::SkinPoint> mean_;  ///< the average head: one point per vertex of the skin
   std::vector<std::uint32_t> rim_;  ///< vertices of the neck's rim, counter-clockwise from above
   Scalp scalp_;
-  std::optional<synth::LooseParts> loose_;
+  std::optional<synth::LooseParts> loose_;  ///< eyeballs and teeth, if they are separate
 };
 
 /// Returns a region mask for the texture coordinates of the heads at every resolution: `size` ×

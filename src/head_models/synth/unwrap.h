@@ -30,7 +30,7 @@ Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 
 /// Returns the texture coordinate v of the strip (SkinPatch) at a distance below the cap; v
 /// decreases from forehead to neck.
-/// \param units_below_cap  the second coordinate of an LatticePoint on the strip.
+/// \param units_below_cap  the second coordinate of a LatticePoint on the strip.
 double strip_v(double units_below_cap);
 
 /// Maps a ring coordinate (0 … 4, one unit per side) to the point on the outline of the square
