@@ -35,6 +35,9 @@ class PointGrid {
  private:
   using Cell = std::array<Index, 3>;
 
+  /// The layer of cells at a coordinate, or the nearest layer of the grid.
+  /// \param axis  0, 1, 2 for layers along x, y, z
+  Index layer_at(double coordinate, Index axis) const;
   Cell cell_of(const Eigen::Vector3d& point) const;
   std::size_t index_of(const Cell& cell) const;
   /// The vertices in the consecutive cells `first` to `last`, both included.
