@@ -281,6 +281,13 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   inputs.mean_head = mean_head(inputs.head_set);
   const std::size_t before = problems.size();
   find_named_parts(config, inputs, problems);
+  std::vector<std::string> odd_expressions;
+  BackgroundTasks beside;
+  beside.run([&] {
+    odd_expressions =
+        odd_expression_warnings(inputs.head_set, skin_of(inputs),
+                                axes_of(Orientation{config.faces.up, config.faces.front}));
+  });
   try {
     if (auto text = check_orientation_and_size(config, inputs)) inputs.warn(std::move(*text));
     const std::string key = mirroring_key(config);
@@ -294,11 +301,8 @@ std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache
   for (std::string& text : same_person_warnings(inputs, mm_per(config.faces.units))) {
     inputs.warn(std::move(text));
   }
-  for (std::string& text :
-       odd_expression_warnings(inputs.head_set, skin_of(inputs),
-                               axes_of(Orientation{config.faces.up, config.faces.front}))) {
-    inputs.warn(std::move(text));
-  }
+  beside.wait();
+  for (std::string& text : odd_expressions) inputs.warn(std::move(text));
   if (auto text = unknown_surfaces_warning(config, inputs)) inputs.warn(std::move(*text));
   inputs.edge_length_mm = mean_edge_length_mm(config, inputs);
   try {

@@ -26,9 +26,10 @@ class RunDeflater {
   std::string& out_;
   /// bytes to write, after the last byte of the block before
   std::vector<std::uint8_t> block_;
+  std::vector<char> packed_;   ///< working memory for the compressed bytes of a block
   std::size_t written_ = 0;    ///< number of bytes in `block_` that are in `out_`: 0 or 1
   std::uint64_t pending_ = 0;  ///< up to 7 bits that are not yet in `out_`
-  int pending_count_ = 0;
+  unsigned pending_count_ = 0;
   std::uint32_t checksum_;
 };
 

@@ -36,15 +36,14 @@ PointGrid::PointGrid(const Positions& positions, std::span<const std::uint32_t> 
       });
 }
 
+Index PointGrid::layer_at(double coordinate, Index axis) const {
+  const Index last = cell_counts_[static_cast<std::size_t>(axis)] - 1;
+  const double at = (coordinate - min_corner_(axis)) / cell_width_;
+  return static_cast<Index>(std::clamp(at, 0.0, static_cast<double>(last)));
+}
+
 PointGrid::Cell PointGrid::cell_of(const Eigen::Vector3d& point) const {
-  Cell cell;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<Index>(axis);
-    const double at = std::floor((point(a) - min_corner_(a)) / cell_width_);
-    cell[axis] =
-        static_cast<Index>(std::clamp(at, 0.0, static_cast<double>(cell_counts_[axis] - 1)));
-  }
-  return cell;
+  return {layer_at(point.x(), 0), layer_at(point.y(), 1), layer_at(point.z(), 2)};
 }
 
 std::size_t PointGrid::index_of(const Cell& cell) const {
@@ -65,16 +64,24 @@ bool PointGrid::may_have_vertex_within(const Eigen::Vector3d& point, double reac
 }
 
 PointGrid::NearestVertex PointGrid::nearest(const Eigen::Vector3d& point, double reach) const {
-  const Cell middle = cell_of(point);
   NearestVertex best;
   best.distance = reach;
   if (!may_have_vertex_within(point, reach)) return best;
-  const Index farthest = std::max({cell_counts_[0], cell_counts_[1], cell_counts_[2]});
-  // Searches shells of cells around the cell of the point. Every cell of shell number s is at least
-  // s − 1 cell widths away from the point, whether the point is inside or outside the grid.
-  const auto look_at = [&](Index low_x, Index high_x, Index y, Index z) {
-    for (const std::uint32_t v :
-         vertices_in_cells(index_of({low_x, y, z}), index_of({high_x, y, z}))) {
+  const Cell middle = cell_of(point);
+  // A lower bound of the distance from the point to a layer of cells; rounding cannot make this
+  // bound too large.
+  const auto gap_to = [&](Index axis, Index cell) {
+    constexpr double kRounding = 1e-9;
+    const double low = min_corner_(axis) + static_cast<double>(cell) * cell_width_;
+    return std::max({low - point(axis), point(axis) - (low + cell_width_), 0.0}) -
+           kRounding * cell_width_;
+  };
+  // Search row after row of cells, nearest rows first, so that `best.distance` soon bounds the rows
+  // and the cells of a row.
+  const auto search_row = [&](Index z, Index y) {
+    const double width = best.distance + cell_width_;  // one cell more than rounding may need
+    const Index low = layer_at(point.x() - width, 0), high = layer_at(point.x() + width, 0);
+    for (const std::uint32_t v : vertices_in_cells(index_of({low, y, z}), index_of({high, y, z}))) {
       const double dx = positions_(v, 0) - point.x();
       const double dy = positions_(v, 1) - point.y();
       const double dz = positions_(v, 2) - point.z();
@@ -84,31 +91,23 @@ PointGrid::NearestVertex PointGrid::nearest(const Eigen::Vector3d& point, double
       }
     }
   };
-  // A lower bound of the distance from the point to a layer of cells; rounding cannot make this
-  // bound too large.
-  const auto gap_to = [&](Index axis, Index cell) {
-    constexpr double kRounding = 1e-9;
-    const double low = min_corner_(axis) + static_cast<double>(cell) * cell_width_;
-    return std::max({low - point(axis), point(axis) - (low + cell_width_), 0.0}) -
-           kRounding * cell_width_;
-  };
-  for (Index shell = 0; shell <= farthest; ++shell) {
-    if (static_cast<double>(shell - 1) * cell_width_ > best.distance) break;
-    const Index left = middle[0] - shell, right = middle[0] + shell;
-    for (Index z = middle[2] - shell; z <= middle[2] + shell; ++z) {
-      if (z < 0 || z >= cell_counts_[2] || gap_to(2, z) > best.distance) continue;
-      for (Index y = middle[1] - shell; y <= middle[1] + shell; ++y) {
-        if (y < 0 || y >= cell_counts_[1] || gap_to(1, y) > best.distance) continue;
-        if (std::abs(z - middle[2]) == shell || std::abs(y - middle[1]) == shell) {
-          look_at(std::max<Index>(left, 0), std::min(right, cell_counts_[0] - 1), y, z);
-          continue;
-        }
-        if (left >= 0 && gap_to(0, left) <= best.distance) look_at(left, left, y, z);
-        if (right < cell_counts_[0] && gap_to(0, right) <= best.distance)
-          look_at(right, right, y, z);
-      }
+  // Calls `visit` for the layers of cells along an axis, from the point's layer outwards, while
+  // they are in reach.
+  const auto for_each_layer = [&](Index axis, const auto& visit) {
+    const auto a = static_cast<std::size_t>(axis);
+    const auto visit_if_near = [&](Index cell) {
+      if (cell < 0 || cell >= cell_counts_[a] || gap_to(axis, cell) > best.distance) return false;
+      visit(cell);
+      return true;
+    };
+    visit_if_near(middle[a]);
+    bool goes_down = true, goes_up = true;
+    for (Index step = 1; goes_down || goes_up; ++step) {
+      goes_down = goes_down && visit_if_near(middle[a] - step);
+      goes_up = goes_up && visit_if_near(middle[a] + step);
     }
-  }
+  };
+  for_each_layer(2, [&](Index z) { for_each_layer(1, [&](Index y) { search_row(z, y); }); });
   return best;
 }
 

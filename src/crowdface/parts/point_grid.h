@@ -35,6 +35,9 @@ class PointGrid {
  private:
   using Cell = std::array<Index, 3>;  ///< number of a cell along x, y, z, from 0
 
+  /// The layer of cells at a coordinate, or the nearest layer of the grid.
+  /// \param axis  0, 1, 2 for layers along x, y, z
+  Index layer_at(double coordinate, Index axis) const;
   /// Returns the cell that contains a point; for a point outside the grid, the nearest cell.
   Cell cell_of(const Eigen::Vector3d& point) const;
   /// Returns the index of a cell in `vertices_by_cell_`.

@@ -52,7 +52,8 @@ AttachmentScene::AttachmentScene(const RayDevice& device,
   }
   mark_pixels(points, static_cast<float>(1 / camera.tan_half_fov));
   scene_ = std::make_unique<const RayScene>(
-      device, std::move(points), quads_, [this](std::uint32_t quad, float u, float v) {
+      device, std::move(points), quads_, RayScene::Tree::kStatic,
+      [this](std::uint32_t quad, float u, float v) {
         const Part& part = part_of(quad);
         return part.surface->opacity(quad - part.first_quad, bilinear_weights(quads_[quad], u, v),
                                      mip_levels_[quad]);

@@ -198,7 +198,7 @@ std::vector<float> points_around(const Positions& positions, const Eigen::Vector
 }
 
 RayScene::RayScene(const RayDevice& device, std::vector<float> points,
-                   const std::vector<Quad>& quads, Tree tree)
+                   const std::vector<Quad>& quads, Tree tree, Opacity opacity)
     : state_(std::make_unique<State>(device.state(), std::move(points))) {
   State& state = *state_;
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
@@ -225,20 +225,15 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
       rtcSetSharedGeometryBuffer(state.geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT4,
                                  quads.data(), 0, sizeof(Quad), quads.size());
     }
+    if (opacity) {
+      state.opacity = std::move(opacity);
+      rtcSetGeometryUserData(state.geometry, &state.opacity);
+      rtcSetGeometryIntersectFilterFunction(state.geometry, reject_transparent_hits);
+      rtcSetGeometryOccludedFilterFunction(state.geometry, reject_transparent_hits);
+    }
     rtcAttachGeometry(state.scene, state.geometry);
   }
   state.commit_points();
-}
-
-RayScene::RayScene(const RayDevice& device, std::vector<float> points,
-                   const std::vector<Quad>& quads, Opacity opacity)
-    : RayScene(device, std::move(points), quads, Tree::kStatic) {
-  if (state_->geometry == nullptr) return;
-  state_->opacity = std::move(opacity);
-  rtcSetGeometryUserData(state_->geometry, &state_->opacity);
-  rtcSetGeometryIntersectFilterFunction(state_->geometry, reject_transparent_hits);
-  rtcSetGeometryOccludedFilterFunction(state_->geometry, reject_transparent_hits);
-  state_->commit_points();
 }
 
 RayScene::~RayScene() = default;

@@ -69,13 +69,10 @@ class RayScene {
   enum class Tree { kStatic, kMovable };
 
   /// \param points  x, y, z of each vertex; the scene keeps them.
-  /// \param quads   must outlive the scene; vertex indices below points.size() / 3.
+  /// \param quads    must outlive the scene; vertex indices below points.size() / 3.
+  /// \param opacity  called from any thread while the scene lives; empty: all quads are opaque.
   RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
-           Tree tree = Tree::kStatic);
-  /// A scene of quads with partly transparent surfaces.
-  /// \param opacity  called from any thread while the scene lives.
-  RayScene(const RayDevice& device, std::vector<float> points, const std::vector<Quad>& quads,
-           Opacity opacity);
+           Tree tree = Tree::kStatic, Opacity opacity = {});
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

@@ -339,7 +339,10 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   if (options.replace == Replace::kRefuse) crowd = planned_job(job, options, stages);
   if (!crowd) crowd = cast_job(job, options, stages);
   Lazy<FaceStages> face_stages([&] {
+    BackgroundTasks beside;
+    beside.run([&] { crowd->textures.get(); });
     crowd->attachments.bind(crowd->crowd_plan.crowd);
+    beside.wait();
     return std::make_unique<FaceStages>(
         job.config, job.inputs, crowd->prepared, crowd->builder.get(), crowd->textures.get(),
         crowd->attachments, crowd->shapes.get(), crowd->crowd_plan.crowd, memory_for(options));
