@@ -35,13 +35,30 @@ def comments():
             block, code_before = ([comment.strip()], code.strip()) if mark else ([], "")
 
 
+def comment_of(lines, number):
+    """The comment of the declaration that begins in this line: above it, or at the end of its lines."""
+    above = []
+    for line in reversed(lines[:number]):
+        if not line.strip().startswith(("///", "template")) or "///<" in line:
+            break
+        above.insert(0, line.strip().lstrip("/ ") if "///" in line else "")
+    for line in lines[number : number + 6]:
+        code, mark, comment = line.partition("///<")
+        if mark:
+            above.append(comment.strip())
+        if mark or code.rstrip().endswith((";", "{", "}")):
+            break
+    return " ".join(text for text in above if text)
+
+
 def identifiers():
-    """Declarations in headers: file, enclosing classes, and the whole declaration."""
+    """Declarations in headers: file, enclosing classes, the whole declaration, and its comment."""
     declaration = re.compile(r"^\s*(?:class|struct|enum class|(?=\S)[\w:<>,&*\s\[\]]+?[\s&*])(\w{3,})\s*[({=;]")
     scope_start = re.compile(r"^(\s*)(?:class|struct|enum class) (\w+)[^;]*\{$")
     for path in sources(".h"):
         scopes = []  # (indentation, name) of the classes around the line; no name: of a function or a list
-        lines = [line.split("//")[0].rstrip() for line in path.read_text().split("\n")]
+        text = path.read_text().split("\n")
+        lines = [line.split("//")[0].rstrip() for line in text]
         for number, code in enumerate(lines):
             indentation = len(code) - len(code.lstrip())
             while code and scopes and indentation <= scopes[-1][0] and code.lstrip().startswith("}"):
@@ -57,7 +74,9 @@ def identifiers():
                         break
                     whole += " " + following.strip()
                 scope = "::".join(name for _, name in scopes)
-                yield f"{path.relative_to(ROOT)}: {f'[in {scope}] ' if scope else ''}{whole}"
+                comment = comment_of(text, number)
+                place = f"{path.relative_to(ROOT)}: {f'[in {scope}] ' if scope else ''}"
+                yield f"{place}{whole}{f'    // {comment}' if comment else ''}"
             if code.endswith("{") and not code.startswith(("namespace", "extern")):
                 start = scope_start.match(code)
                 scopes.append((indentation, start[2] if start else None))
