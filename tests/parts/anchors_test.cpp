@@ -34,16 +34,16 @@ TEST(Anchors, CarryTheBoundWithTheSkin) {
   const Positions expected = testing::moved(scene.mesh.positions, 0.6, 1, {3, 4, 5});
   Positions result = expected;
   result.bottomRows(27).setZero();
-  scene.anchors.place_vertices(scene.mesh.positions, scene.anchors.offsets(scene.mesh.positions),
-                               result);
+  scene.anchors.place_vertices(scene.mesh.positions,
+                               scene.anchors.measure_offsets(scene.mesh.positions), result);
   EXPECT_LT((result - expected).cwiseAbs().maxCoeff(), 1e-12);
 }
 
 TEST(Anchors, KeepHeightsWhereTheSkinBulges) {
   const BallWithLash scene;
   Positions result = 1.1 * scene.mesh.positions;
-  scene.anchors.place_vertices(scene.mesh.positions, scene.anchors.offsets(scene.mesh.positions),
-                               result);
+  scene.anchors.place_vertices(scene.mesh.positions,
+                               scene.anchors.measure_offsets(scene.mesh.positions), result);
   for (Index v = scene.skin; v < result.rows(); ++v) {
     const double before = scene.mesh.positions.row(v).norm() - 10;
     EXPECT_NEAR(result.row(v).norm() - 11, before, 0.05) << "as far off the skin as before";
@@ -54,8 +54,8 @@ TEST(Anchors, KeepTheTargetWhereNothingMoved) {
   const BallWithLash scene;
   Positions result = scene.mesh.positions;
   result.bottomRows(27).setConstant(7);
-  scene.anchors.place_vertices(scene.mesh.positions, scene.anchors.offsets(scene.mesh.positions),
-                               result);
+  scene.anchors.place_vertices(scene.mesh.positions,
+                               scene.anchors.measure_offsets(scene.mesh.positions), result);
   EXPECT_TRUE(result == scene.mesh.positions);
 }
 
