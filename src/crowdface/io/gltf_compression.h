@@ -28,8 +28,8 @@ struct DracoMesh {
 };
 /// A vertex attribute to decode.
 struct DracoAttribute {
-  std::uint32_t id = 0;  ///< Draco's unique id of the attribute
-  std::size_t component_count = 0;
+  std::uint32_t id = 0;             ///< Draco's unique id of the attribute
+  std::size_t component_count = 0;  ///< numbers per vertex
 };
 /// Decompresses a Draco mesh.
 /// \return nothing if the bytes are damaged, an attribute is missing, or the mesh exceeds

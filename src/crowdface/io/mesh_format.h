@@ -23,8 +23,9 @@ enum class MeshFormat {
   kGlb,     ///< binary glTF 2.0
   kPoints,  ///< only positions, .npy
   kUsd,     ///< a USD text layer, .usda
-  kEnd,     ///< not a format; the number of formats
+  kEnd,     ///< not a format; its value is the number of formats
 };
+/// Number of formats.
 inline constexpr std::size_t kMeshFormatCount = static_cast<std::size_t>(MeshFormat::kEnd);
 
 /// Where a format stores a kind of data: shapes, attachments or textures.
@@ -59,7 +60,8 @@ struct MeshFormatTraits {
   /// the vertex order.
   /// \throws InvalidInput if another program wrote the file.
   Positions (*read)(const std::filesystem::path& file, Index vertices);
-  /// Function that writes a mesh that was read from any file. \throws CannotCreate, IoError
+  /// Function that converts a mesh, read from a file of any format, to a file of this format.
+  /// \throws CannotCreate, IoError
   void (*write)(const FileMesh& mesh, LengthUnit unit, const std::filesystem::path& file);
 };
 

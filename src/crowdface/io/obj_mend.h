@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// A repaired OBJ text.
 struct MendedObj {
-  std::string text;
+  std::string text;                ///< the whole text after the repairs
   std::vector<std::string> notes;  ///< changes, one sentence each
 };
 

@@ -37,7 +37,7 @@ class PlainObjTemplate {
 
  private:
   Index vertex_count_;
-  Normals normals_;
+  Normals normals_;  ///< whether files have normals
   /// the lines of texture coordinates and polygons, the same in all files
   std::string shared_text_;
 };

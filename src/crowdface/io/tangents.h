@@ -26,13 +26,14 @@ class Tangents {
   /// \param uvs    #T by 2, v upwards as in OBJ.
   Tangents(const SplitVertices& split, const TextureCoordinates& uvs);
 
-  /// Writes four numbers per split vertex: the unit tangent and its sign, as in glTF's attribute
-  /// TANGENT. The sign is −1 where the texture coordinates are mirrored, else 1.
+  /// Writes four numbers per split vertex, as in glTF's attribute TANGENT: the three components of
+  /// the unit tangent, and a sign. The sign is −1 where the texture coordinates are mirrored, else 1.
   /// \param positions, normals  #V by 3.
   void write(char* out, const Positions& positions, const Positions& normals) const;
 
   /// Number of split vertices.
   std::size_t count() const { return vertices_.size(); }
+  /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
 
  private:
