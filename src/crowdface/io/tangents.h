@@ -27,7 +27,7 @@ class Tangents {
   Tangents(const SplitVertices& split, const TextureCoordinates& uvs);
 
   /// Writes four numbers per split vertex, as in glTF's attribute TANGENT: the three components of
-  /// the unit tangent, and a sign. The sign is −1 where the texture coordinates are mirrored, else 1.
+  /// the unit tangent, and a sign: −1 where the texture coordinates are mirrored, else 1.
   /// \param positions, normals  #V by 3.
   void write(char* out, const Positions& positions, const Positions& normals) const;
 

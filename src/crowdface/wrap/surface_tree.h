@@ -16,8 +16,8 @@ namespace crowdface {
 struct SurfaceHit {
   std::uint32_t triangle = kNoIndex;       ///< kNoIndex: nothing found
   std::array<double, 3> barycentric = {};  ///< barycentric coordinates, not negative, with sum 1
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double distance = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the point on the mesh
+  double distance = 0;                              ///< distance from the query point
 };
 
 /// The point of a triangle closest to `point` (Ericson 2005, "Real-Time Collision Detection",
@@ -48,6 +48,8 @@ class SurfaceTree {
   /// Returns the closest point of one triangle, or no hit if the point is farther than `reach`.
   SurfaceHit hit_on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point,
                              double reach) const;
+  /// The closest point on the triangles for which `accept` returns true, if it is closer than
+  /// `start`; otherwise `start`.
   template <class Accept>
   SurfaceHit search(const Eigen::Vector3d& point, const SurfaceHit& start,
                     const Accept& accept) const;
@@ -57,7 +59,7 @@ class SurfaceTree {
   /// for each triangle, the mean of its corners' normals
   std::vector<Eigen::Vector3d> mean_normals_;
   MedianSplitTree tree_;                    ///< over the triangles with nonzero area
-  std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< bounding box of each node of `tree_`
 };
 
 }  // namespace crowdface
