@@ -19,7 +19,7 @@ namespace {
 using namespace gltf;
 using GltfJson = GltfFile::Json;
 
-/// Largest absolute value that the matrix of a node may contain; as a translation, 1000 km.
+/// Largest absolute value that the matrix of a node may contain; for a translation, 1000 km.
 constexpr double kMaxMatrixEntry = 1e6;
 /// The reader may read at most this many numbers for each byte of the file's buffers.
 constexpr std::size_t kMaxNumbersPerByte = 4;

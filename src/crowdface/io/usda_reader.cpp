@@ -34,9 +34,9 @@ struct PrimProperty {
 
 struct Prim {
   std::string_view type, name;
-  std::string path;  ///< such as "/head/skin"
+  std::string path;  ///< path of the prim, such as "/head/skin"
   std::map<std::string, PrimProperty, std::less<>> properties;
-  std::string colours;  ///< name of the primvar
+  std::string colours;  ///< name of the primvar that holds vertex colours
   /// names of the primvars of texture coordinates by their rank (see rank_of_uvs)
   std::multimap<int, std::string> uvs;
   std::vector<Prim> subsets, shaders;
@@ -74,9 +74,9 @@ int rank_of_uvs(std::string_view type, std::string_view primvar) {
   return type.starts_with("texCoord") ? 2 : 3;
 }
 
-/// Number of numbers per value if a primvar of this type and name may be texture coordinates;
-/// otherwise 0. Vectors of three numbers are texture coordinates only if the type or the usual names
-/// say so.
+/// The size of a value (2 or 3 numbers) if a primvar of this type and name may be texture
+/// coordinates; otherwise 0. Values of three numbers are texture coordinates only if the type or a
+/// usual name says so.
 std::size_t uv_width(std::string_view type, std::string_view primvar) {
   for (const std::string_view start : {"texCoord", "float", "double", "half"}) {
     if (!type.starts_with(start)) continue;
