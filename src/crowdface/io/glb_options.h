@@ -16,15 +16,15 @@ namespace crowdface {
 /// A glTF material: base colour, and the images that it uses, as indices of the file's images
 /// (`GlbOptions::images`; for a `GlbPart`, the images of the part).
 struct GlbMaterial {
-  std::string name;                            ///< may be empty
+  std::string name;                            ///< name of the material; may be empty
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
   /// Index of the base colour image. Viewers multiply the image's colours by `colour`.
   std::optional<std::size_t> image = {};
   /// How the alpha channel of the base colour image acts (glTF's alphaMode).
   enum class Alpha {
     kOpaque,
-    kMask,   ///< each texel is visible or invisible
-    kBlend,  ///< alpha is the opacity
+    kMask,   ///< alpha makes each texel either visible or invisible
+    kBlend,  ///< alpha is the opacity of each texel
   };
   /// Nothing: kBlend if the opacity in `colour` is below 1, otherwise kOpaque.
   std::optional<Alpha> alpha = {};

@@ -76,7 +76,8 @@ class GlbPart {
   std::vector<GlbSkinAttribute> skin_attributes_;  ///< no elements if the mesh is not skinned
   std::vector<std::string> targets_;               ///< names of the morph targets
   GivenNormals given_normals_;  ///< replace the computed normals of some vertices
-  std::string shared_data_;     ///< texture coordinates, influences, triangles, images
+  /// bytes that are the same for all faces: texture coordinates, influences, triangles, images
+  std::string shared_data_;
 };
 
 /// A `GlbPart` and its positions for one face.

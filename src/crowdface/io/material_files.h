@@ -27,8 +27,8 @@ struct MaterialFile {
 /// The colour, opacity and maps of a material, as its material file describes them.
 struct SurfaceMaterial {
   std::string name;
-  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear, from 0 to 1
-  float opacity = 1;                                ///< `d`, or 1 − `Tr`
+  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`: linear RGB, each from 0 to 1
+  float opacity = 1;                                ///< from the statement `d`, or 1 − `Tr`
   std::filesystem::path colour_map = {};            ///< the file of `map_Kd`; empty: there is none
   std::filesystem::path opacity_map = {};           ///< the file of `map_d`; empty: there is none
 };

@@ -27,7 +27,7 @@ bool is_vertex(std::string_view line) {
 /// A part of a model from ZBrush, with the `#MRGB` colours of its vertices.
 struct Subtool {
   std::size_t vertex_count = 0;
-  std::vector<std::uint8_t> colours;  ///< three per vertex; empty without colours
+  std::vector<std::uint8_t> colours;  ///< three bytes per vertex; empty: the part has no colours
 };
 
 /// Appends the colours of an `#MRGB` line. Returns false if the line is wrong.

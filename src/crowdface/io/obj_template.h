@@ -63,7 +63,7 @@ class ObjTemplate {
     /// offset in the text at which the block starts: the end of the preceding block
     std::uint64_t begin = 0;
     std::uint64_t end = 0;            ///< offset in the text at which the block ends
-    std::uint64_t output_offset = 0;  ///< where the block's output starts in the output buffer
+    std::uint64_t output_offset = 0;  ///< offset in the output buffer at which the block starts
     std::vector<NumberRange> ranges;  ///< in the order of the text
   };
   /// The new values of the `v` and `vn` lines.

@@ -254,11 +254,12 @@ void RunDeflater::write_block(bool is_last) {
   while (lengths.back() == 0) lengths.pop_back();
   const std::size_t symbols = lengths.size();
   lengths.push_back(1);  // the code of the distance 1, one bit
-  // Write the codes. No code is longer than 15 bits.
+  // Reserve memory. No code is longer than 15 bits, so that two bytes per input byte suffice.
   constexpr std::size_t kMaxHeader = 1024;
   packed_.resize(kMaxHeader + 2 * (kBlockBytes + 1));
   BitWriter writer{packed_.data(), pending_, pending_count_};
   const auto put = [&](std::uint64_t bits, int count) { writer.put(bits, count); };
+  // Write the block's header: the lengths of the codes
   const std::vector<LengthToken> tokens = length_tokens(lengths);
   std::vector<std::uint32_t> token_counts(19, 0);
   for (const LengthToken& token : tokens) ++token_counts[token.symbol];
@@ -276,7 +277,7 @@ void RunDeflater::write_block(bool is_last) {
     const Code& code = token_codes[token.symbol];
     put(code.bits | std::uint64_t{token.extra} << code.length, code.length + token.extra_bits);
   }
-  // Write the bytes
+  // Write the codes of the bytes and runs
   visit_tokens(
       block_, written_,
       [&](std::span<const std::uint8_t> bytes) {

@@ -20,7 +20,7 @@ SplitVertices split_at_mirrored_uvs(const Topology& topology, const TextureCoord
 /// plane of the vertex normal.
 class Tangents {
  public:
-  static constexpr std::size_t kSize = 4 * sizeof(float);  ///< bytes of a tangent
+  static constexpr std::size_t kSize = 4 * sizeof(float);  ///< number of bytes of a tangent
 
   /// \param split  result of split_at_mirrored_uvs.
   /// \param uvs    #T by 2, v upwards as in OBJ.
@@ -39,7 +39,7 @@ class Tangents {
  private:
   /// A triangle with the data that its texture coordinates determine.
   struct UvTriangle {
-    std::array<std::uint32_t, 3> corners;  ///< split vertices
+    std::array<std::uint32_t, 3> corners;  ///< indices of split vertices
     /// The sum of the edges from corner 0 to the corners 1 and 2, weighted by these numbers, is the
     /// direction in which u grows.
     double first_edge_weight, second_edge_weight;

@@ -27,7 +27,7 @@ constexpr std::size_t kLongestStatement = 16;  // words before '='
 
 struct PrimProperty {
   std::vector<double> numbers;
-  std::vector<std::string> texts;  ///< strings and paths
+  std::vector<std::string> texts;  ///< the strings and paths in the value
   std::string interpolation;
   bool is_time_sample = false;  ///< whether the value is the first time sample
 };
@@ -50,7 +50,7 @@ struct Prim {
 /// A Mesh prim and the transform from its axes to the axes of a prim above it, or of the layer.
 struct MeshPrim {
   Eigen::Matrix4d place;
-  bool has_final_place;  ///< whether `place` leads to the layer's axes (see LocalTransform)
+  bool has_final_place;  ///< whether `place` transforms to the layer's axes
   Prim prim;
   bool is_hidden = false;    ///< whether the prim or a parent is inactive or invisible
   bool is_animated = false;  ///< whether the prim or a parent has a property without default value
@@ -148,10 +148,10 @@ struct UvSource {
   auto operator<=>(const UvSource&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The transform that a prim's xformOpOrder describes.
+/// The transform from a prim's axes that its xformOpOrder describes.
 struct LocalTransform {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  bool ignores_parents = false;  ///< whether the matrix leads to the layer's axes
+  bool ignores_parents = false;  ///< true: to the layer's axes; false: to the parent's axes
 };
 
 LocalTransform local_transform(const Prim& prim) {

@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// A point on a triangle mesh.
 struct SurfaceHit {
-  std::uint32_t triangle = kNoIndex;       ///< kNoIndex: nothing found
+  std::uint32_t triangle = kNoIndex;       ///< index of the triangle; kNoIndex: nothing found
   std::array<double, 3> barycentric = {};  ///< barycentric coordinates, not negative, with sum 1
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the point on the mesh
   double distance = 0;                              ///< distance from the query point
