@@ -39,8 +39,8 @@ struct FeatureCheck {
 struct WrapResult {
   Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
   Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
-  std::vector<LandmarkResidual> landmarks;
-  std::vector<FeatureCheck> features;  ///< set by `wrap_checked` only
+  std::vector<LandmarkResidual> landmarks;  ///< the residuals of all landmarks used
+  std::vector<FeatureCheck> features;       ///< set by `wrap_checked` only
   /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
   /// without them agrees better.
   std::vector<std::string> dropped_landmarks;
