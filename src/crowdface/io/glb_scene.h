@@ -85,6 +85,7 @@ class GlbBuffer {
                            std::size_t offset = 0);
 
   /// Adds an attribute of `count` vertices in a buffer view of its own.
+  /// \param component, type  as for `add_accessor`.
   /// \return index of the new accessor.
   std::size_t add_attribute(int component, const char* type, std::size_t count);
 

@@ -18,8 +18,8 @@
 namespace crowdface {
 
 /// Writes copies of an OBJ file with other positions. A copy differs from the file only in the
-/// numbers of the `v` and `vn` lines. The object is built once per target file. It needs 16 bytes
-/// per `v` or `vn` line in addition to the text.
+/// numbers of the `v` and `vn` lines. The object is built once per target file. In addition to the
+/// text, the object needs 16 bytes per `v` or `vn` line.
 class ObjTemplate {
  public:
   /// \param target  the file to copy. Only its mapped text must outlive this object and the encoded

@@ -30,12 +30,12 @@ class ScanSurface {
     bool is_on_boundary = false;        ///< whether the point lies on the scan's boundary
     std::uint32_t triangle = kNoIndex;  ///< index of the scan's triangle; kNoIndex: none in reach
   };
-  /// The closest point whose normal has a cosine of at least `min_cosine` with the unit vector
-  /// `facing`.
+  /// The closest point within the distance `reach` whose normal has a cosine of at least
+  /// `min_cosine` with the unit vector `facing`.
   /// \param guess  a triangle that is probably the closest, or kNoIndex.
   ClosestPoint nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                        double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
-  /// The closest point regardless of the surface normal.
+  /// The closest point within the distance `reach`, regardless of the surface normal.
   ClosestPoint nearest(const Eigen::Vector3d& point, double reach,
                        std::uint32_t guess = kNoIndex) const;
 

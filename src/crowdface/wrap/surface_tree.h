@@ -32,15 +32,15 @@ class SurfaceTree {
   /// \param positions, triangles  must outlive the tree; triangles without area are left out.
   SurfaceTree(const Positions& positions, const std::vector<Triangle>& triangles);
 
-  /// The closest point within `reach`; of equally close points, the point on the triangle with the
-  /// smallest index.
+  /// The closest point within the distance `reach`. Of equally close points, returns the point on
+  /// the triangle with the smallest index.
   /// \param guess  a triangle that is probably the closest, or kNoIndex. A good guess makes the
   /// search much faster.
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
                      std::uint32_t guess = kNoIndex) const;
-  /// The closest point among triangles whose normal has a cosine of at least `min_cosine` with the
-  /// unit vector `facing`. Here, a triangle's normal is the mean of the vertex normals at its
-  /// corners, so that noise and sharp edges have less influence.
+  /// The closest point within `reach` on the triangles whose normal has a cosine of at least
+  /// `min_cosine` with the unit vector `facing`. Here, a triangle's normal is the mean of the vertex
+  /// normals at its corners, so that noise and sharp edges have less influence.
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                             double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
 
