@@ -33,8 +33,8 @@ class UsdaMesh {
     /// for each polygon, the index of its material in `materials`; empty: all polygons use the
     /// first material
     std::vector<std::uint32_t> polygon_materials = {};
-    /// Blend shapes, each with the vertices that it moves. If the vertices of a blend shape differ
-    /// from face to face, its list here is empty.
+    /// The blend shapes. If the vertices that a blend shape moves differ from face to face,
+    /// `GlbMorphTarget::vertices` is empty.
     std::vector<GlbMorphTarget> targets = {};
     std::string extra_prim_lines = {};  ///< text lines that are added to the prim
   };

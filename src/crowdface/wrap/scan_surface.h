@@ -47,7 +47,7 @@ class ScanSurface {
   const std::vector<bool>& is_boundary_vertex() const { return is_boundary_vertex_; }
 
  private:
-  /// Adds the normal, and whether the point lies on the scan's boundary.
+  /// Adds the surface normal to a hit, and whether the hit lies on the scan's boundary.
   ClosestPoint closest_point_of(const SurfaceHit& hit) const;
 
   Scan scan_;                             ///< without small loose components

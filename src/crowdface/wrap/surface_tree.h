@@ -39,8 +39,8 @@ class SurfaceTree {
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
                      std::uint32_t guess = kNoIndex) const;
   /// The closest point within `reach` on the triangles whose normal has a cosine of at least
-  /// `min_cosine` with the unit vector `facing`. Here, a triangle's normal is the mean of the vertex
-  /// normals at its corners, so that noise and sharp edges have less influence.
+  /// `min_cosine` with the unit vector `facing`. Here, a triangle's normal is the mean of the
+  /// vertex normals at its corners, so that noise and sharp edges have less influence.
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                             double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
 
