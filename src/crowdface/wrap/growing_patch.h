@@ -50,9 +50,11 @@ class PatchMender {
   /// vertices or to about 15 mm, measured in these positions.
   PatchMender(const SkinMesh& skin, const Positions& rest_positions);
 
-  /// For each bad triangle, finds the smallest surrounding patch on which the operation reduces the
-  /// number of bad triangles, and applies the operation there. If there is no such patch, the
-  /// triangle stays unchanged.
+  /// For each bad triangle, finds the smallest surrounding patch on which `change` reduces the
+  /// number of bad triangles, and applies `change` there. If there is no such patch, the triangle
+  /// stays unchanged.
+  /// \param triangles  indices of the triangles that may be bad.
+  /// \param is_bad  whether a triangle needs repair.
   void mend(std::span<const std::uint32_t> triangles,
             const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 
