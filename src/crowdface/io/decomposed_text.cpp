@@ -15,7 +15,7 @@ struct CombiningMark {
   std::string_view mark, letters, composed;
 };
 
-// From UnicodeData.txt, without the letters of few languages.
+// From UnicodeData.txt, without letters that only few languages use.
 constexpr CombiningMark kMarks[] = {
     {"\u0300", "AEIOUaeiouЕИеиÂâĂăÊêÔôƠơƯưYy", "ÀÈÌÒÙàèìòùЀЍѐѝẦầẰằỀềỒồỜờỪừỲỳ"},
     {"\u0301", "AEIOUYaeiouyCcLlNnRrSsZzΑΕΗΙΟΥΩϊαεηιϋουωГКгкÂâĂăÊêÔôƠơƯư",
@@ -47,7 +47,8 @@ std::string_view take_character(std::string_view& text) {
   return character;
 }
 
-/// The letter and the mark of each composed letter of kMarks. The letter may be composed, too.
+/// Maps each composed letter of kMarks to its decomposition: a letter, which may be composed, too,
+/// followed by a mark.
 const std::map<std::string_view, std::string>& pairs_by_composed_letter() {
   static const auto pairs = [] {
     std::map<std::string_view, std::string> result;

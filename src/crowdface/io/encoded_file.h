@@ -32,15 +32,15 @@ class EncodedFile {
   /// them with `add_without_copy`.
   char* reserve(std::size_t capacity);
 
-  /// Replaces the first line that begins with `word` and a blank by `line`. Removes all later lines
-  /// that begin with `word` and a blank.
+  /// Finds the lines that begin with `word` and a blank. Puts `line` in place of the first of these
+  /// lines, and removes the others.
   /// \return whether a line was replaced.
   bool replace_line(std::string_view word, std::string_view line);
 
-  std::uint64_t size() const { return size_; }
+  std::uint64_t size() const { return size_; }  ///< length of the content in bytes
   /// Number of bytes that this object owns; referenced bytes do not count.
   std::size_t memory_bytes() const { return memory_bytes_; }
-  /// `hash_bytes` of the whole content.
+  /// The hash of the whole content, as `hash_bytes` computes it.
   Digest digest() const;
   /// All byte ranges in order, for `write_files`.
   const std::vector<std::string_view>& pieces() const { return pieces_; }
@@ -52,10 +52,10 @@ class EncodedFile {
   void write(const std::filesystem::path& path) const;
 
  private:
-  std::vector<std::shared_ptr<const void>> owners_;
-  std::vector<std::string_view> pieces_;
-  std::uint64_t size_ = 0;
-  std::size_t memory_bytes_ = 0;
+  std::vector<std::shared_ptr<const void>> owners_;  ///< owners of the bytes in `pieces_`
+  std::vector<std::string_view> pieces_;             ///< the content: byte ranges in order
+  std::uint64_t size_ = 0;                           ///< length of the content in bytes
+  std::size_t memory_bytes_ = 0;                     ///< number of bytes that this object owns
 };
 
 }  // namespace crowdface

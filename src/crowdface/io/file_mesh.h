@@ -35,7 +35,7 @@ struct FileMesh : Mesh {
   /// ids.
   std::vector<std::uint32_t> vertex_ids;
   std::vector<MeshTexture> textures;  ///< textures of the materials
-  /// Base colours of materials in linear light, for formats without material files.
+  /// Base colours in linear light, by name of the material, for formats without material files.
   std::map<std::string, std::array<float, 3>> material_colours;
   /// Material files that an OBJ file names. Empty for other formats, which list their textures in
   /// `textures`.
@@ -65,9 +65,11 @@ inline std::string shapes_note(std::size_t count, std::string_view kind) {
 /// \return whether any vertices were merged.
 bool join_split_vertices(FileMesh& mesh);
 
-/// Parses a PLY or STL file.
+/// Parses a PLY file.
 /// \param name  name of the file, for messages.
 FileMesh parse_ply(std::string_view bytes, const std::string& name);
+/// Parses an STL file.
+/// \param name  name of the file, for messages.
 FileMesh parse_stl(std::string_view bytes, const std::string& name);
 /// Parses glTF 2.0 (GLB or JSON text): the triangles of all nodes of the scene, with each node's
 /// transform applied.

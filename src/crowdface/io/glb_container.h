@@ -12,16 +12,19 @@ namespace crowdface {
 /// The binary glTF 2.0 container: a header, a JSON chunk and a chunk with the buffer.
 namespace glb {
 inline constexpr std::uint32_t kMagic = 0x46546c67, kContainerVersion = 2;  // "glTF"
+/// Type codes of the chunks: "JSON" and "BIN".
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-inline constexpr std::size_t kFileHeaderSize = 12, kChunkHeaderSize = 8;
+inline constexpr std::size_t kFileHeaderSize = 12, kChunkHeaderSize = 8;  ///< bytes
 /// Number of bytes of all headers: the file header and the headers of both chunks.
 inline constexpr std::size_t kBinaryHeaderSize = kFileHeaderSize + 2 * kChunkHeaderSize;
 }  // namespace glb
 
 /// Constants of the glTF 2.0 specification.
 namespace gltf {
+/// Codes of the component types of accessors.
 inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123;
-inline constexpr int kUnsignedInt = 5125, kFloat = 5126;
+inline constexpr int kUnsignedInt = 5125, kFloat = 5126;  ///< further component types
+/// Targets of buffer views: vertex attributes, and vertex indices.
 inline constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 }  // namespace gltf
 

@@ -13,17 +13,18 @@
 
 namespace crowdface {
 
-/// A glTF material: base colour, and indices of the images that it uses.
+/// A glTF material: base colour, and the images that it uses, as indices of the file's images
+/// (`GlbOptions::images`; for a `GlbPart`, the images of the part).
 struct GlbMaterial {
-  std::string name;                            ///< may be empty
+  std::string name;                            ///< name of the material; may be empty
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
   /// Index of the base colour image. Viewers multiply the image's colours by `colour`.
   std::optional<std::size_t> image = {};
   /// How the alpha channel of the base colour image acts (glTF's alphaMode).
   enum class Alpha {
     kOpaque,
-    kMask,   ///< each texel is visible or invisible
-    kBlend,  ///< alpha is the opacity
+    kMask,   ///< alpha makes each texel either visible or invisible
+    kBlend,  ///< alpha is the opacity of each texel
   };
   /// Nothing: kBlend if the opacity in `colour` is below 1, otherwise kOpaque.
   std::optional<Alpha> alpha = {};
@@ -35,12 +36,12 @@ struct GlbMaterial {
 };
 
 /// An image, such as an iris, that materials with `uses_overlay` show instead of their own colour.
-/// The image is the same in all files and has its own texture coordinates. Files that do not embed
-/// images name the image file `kFile`.
+/// The image is the same in all files and has its own texture coordinates.
 struct GlbOverlay {
+  /// Path of the image below `GlbOptions::shared_folder`, for files that do not embed images.
   static constexpr const char* kFile = "topology/iris.png";
 
-  std::string png;
+  std::string png;  ///< content of the PNG file
   /// one pair of texture coordinates per vertex, from 0 (left, upper edge) to 65535 (right, lower
   /// edge)
   std::vector<std::array<std::uint16_t, 2>> uvs;
@@ -69,7 +70,7 @@ struct GlbOptions {
   bool has_colours = false;  ///< whether each file has its own vertex colours
   /// for each polygon, the index of its material in `materials`; empty if there are no materials
   std::vector<std::uint32_t> polygon_materials;
-  std::vector<GlbMorphTarget> targets;
+  std::vector<GlbMorphTarget> targets;  ///< the morph targets of the face's mesh
   /// Names of the points. Each point is an empty child node of the face's node. The positions of
   /// the points differ from face to face.
   std::vector<std::string> point_names;

@@ -17,7 +17,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace gltf;
 
-/// \param moves  for each target, displacements of the part's vertices.
+/// Adds the accessors and buffer views of the morph targets.
+/// \param moves  for each morph target, displacements of the part's vertices.
+/// \param split  for each split vertex, its original vertex.
 void add_targets(std::span<const Displacements> moves, std::span<const std::uint32_t> split,
                  Index vertex_count, Json& scene, GlbBuffer& buffer) {
   for (const Displacements& target : moves) {

@@ -20,8 +20,8 @@ namespace crowdface {
 
 /// An image embedded in the file.
 struct GlbImage {
-  std::string bytes;
-  std::string type;  ///< "image/png" or "image/jpeg"
+  std::string bytes;  ///< content of the image file
+  std::string type;   ///< "image/png" or "image/jpeg"
   std::string name = {};
 };
 
@@ -31,13 +31,13 @@ struct GlbImage {
 class GlbPart {
  public:
   /// \param uvs  #T by 2, v upwards as in OBJ; may be empty.
-  /// \param materials  at least one. An `image` is an index of the part's images; if it equals
-  ///                   their number, the material uses `PartLook::image`.
+  /// \param materials  at least one. `GlbMaterial::image` is an index into `images`; if the index
+  ///                   equals the number of `images`, the material uses `PartLook::image`.
   /// \param polygon_materials  for each polygon, the index of its material in `materials`.
   /// \param influences  for each vertex, the weights of the rig's joints; empty if the mesh is not
   ///                    skinned.
   /// \param targets  names of the morph targets.
-  /// \param fixed  vertices whose normals are given and not computed from the mesh.
+  /// \param fixed  normals that replace the computed normals of some vertices.
   GlbPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
           const std::vector<GlbMaterial>& materials,
           const std::vector<std::uint32_t>& polygon_materials, const std::vector<GlbImage>& images,
@@ -65,24 +65,25 @@ class GlbPart {
  private:
   std::string name_;
   Topology topology_;
-  NormalFans fans_;
+  NormalFans fans_;                             ///< the polygons around each vertex, for its normal
   std::vector<std::uint32_t> source_vertices_;  ///< original vertex of each split vertex
   bool has_uvs_;
   std::vector<std::size_t> index_counts_;  ///< for each material, its number of vertex indices
   std::vector<GlbMaterial> materials_;
-  std::vector<std::size_t> image_sizes_;
+  std::vector<std::size_t> image_sizes_;  ///< number of bytes of each image file
   // The `bytes` of the images and of the skin attributes are empty; `shared_data_` has the data.
   std::vector<GlbImage> images_;
   std::vector<GlbSkinAttribute> skin_attributes_;  ///< no elements if the mesh is not skinned
   std::vector<std::string> targets_;               ///< names of the morph targets
-  GivenNormals given_normals_;
-  std::string shared_data_;  ///< texture coordinates, influences, triangles, images
+  GivenNormals given_normals_;  ///< replace the computed normals of some vertices
+  /// bytes that are the same for all faces: texture coordinates, influences, triangles, images
+  std::string shared_data_;
 };
 
 /// A `GlbPart` and its positions for one face.
 struct PlacedGlbPart {
   const GlbPart* part;
-  const Positions* positions;
+  const Positions* positions;                 ///< #V by 3, of the part
   std::span<const Displacements> moves = {};  ///< one item per morph target
   PartLook look = {};
 };

@@ -20,7 +20,7 @@ namespace crowdface {
 
 /// A JSON array of the vector's components, rounded to single precision.
 nlohmann::ordered_json vector_json(const Eigen::RowVector3d& vector);
-/// Sets the minimum and maximum of positions.
+/// Sets the properties `min` and `max` of an accessor of positions.
 void set_bounds(nlohmann::ordered_json& accessor, const Positions& positions);
 
 /// The glTF description of a material.
@@ -37,7 +37,7 @@ nlohmann::ordered_json root_node_json(const GlbOptions& options);
 void add_image(nlohmann::ordered_json& scene, std::size_t view, const std::string& name,
                const std::string& type);
 
-/// The triangles of one material, in the order of the polygons.
+/// The triangles of one material, in the order of the polygons, as indices of split vertices.
 using GlbTriangles = std::vector<std::array<std::uint32_t, 3>>;
 /// Groups the triangles by material.
 /// \param polygon_materials  for each polygon, the index of its material; empty: all zero
@@ -51,8 +51,10 @@ std::vector<GlbTriangles> triangles_by_material(const SplitVertices& split,
 void set_morph_targets(nlohmann::ordered_json& mesh, std::size_t first,
                        const std::vector<std::string>& names);
 
-/// Writes one vector per split vertex: first each row, then for each copied vertex the row of its
-/// original vertex.
+/// Writes one vector per split vertex (see `SplitVertices`) in binary: all rows of `rows`, and then
+/// the rows of the vertices that were copied at seams, one row per copy.
+/// \param rows  #V by 3, one vector per original vertex.
+/// \param copied_vertices  for each copy, its original vertex.
 void put_vectors(char* out, const Positions& rows, std::span<const std::uint32_t> copied_vertices);
 
 /// Adds the buffer views and accessors of arrays to a glTF scene. The bytes of the arrays are
@@ -62,7 +64,7 @@ class GlbBuffer {
   /// \param size  number of bytes that the buffer already has.
   GlbBuffer(nlohmann::ordered_json& scene, std::size_t size) : scene_(scene), size_(size) {}
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return size_; }  ///< number of bytes in the buffer so far
 
   /// Adds a buffer view of `size` bytes at the end of the buffer.
   /// \param target  gltf::kArrayBuffer, gltf::kElementArrayBuffer, or 0 for other data.
@@ -83,6 +85,7 @@ class GlbBuffer {
                            std::size_t offset = 0);
 
   /// Adds an attribute of `count` vertices in a buffer view of its own.
+  /// \param component, type  as for `add_accessor`.
   /// \return index of the new accessor.
   std::size_t add_attribute(int component, const char* type, std::size_t count);
 
@@ -109,7 +112,7 @@ class GlbBuffer {
 
  private:
   nlohmann::ordered_json& scene_;
-  std::size_t size_;
+  std::size_t size_;  ///< number of bytes in the buffer so far
 };
 
 /// The texture coordinates of all split vertices, in the binary form of the buffer: two numbers for

@@ -40,7 +40,7 @@ struct GlbSkin {
 struct GlbSkinAttribute {
   std::string name;    ///< JOINTS_n or WEIGHTS_n
   int component_type;  ///< the code that glTF has for the type, such as gltf::kFloat
-  std::string bytes;   ///< data for all vertices
+  std::string bytes;   ///< values of all vertices, encoded as in the file
 };
 /// Builds pairs of the attributes JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex.
 /// The vertex with the most influences determines the number of pairs.

@@ -243,9 +243,8 @@ EncodedFile GlbTemplate::encode(const Positions& positions, const Positions& nor
 
   const std::size_t total = kBinaryHeaderSize + json.size() + binary_size;
   if (total > std::numeric_limits<std::uint32_t>::max()) {
-    throw InvalidInput(concat(name, ": a GLB file of ", total,
-                              " bytes cannot be; expected at most ",
-                              std::numeric_limits<std::uint32_t>::max()));
+    throw InvalidInput(concat(name, ": expected a GLB file of at most ",
+                              std::numeric_limits<std::uint32_t>::max(), " bytes, found ", total));
   }
   std::string head;
   for (const auto number : {kMagic, kContainerVersion, static_cast<std::uint32_t>(total),

@@ -68,9 +68,9 @@ class GlbTemplate {
   }
 
   Index vertex_count_;
-  bool has_colours_;
-  std::size_t image_count_;
-  Index point_count_;
+  bool has_colours_;         ///< whether files have vertex colours
+  std::size_t image_count_;  ///< number of `GlbOptions::images`
+  Index point_count_;        ///< number of `GlbOptions::point_names`
   /// The original vertex of each split vertex with an index ≥ #V.
   std::vector<std::uint32_t> copied_vertices_;
   std::optional<Tangents> tangents_;   ///< set if a material has a normal map

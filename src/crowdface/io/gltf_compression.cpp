@@ -10,8 +10,8 @@ namespace crowdface {
 
 std::optional<std::string> decode_meshopt(std::string_view bytes, const MeshoptView& view) {
   constexpr std::size_t kMaxStride = 256;
-  // The codec's largest compression ratio, and the number of bytes allowed in addition for the end
-  // of the data
+  // Upper bound of the decoded size: kMaxRatio (the codec's largest compression ratio) times the
+  // size of the data, plus kTailBytes for the end of the data.
   constexpr std::size_t kMaxRatio = 256, kTailBytes = 4096;
   const bool attributes = view.mode == "ATTRIBUTES";
   const bool sound = view.stride > 0 && view.stride <= kMaxStride && view.count > 0 &&

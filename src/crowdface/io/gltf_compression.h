@@ -12,7 +12,7 @@ namespace crowdface {
 /// Parameters of a buffer view compressed with EXT_meshopt_compression.
 struct MeshoptView {
   std::size_t count = 0, stride = 0;  ///< number of elements; bytes per element
-  std::string mode, filter;           ///< as in the extension: "TRIANGLES"; "OCTAHEDRAL"
+  std::string mode, filter;  ///< values of the extension, such as "TRIANGLES" and "OCTAHEDRAL"
 };
 /// Decompresses a meshopt buffer view.
 /// \return nothing if the data is damaged, or if the data is too short to expand to the size that
@@ -28,8 +28,8 @@ struct DracoMesh {
 };
 /// A vertex attribute to decode.
 struct DracoAttribute {
-  std::uint32_t id = 0;  ///< Draco's unique id of the attribute
-  std::size_t component_count = 0;
+  std::uint32_t id = 0;             ///< Draco's unique id of the attribute
+  std::size_t component_count = 0;  ///< numbers per vertex
 };
 /// Decompresses a Draco mesh.
 /// \return nothing if the bytes are damaged, an attribute is missing, or the mesh exceeds

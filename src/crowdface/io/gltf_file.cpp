@@ -19,7 +19,7 @@ namespace {
 using namespace gltf;
 using GltfJson = GltfFile::Json;
 
-/// Largest absolute value that the matrix of a node may contain; as a translation, 1000 km.
+/// Largest absolute value that the matrix of a node may contain; for a translation, 1000 km.
 constexpr double kMaxMatrixEntry = 1e6;
 /// The reader may read at most this many numbers for each byte of the file's buffers.
 constexpr std::size_t kMaxNumbersPerByte = 4;
@@ -178,7 +178,7 @@ std::string_view GltfFile::view(std::size_t number) {
     const auto begin = of.value("byteOffset", std::size_t{0});
     const auto length = of.at("byteLength").get<std::size_t>();
     if (begin > all.size() || length > all.size() - begin) {
-      fail(concat("its view ", number, " reaches beyond its data"));
+      fail(concat("its buffer view ", number, " reaches beyond the end of its buffer"));
     }
     return all.substr(begin, length);
   };
@@ -193,7 +193,7 @@ std::string_view GltfFile::view(std::size_t number) {
          packed.value("mode", std::string()), packed.value("filter", std::string())});
     if (!bytes) {
       fail(concat(
-          "it is compressed with ", name, ", and its view ", number,
+          "it is compressed with ", name, ", and its buffer view ", number,
           " cannot be unpacked; gltf-transform copy in.glb out.glb writes it without compression"));
     }
     known->second = std::move(*bytes);
@@ -223,7 +223,7 @@ std::vector<double> GltfFile::read_rows(std::size_t view_index, std::size_t byte
   if (byte_offset > bytes.size() || stride < size * width ||
       count > (bytes.size() - byte_offset) / stride + 1 ||
       (count > 0 && (count - 1) * stride + size * width > bytes.size() - byte_offset)) {
-    fail(concat("accessor ", accessor, " reaches beyond its data"));
+    fail(concat("its accessor ", accessor, " reaches beyond the end of its buffer view"));
   }
   reserve_numbers(count * width);
   std::vector<double> numbers;

@@ -14,11 +14,11 @@
 
 namespace crowdface {
 
-/// The joints and weights of the vertices of a skinned mesh: for each pair of attributes JOINTS_n
-/// and WEIGHTS_n, four numbers per vertex.
+/// The joints and weights of the vertices of a skinned mesh. For each pair of attributes JOINTS_n
+/// and WEIGHTS_n, both lists have an element with four numbers per vertex.
 struct GltfSkinWeights {
-  std::vector<std::vector<std::uint32_t>> joints;
-  std::vector<std::vector<double>> weights;
+  std::vector<std::vector<std::uint32_t>> joints;  ///< indices into the skin's list of joints
+  std::vector<std::vector<double>> weights;        ///< weights of these joints
 };
 
 /// A glTF 2.0 scene and its buffers. Error messages name the file.
@@ -31,6 +31,7 @@ class GltfFile {
   /// \throws InvalidInput
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
+  /// The JSON of the file.
   const Json& scene() const { return scene_; }
   /// Throws InvalidInput with the name of the file and `what`.
   [[noreturn]] void fail(const std::string& what) const;
@@ -72,10 +73,11 @@ class GltfFile {
   /// \param accessor  index of the accessor, for messages
   std::vector<double> read_rows(std::size_t view_index, std::size_t byte_offset, int type,
                                 std::size_t count, std::size_t width, std::size_t accessor);
+  /// Subtracts `more` from `remaining_numbers_`; throws InvalidInput if fewer numbers remain.
   void reserve_numbers(std::size_t more);
 
   std::filesystem::path path_;
-  Json scene_;
+  Json scene_;               ///< the JSON of the file
   std::string_view binary_;  ///< the binary chunk of a GLB file; empty for JSON text
   /// contents of the buffers that have a URI and of the compressed buffer views, by index
   std::map<std::size_t, std::string> decoded_buffers_, decoded_views_;

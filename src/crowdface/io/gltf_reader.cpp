@@ -507,8 +507,9 @@ class GltfMeshReader {
   std::vector<double> points_, uvs_, colours_;
   /// GltfFile::joint_transforms for the skin of the current mesh; empty if the mesh has no skin
   std::vector<Eigen::Matrix4d> joint_transforms_;
-  std::vector<double> weights_;     ///< weights of the morph targets of the mesh being read
-  std::size_t unused_targets_ = 0;  ///< most morph targets of weight 0 that a primitive has
+  std::vector<double> weights_;  ///< weights of the morph targets of the mesh being read
+  /// the largest number of morph targets of weight 0 in one primitive
+  std::size_t unused_targets_ = 0;
   std::uint32_t piece_ = 0;
   bool any_colours_ = false, has_ids_ = true;
 };

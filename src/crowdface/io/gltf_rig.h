@@ -15,9 +15,10 @@ namespace crowdface {
 /// The joints and skinned meshes of a glTF 2.0 file in the rest pose, in metres, with +Y up and +Z
 /// to the front.
 struct GltfRig {
+  /// A joint of the skeleton.
   struct Joint {
     std::string name;
-    std::uint32_t parent;            ///< index of the parent joint; kNoIndex: no parent
+    std::uint32_t parent;            ///< index of the parent in `joints`; kNoIndex: no parent
     Eigen::Matrix4d rest_transform;  ///< from the joint's axes to the file's axes
   };
   std::vector<Joint> joints;

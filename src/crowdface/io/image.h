@@ -57,7 +57,7 @@ struct Image {
 
 /// Limits of image size. Larger images are rejected before memory is allocated for pixels.
 struct ImageLimits {
-  int max_side = 16384;  ///< pixels
+  int max_side = 16384;  ///< largest width or height in pixels
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
   /// Whether to accept JPEG; true for colour textures, false for masks.
@@ -90,7 +90,7 @@ struct ImageSize {
   int width = 0;
   int height = 0;
   int channels = 0;
-  // If both members are false, the values are 16-bit integers.
+  // If has_8_bit_values and has_floats are false, the values are 16-bit integers.
   bool has_8_bit_values = false;  ///< whether the values are 8-bit integers
   bool has_floats = false;        ///< whether the values are single-precision numbers
 };

@@ -13,7 +13,7 @@ struct ImageHeader {
   int x = 0, y = 0;                                             ///< origin of the data window
   int full_x = 0, full_y = 0, full_width = 0, full_height = 0;  ///< the display window
   int tile_width = 0, tile_height = 0;                          ///< 0: the image is not tiled
-  int alpha_channel = -1;
+  int alpha_channel = -1;                  ///< index of the alpha channel; −1: none
   std::vector<std::string> channel_names;  ///< #channels for OpenEXR; empty for other formats
   bool is_deep = false;                    ///< several samples per pixel (OpenEXR)
   enum class ValueType { kBytes, kWords, kFloats, kOthers };
@@ -25,7 +25,7 @@ struct ImageHeader {
 
 /// Pixels to be encoded as a file.
 struct ImageToEncode {
-  enum class Form { kPng, kPng16, kJpeg, kExr };
+  enum class Form { kPng, kPng16, kJpeg, kExr };  ///< file format; kPng16 has 16 bits per value
   Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
   /// row-major; floats for OpenEXR, 16-bit numbers for kPng16, otherwise bytes
@@ -38,6 +38,7 @@ struct ImageToEncode {
 struct ImageCodec {
   /// Opens an image and reads its header.
   /// \param format  name of the reader in OpenImageIO.
+  /// \param file  path of the file.
   /// \param bytes  content of the file; must outlive the opened image.
   /// \param header  receives the header.
   /// \return null if the image cannot be opened; `error` gives the reason.
@@ -45,9 +46,13 @@ struct ImageCodec {
                 ImageHeader& header, std::string& error);
   /// Reads all pixels of an open image.
   /// \param pixels  buffer for all pixels, of the type given by `ImageHeader::value_type`.
-  /// \return whether the pixels could be read.
+  /// \param picture  an open image, as `open` returns it.
+  /// \return whether the pixels could be read; if not, `error` gives the reason.
   bool (*read)(void* picture, void* pixels, std::string& error);
+  /// Closes an open image.
   void (*close)(void* picture);
+  /// Encodes an image as a file.
+  /// \return false if encoding failed; `error` gives the reason.
   bool (*encode)(const ImageToEncode& picture, std::string& bytes, std::string& error);
 };
 

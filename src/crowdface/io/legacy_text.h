@@ -17,8 +17,9 @@ std::vector<std::string> legacy_decodings(std::string_view bytes);
 /// UTF-16.
 std::string plain_text(std::string_view bytes);
 
-/// Like plain_text, but also converts text that is not UTF-8: from GBK (GB 18030) or Shift-JIS if
-/// most of its letters beyond ASCII stand beside each other, otherwise from Latin-1 (Windows-1252).
+/// Like plain_text, but also converts text that is not UTF-8. If most bytes beyond ASCII are next
+/// to each other, as in Chinese and Japanese, converts from GBK (GB 18030) or Shift-JIS; otherwise
+/// from Latin-1 (Windows-1252).
 std::string decoded_text(std::string_view bytes);
 
 }  // namespace crowdface

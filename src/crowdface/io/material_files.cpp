@@ -285,7 +285,8 @@ class Collector {
     if (status == NameStatus::kNew) take_texture(relative);
   }
 
-  /// Returns the source of a texture that take_file has accepted; an empty path for any other.
+  /// Returns the source path of a texture that take_file has accepted; an empty path for any other
+  /// texture.
   fs::path copied_file(const fs::path& relative) const {
     fs::path source = (folder_ / relative).lexically_normal();
     const auto copied = destinations_.find(destination_of(relative));
@@ -364,7 +365,7 @@ class Collector {
   /// largest number of searches, each of which lists the folder and its subfolders
   static constexpr int kMaxSearches = 64;
   int searches_ = 0;
-  std::map<fs::path, fs::path> destinations_;  ///< source by destination
+  std::map<fs::path, fs::path> destinations_;  ///< for each destination, its source
   /// Maps the text of a statement to its texture path. Valid only within one material file.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;

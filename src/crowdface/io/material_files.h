@@ -27,8 +27,8 @@ struct MaterialFile {
 /// The colour, opacity and maps of a material, as its material file describes them.
 struct SurfaceMaterial {
   std::string name;
-  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`, linear, from 0 to 1
-  float opacity = 1;                                ///< `d`, or 1 − `Tr`
+  std::optional<std::array<float, 3>> colour = {};  ///< `Kd`: linear RGB, each from 0 to 1
+  float opacity = 1;                                ///< from the statement `d`, or 1 − `Tr`
   std::filesystem::path colour_map = {};            ///< the file of `map_Kd`; empty: there is none
   std::filesystem::path opacity_map = {};           ///< the file of `map_d`; empty: there is none
 };
@@ -67,17 +67,17 @@ bool is_texture_statement(std::string_view word);
 
 /// Finds the material files that a mesh names, and the textures that these files name. A name with
 /// the placeholder `<UDIM>` stands for all existing tiles. Warns about files that are missing or
-/// unreadable, and about more names than `input_limits().textures`. Also warns about files that
-/// crowdface does not copy: files outside the mesh's folder that are no images, and files whose
-/// names crowdface uses for its own files (mesh files, and everything in the folders `topology` and
-/// `blended`). An image outside the mesh's folder is copied under its file name.
+/// unreadable, and if there are more names than `input_limits().textures`. Also warns about files
+/// that crowdface does not copy: files outside the mesh's folder that are not images, and files
+/// whose names crowdface uses for its own files (mesh files, and everything in the folders
+/// `topology` and `blended`). An image outside the mesh's folder is copied under its file name.
 /// \param mesh  path of the OBJ file.
 /// \param libraries  arguments of the `mtllib` lines; each may name several files.
 MaterialFiles find_material_files(const std::filesystem::path& mesh,
                                   const std::vector<std::string>& libraries);
 
-/// Returns the first material in the files with each of these names, or a default material if there
-/// is none.
+/// Returns one material per name: the first material of this name in `files`, or a default material
+/// if there is none.
 std::vector<SurfaceMaterial> surface_materials_of(const std::vector<std::string>& names,
                                                   const MaterialFiles& files);
 

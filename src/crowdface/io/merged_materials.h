@@ -39,7 +39,7 @@ class MergedMaterials {
     std::string arguments;  ///< the line after the first word
     std::string material;   ///< name of the material to which the line belongs
   };
-  std::vector<Line> lines_;
+  std::vector<Line> lines_;  ///< the merged file
 };
 
 }  // namespace crowdface

@@ -16,7 +16,7 @@ bool is_head_file(const std::filesystem::path& path);
 bool is_obj(const std::filesystem::path& path);
 
 /// Converts a mesh to an OBJ file in memory.
-/// \param path  of the source file.
+/// \param path  path of the file from which the mesh was read.
 /// \param library  material file to name in the OBJ text; may be empty.
 /// \throws InvalidInput if the mesh has no polygons or positions are not finite.
 ObjFile convert_to_obj(FileMesh mesh, const std::filesystem::path& path,

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The materials of a mesh that was read from a file.
+/// Options with the materials of a mesh that was read from a file.
 GlbOptions options_of(const FileMesh& mesh, LengthUnit unit) {
   GlbOptions options;
   options.unit = unit;
@@ -33,7 +33,7 @@ GlbOptions options_of(const FileMesh& mesh, LengthUnit unit) {
   return options;
 }
 
-/// Also writes the textures and a material file that names them.
+/// Writes an OBJ file, and beside it the textures and a material file that names the textures.
 void write_obj_mesh(const FileMesh& mesh, LengthUnit, const fs::path& file) {
   const std::string library =
       mesh.textures.empty() ? std::string()

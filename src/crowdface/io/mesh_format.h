@@ -23,32 +23,33 @@ enum class MeshFormat {
   kGlb,     ///< binary glTF 2.0
   kPoints,  ///< only positions, .npy
   kUsd,     ///< a USD text layer, .usda
-  kEnd,     ///< not a format; the number of formats
+  kEnd,     ///< not a format; its value is the number of formats
 };
+/// Number of formats.
 inline constexpr std::size_t kMeshFormatCount = static_cast<std::size_t>(MeshFormat::kEnd);
 
 /// Where a format stores a kind of data: shapes, attachments or textures.
 enum class DataStorage {
   kNowhere,   ///< the format does not store this data
   kInside,    ///< stored in the file of the face
-  kOneFile,   ///< stored together in one additional file of the same format
+  kOneFile,   ///< stored in one additional file of the same format, which holds all such data
   kOwnFiles,  ///< one file for each shape or texture, one OBJ file for each attachment
 };
 
 /// For which meshes an encoder must be given normals.
 enum class FileNormals {
-  kNone,           ///< for no mesh
-  kReducedLevels,  ///< for levels of detail; the encoder computes the normals of full meshes
-  kLikeTarget,     ///< for all meshes if the file of the target head has normals; else for none
-  kAlways,         ///< for all meshes
+  kNone,           ///< no mesh needs normals
+  kReducedLevels,  ///< levels of detail; the encoder computes the normals of full meshes
+  kLikeTarget,     ///< all meshes if the file of the target head has normals; else none
+  kAlways,         ///< all meshes need normals
 };
 
 /// Properties of a format. The program needs them to plan, name, read and check files of the
 /// format.
 struct MeshFormatTraits {
   MeshFormat format;
-  std::string_view name;        ///< name in the config: "points"
-  std::string_view extension;   ///< ".npy"
+  std::string_view name;        ///< name in the config, such as "points"
+  std::string_view extension;   ///< file extension, such as ".npy"
   std::string_view report_key;  ///< key of the face's file in report.json
   /// whether the file stores polygons, without which there are no levels of detail
   bool has_polygons;
@@ -59,7 +60,8 @@ struct MeshFormatTraits {
   /// the vertex order.
   /// \throws InvalidInput if another program wrote the file.
   Positions (*read)(const std::filesystem::path& file, Index vertices);
-  /// Function that writes a mesh that was read from any file. \throws CannotCreate, IoError
+  /// Function that converts a mesh, read from a file of any format, to a file of this format.
+  /// \throws CannotCreate, IoError
   void (*write)(const FileMesh& mesh, LengthUnit unit, const std::filesystem::path& file);
 };
 

@@ -22,7 +22,7 @@ struct NpyArray {
 
 /// Parses an array in NumPy's format (versions 1 to 3, either byte order, C or Fortran order).
 /// Values may be integers of any size, booleans, or floats of 2 to 8 bytes.
-/// \param name  of the file, for messages.
+/// \param name  name of the file, for messages.
 /// \throws InvalidInput.
 NpyArray parse_npy(std::string_view bytes, const std::string& name);
 /// The shape of the array in a file. Nothing if the file cannot be read or has another format.

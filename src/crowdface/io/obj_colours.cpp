@@ -24,10 +24,10 @@ bool is_vertex(std::string_view line) {
   return at != line.npos && line[at] == 'v' && at + 1 < line.size() && is_blank(line[at + 1]);
 }
 
-/// A part of a ZBrush file.
+/// A part of a model from ZBrush, with the `#MRGB` colours of its vertices.
 struct Subtool {
   std::size_t vertex_count = 0;
-  std::vector<std::uint8_t> colours;  ///< three per vertex; empty without colours
+  std::vector<std::uint8_t> colours;  ///< three bytes per vertex; empty: the part has no colours
 };
 
 /// Appends the colours of an `#MRGB` line. Returns false if the line is wrong.

@@ -30,9 +30,8 @@ ColourRows obj_colours(std::string_view text, Eigen::Index vertices);
 /// lines.
 std::string with_colours(std::string_view text, const ColourRows& colours);
 
-/// Moves the colours of `#MRGB` lines to the `v` lines. If a file has several subtools, the colours
-/// belong to the `v` lines of the subtool in which they stand, and vertices of other subtools are
-/// white.
+/// Moves the colours of `#MRGB` lines to the `v` lines. If a file has several subtools (ZBrush's
+/// parts of a model), each subtool has its own colours; a subtool without colours becomes white.
 /// \return the new text; nothing if the number of `#MRGB` colours differs from the number of
 /// vertices, or if fewer than half of the vertices have a colour.
 std::optional<std::string> move_polypaint_to_vertices(std::string_view text);

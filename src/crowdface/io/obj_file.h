@@ -15,18 +15,18 @@ namespace crowdface {
 /// it again with other positions and no other change.
 struct ObjFile {
   std::filesystem::path path;
-  MappedFile file;
+  MappedFile file;         ///< content of the file; if `is_mended`, the repaired text
   Topology topology;       ///< not triangulated; polygons and corners in the order of the file
   Positions positions;     ///< #V by 3, in file units
   TextureCoordinates uvs;  ///< #T by 2
   /// For each corner, the index of its `vn` line, or kNoIndex. Empty if the file has no `vn` lines.
   std::vector<std::uint32_t> corner_normals;
   std::vector<std::string> material_libraries;  ///< arguments of the `mtllib` lines
-  std::vector<MaterialRange> materials;         ///< ascending first_face
+  std::vector<MaterialRange> materials;         ///< materials of the polygons, ascending first_face
   std::vector<MaterialRange> groups;            ///< groups and objects, ascending first_face
   std::vector<std::string> notes;   ///< repairs and ignored statements, one sentence each
-  bool is_mended = false;           ///< whether repairs changed the text
-  bool has_reversed_faces = false;  ///< see with_outward_faces
+  bool is_mended = false;           ///< whether `mend_obj` changed the text
+  bool has_reversed_faces = false;  ///< whether `with_outward_faces` reversed the polygons
   /// A path whose folder contains the material files; the path's file name is ignored. Empty if the
   /// material files are in the folder of `path`.
   std::filesystem::path material_base;

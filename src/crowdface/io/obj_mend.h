@@ -10,8 +10,8 @@ namespace crowdface {
 
 /// A repaired OBJ text.
 struct MendedObj {
-  std::string text;
-  std::vector<std::string> notes;  ///< changes, one sentence each
+  std::string text;                ///< the whole text after the repairs
+  std::vector<std::string> notes;  ///< the repairs, one sentence each
 };
 
 /// Repairs common harmless exporter errors: a byte-order mark, lone CRs, NULs at the end, continued

@@ -11,18 +11,18 @@
 
 namespace crowdface {
 
-/// A range of polygons with the same material. The range ends where the next range begins.
+/// A range of polygons with the same material or group. The range ends where the next range begins.
 struct MaterialRange {
-  std::string name;
-  Index first_face = 0;
+  std::string name;      ///< name of the material or group
+  Index first_face = 0;  ///< index of the range's first polygon
 };
 
 /// Result of the strict check of an OBJ text.
 struct ObjScan {
-  Positions positions;     ///< #V by 3
-  TextureCoordinates uvs;  ///< #T by 2
-  Index face_count = 0;
-  Index corner_count = 0;
+  Positions positions;                          ///< #V by 3
+  TextureCoordinates uvs;                       ///< #T by 2
+  Index face_count = 0;                         ///< number of polygons
+  Index corner_count = 0;                       ///< number of corners of all polygons
   std::vector<std::string> material_libraries;  ///< arguments of the `mtllib` lines
   /// In ascending order of first_face; empty if the text uses no material.
   std::vector<MaterialRange> materials;
@@ -32,6 +32,7 @@ struct ObjScan {
 
 /// Line counts and a hash of an OBJ text, from a fast first pass over the text.
 struct ObjSummary {
+  /// Numbers of `v`, `vt`, `vn` and `f` lines.
   std::uint64_t vertex_count = 0, uv_count = 0, normal_count = 0, face_count = 0;
   /// Hash of the whole text except the numbers of `v` and `vn`, comments, and the names of groups,
   /// objects and materials. Texts with the same hash have the same polygons and texture coordinates

@@ -18,16 +18,16 @@
 namespace crowdface {
 
 /// Writes copies of an OBJ file with other positions. A copy differs from the file only in the
-/// numbers of the `v` and `vn` lines. The object is built once per target file. It needs 16 bytes
-/// per `v` or `vn` line in addition to the text.
+/// numbers of the `v` and `vn` lines. The object is built once per target file. In addition to the
+/// text, the object needs 16 bytes per `v` or `vn` line.
 class ObjTemplate {
  public:
   /// \param target  the file to copy. Only its mapped text must outlive this object and the encoded
   ///                files.
   /// \param topology  the polygons, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  vertices with given normals. A `vn` line gets the given normal of a vertex if no
-  ///               other vertex uses the line.
+  /// \param fixed  normals that replace the computed normals of some vertices, in `vn` lines that
+  ///               only one vertex uses.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const GivenNormals& fixed = {});
 
@@ -53,8 +53,8 @@ class ObjTemplate {
   /// The range of the text that holds the numbers of one `v` or `vn` line. `row` counts the `v`
   /// lines or the `vn` lines from 0.
   struct NumberRange {
-    std::uint64_t begin = 0;
-    std::uint32_t length = 0;
+    std::uint64_t begin = 0;   ///< offset in the text
+    std::uint32_t length = 0;  ///< number of characters
     std::uint32_t row : 31 = 0;
     std::uint32_t is_normal : 1 = 0;
   };
@@ -63,18 +63,21 @@ class ObjTemplate {
     /// offset in the text at which the block starts: the end of the preceding block
     std::uint64_t begin = 0;
     std::uint64_t end = 0;            ///< offset in the text at which the block ends
-    std::uint64_t output_offset = 0;  ///< where the block's output starts in the output buffer
-    std::vector<NumberRange> ranges;
+    std::uint64_t output_offset = 0;  ///< offset in the output buffer at which the block starts
+    std::vector<NumberRange> ranges;  ///< in the order of the text
   };
   /// The new values of the `v` and `vn` lines.
   struct NewValues {
-    const Positions& positions;
-    const Positions& normals;
-    const ColourRows& colours;
+    const Positions& positions;  ///< one row per `v` line
+    const Positions& normals;    ///< one row per `vn` line
+    const ColourRows& colours;   ///< one row per `v` line, or no rows
   };
 
-  /// Finds the `vn` lines that get given normals, and fills in `given_normals_`.
+  /// Sets `given_normals_`. For each `vn` line that only one vertex uses, adds the normal of this
+  /// vertex if `given` contains the vertex.
+  /// \param corner_rows  for each polygon corner, the index of its `vn` line, or kNoIndex.
   void set_given_normals(const std::vector<std::uint32_t>& corner_rows, const GivenNormals& given);
+  /// Appends a block that consists of these ranges and the text between the ranges.
   void add_block(const std::vector<NumberRange>& ranges);
   /// Writes the text of a block with new numbers.
   /// \return the end of the output.
@@ -83,12 +86,12 @@ class ObjTemplate {
   /// \return the end of the output.
   char* encode_range(const NumberRange& range, const NewValues& rows, char* out) const;
 
-  std::string_view text_;
+  std::string_view text_;  ///< the text of the file to copy
   const Topology& topology_;
   Index vertex_count_ = 0;
-  bool has_colours_;
-  std::vector<Block> blocks_;
-  /// The normals whose values are given: index of the `vn` line among the `vn` lines, and value.
+  bool has_colours_;           ///< whether each file has its own colours
+  std::vector<Block> blocks_;  ///< in the order of the text
+  /// The normals that are not computed: index of the `vn` line among the `vn` lines, and value.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> given_normals_;
   /// For each `vn` line, the polygons whose corners use it; nothing if no polygon uses normals.
   std::optional<NormalFans> fans_;

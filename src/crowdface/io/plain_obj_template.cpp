@@ -97,11 +97,11 @@ PlainObjTemplate::PlainObjTemplate(const Topology& topology, const TextureCoordi
       normals_(normals),
       shared_text_(uv_lines(uvs) + face_lines(topology, materials, normals == Normals::kVertex)) {}
 
-EncodedFile PlainObjTemplate::encode(const std::string& head, const Positions& positions,
+EncodedFile PlainObjTemplate::encode(const std::string& header, const Positions& positions,
                                      const Positions& normals, const std::string& what) const {
   require_finite(positions, vertex_count_, what);
   EncodedFile file;
-  if (!head.empty()) file.add(head);
+  if (!header.empty()) file.add(header);
   add_rows(file, "v", positions);
   if (normals_ == Normals::kVertex) {
     require_finite(normals, vertex_count_, what);

@@ -23,12 +23,12 @@ class PlainObjTemplate {
                    const std::vector<MaterialRange>& materials, Normals normals);
 
   /// Encodes the file of one face. The result references memory of this object.
-  /// \param head  the header lines of the file, each with its line end; may be empty.
+  /// \param header  the first lines of the file, each with its line end; may be empty.
   /// \param normals  #V by 3, only with Normals::kVertex.
   /// \param what  names the mesh in messages.
   /// \throws InvalidInput if positions are not #V by 3 or not finite.
-  EncodedFile encode(const std::string& head, const Positions& positions, const Positions& normals,
-                     const std::string& what) const;
+  EncodedFile encode(const std::string& header, const Positions& positions,
+                     const Positions& normals, const std::string& what) const;
 
   /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const { return shared_text_.size(); }
@@ -37,7 +37,7 @@ class PlainObjTemplate {
 
  private:
   Index vertex_count_;
-  Normals normals_;
+  Normals normals_;  ///< whether files have normals
   /// the lines of texture coordinates and polygons, the same in all files
   std::string shared_text_;
 };

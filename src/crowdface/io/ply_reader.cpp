@@ -30,7 +30,7 @@ double number_in(const std::array<char, 8>& raw) {
 struct Type {
   std::string_view name, other;
   std::size_t bytes;
-  double full;  ///< value of full intensity if numbers of this type are colours
+  double full;  ///< the value that stands for 1 if numbers of this type are colours
   double (*read)(const std::array<char, 8>&);
 };
 constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std::int8_t>},
@@ -152,7 +152,7 @@ class PlyReader {
     }
   }
 
-  /// Metashape and MeshLab name the texture in a comment.
+  /// Adds the texture that a comment in the header names, as Metashape and MeshLab write it.
   void add_texture_file(std::string_view header_line) {
     constexpr std::string_view kTextureFile = "comment TextureFile ";
     if (!header_line.starts_with(kTextureFile)) return;

@@ -14,18 +14,19 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 1 << 16;
 constexpr std::size_t kMinRun = 3, kMaxRun = 258;
-// Symbols of the first code: bytes, the end of the block, and classes of run lengths.
+// Symbols of deflate's literal/length code: bytes, the end of a block, classes of run lengths.
 constexpr std::size_t kEndOfBlock = 256, kSymbols = 286;
 constexpr int kMaxCodeBits = 15, kMaxCodeBitsOfLengths = 7;
 
-/// A symbol and the number of bits that follow it.
+/// A class of run lengths: its symbol, and the number of bits after the symbol that select a length
+/// of the class.
 struct RunClass {
   std::uint16_t symbol;
   std::uint8_t extra_bits;
   std::uint16_t first_length;  ///< the shortest run of this class
 };
 
-/// The class of each run length (RFC 1951, 3.2.5).
+/// The class of each run length from kMinRun to kMaxRun (RFC 1951, 3.2.5).
 const std::array<RunClass, kMaxRun + 1>& run_classes() {
   static const std::array<RunClass, kMaxRun + 1> classes = [] {
     std::array<RunClass, kMaxRun + 1> all{};
@@ -53,7 +54,8 @@ std::vector<int> huffman_lengths(std::vector<std::uint32_t> counts, int limit) {
   }
   for (;;) {
     std::ranges::stable_sort(used, {}, [&](std::size_t s) { return counts[s]; });
-    // Nodes: the used symbols in ascending order, then the sums of pairs, also ascending
+    // The weights of the tree's nodes: first the symbols that occur, in ascending order; then the
+    // inner nodes, also ascending
     std::vector<std::uint64_t> weights;
     for (const std::size_t s : used) weights.push_back(counts[s]);
     std::vector<std::size_t> parents(2 * used.size() - 1);
@@ -181,12 +183,12 @@ struct BitWriter {
   unsigned pending_count;
 };
 
-/// A symbol of the code for code lengths, and bits that follow it.
+/// A symbol of deflate's code for code lengths, and the bits that follow the symbol.
 struct LengthToken {
   std::uint8_t symbol, extra, extra_bits;
 };
 
-/// The lengths of the codes, where one token stands for up to 138 lengths 0 (RFC 1951, 3.2.7).
+/// Encodes a list of code lengths; one token stands for up to 138 lengths 0 (RFC 1951, 3.2.7).
 std::vector<LengthToken> length_tokens(const std::vector<int>& lengths) {
   constexpr std::size_t kMinZeros = 3, kMaxFewZeros = 10, kMaxZeros = 138;
   std::vector<LengthToken> tokens;
@@ -252,11 +254,12 @@ void RunDeflater::write_block(bool is_last) {
   while (lengths.back() == 0) lengths.pop_back();
   const std::size_t symbols = lengths.size();
   lengths.push_back(1);  // the code of the distance 1, one bit
-  // Write the codes. No code is longer than 15 bits.
+  // Reserve memory. No code is longer than 15 bits, so that two bytes per input byte suffice.
   constexpr std::size_t kMaxHeader = 1024;
   packed_.resize(kMaxHeader + 2 * (kBlockBytes + 1));
   BitWriter writer{packed_.data(), pending_, pending_count_};
   const auto put = [&](std::uint64_t bits, int count) { writer.put(bits, count); };
+  // Write the block's header: the lengths of the codes
   const std::vector<LengthToken> tokens = length_tokens(lengths);
   std::vector<std::uint32_t> token_counts(19, 0);
   for (const LengthToken& token : tokens) ++token_counts[token.symbol];
@@ -274,7 +277,7 @@ void RunDeflater::write_block(bool is_last) {
     const Code& code = token_codes[token.symbol];
     put(code.bits | std::uint64_t{token.extra} << code.length, code.length + token.extra_bits);
   }
-  // Write the bytes
+  // Write the codes of the bytes and runs
   visit_tokens(
       block_, written_,
       [&](std::span<const std::uint8_t> bytes) {

@@ -20,25 +20,26 @@ SplitVertices split_at_mirrored_uvs(const Topology& topology, const TextureCoord
 /// plane of the vertex normal.
 class Tangents {
  public:
-  static constexpr std::size_t kSize = 4 * sizeof(float);  ///< bytes of a tangent
+  static constexpr std::size_t kSize = 4 * sizeof(float);  ///< number of bytes of a tangent
 
   /// \param split  result of split_at_mirrored_uvs.
   /// \param uvs    #T by 2, v upwards as in OBJ.
   Tangents(const SplitVertices& split, const TextureCoordinates& uvs);
 
-  /// Writes four numbers per split vertex: the unit tangent and its sign, as in glTF's attribute
-  /// TANGENT. The sign is −1 where the texture coordinates are mirrored, else 1.
+  /// Writes four numbers per split vertex, as in glTF's attribute TANGENT: the three components of
+  /// the unit tangent, and a sign: −1 where the texture coordinates are mirrored, else 1.
   /// \param positions, normals  #V by 3.
   void write(char* out, const Positions& positions, const Positions& normals) const;
 
   /// Number of split vertices.
   std::size_t count() const { return vertices_.size(); }
+  /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
 
  private:
   /// A triangle with the data that its texture coordinates determine.
   struct UvTriangle {
-    std::array<std::uint32_t, 3> corners;  ///< split vertices
+    std::array<std::uint32_t, 3> corners;  ///< indices of split vertices
     /// The sum of the edges from corner 0 to the corners 1 and 2, weighted by these numbers, is the
     /// direction in which u grows.
     double first_edge_weight, second_edge_weight;

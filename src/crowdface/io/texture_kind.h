@@ -7,7 +7,7 @@
 
 namespace crowdface {
 
-/// What a texture stores. Each kind corresponds to a statement of material files.
+/// What a texture stores. Each kind corresponds to a statement of material files (MTL).
 enum class TextureKind { kColour, kNormal, kRoughness, kSpecular, kDisplacement, kBump };
 
 /// The line of material files (MTL) that names a texture of one kind, such as "map_Kd skin.png".

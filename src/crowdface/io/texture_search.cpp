@@ -21,7 +21,7 @@ fs::path first_file(const fs::path& path) {
   return udim_tile_path(path, kFirstTile);
 }
 
-/// Replaces the last number of the first tile in a file name by <UDIM>.
+/// Finds the last occurrence of the number kFirstTile in a file name, and puts <UDIM> in its place.
 fs::path with_tile_word(std::string name) {
   const std::string number = std::to_string(kFirstTile);
   const std::size_t at = name.rfind(number);

@@ -26,7 +26,7 @@ void UsdaBindings::add(const std::string& prim, const std::string& property,
 }
 
 bool UsdaBindings::has_prim(std::string_view collection, std::string_view prim, int depth) const {
-  constexpr int kDeepest = 20;  // collections may include each other in a circle
+  constexpr int kDeepest = 20;  // stops the recursion if collections include each other
   const std::size_t dot = std::min(collection.find('.'), collection.size());
   const auto owner = prims_.find(collection.substr(0, dot));
   if (owner == prims_.end() || dot == collection.size() || depth > kDeepest) return false;
@@ -49,8 +49,6 @@ bool UsdaBindings::has_prim(std::string_view collection, std::string_view prim, 
          });
 }
 
-/// The strongest binding among the properties of one prim that applies to `prim`, the prim itself
-/// or a descendant; null if there is none.
 const UsdaBindings::Property* UsdaBindings::binding_at(const Properties& properties,
                                                        std::string_view prim, bool full) const {
   for (auto at = properties.lower_bound(kThroughCollection);

@@ -28,16 +28,23 @@ class UsdaBindings {
   std::string material_of(std::string_view prim) const;
 
  private:
+  /// A property that belongs to a binding or a collection.
   struct Property {
-    std::vector<std::string> values;
-    bool is_stronger = false;  ///< whether the binding is stronger than those of descendants
+    std::vector<std::string> values;  ///< the paths or the token that the property lists
+    /// whether the binding overrides the bindings of the prim's descendants
+    bool is_stronger = false;
   };
+  /// The properties of a prim by name.
   using Properties = std::map<std::string, Property, std::less<>>;
 
   /// Whether a collection contains a prim.
-  /// \param depth  number of collections that include this collection, one in the other
+  /// \param collection  path of the collection, such as "/head.collection:skin".
+  /// \param depth  nesting depth of the collection: 0 for the collection of a binding, one more for
+  ///               each collection that an outer collection includes.
   bool has_prim(std::string_view collection, std::string_view prim, int depth) const;
-  /// \param full  whether to look only at bindings of the purpose `full`, or at all others
+  /// The strongest binding in `properties` that applies to `prim`; null if there is none.
+  /// \param properties  of `prim` or of a prim above it.
+  /// \param full  true: considers only bindings of the purpose `full`; false: only other bindings.
   const Property* binding_at(const Properties& properties, std::string_view prim, bool full) const;
 
   std::map<std::string, Properties, std::less<>> prims_;  ///< by path of the prim

@@ -29,7 +29,8 @@ std::string asset_path(std::string_view file) {
   return text + "@@@";
 }
 
-/// A shader prim for a texture.
+/// The text of a shader prim for a texture.
+/// \param path  path of the Material prim that contains the shader.
 /// \param more  additional input lines.
 std::string texture_text(const std::string& path, std::string_view name, const std::string& file,
                          std::string_view wrap, bool is_colour, std::string_view more,
@@ -43,8 +44,8 @@ std::string texture_text(const std::string& path, std::string_view name, const s
                 "\"\n", kDeep, output, '\n', kInner, "}\n");
 }
 
-/// A Material prim.
-/// \param path  of the prim.
+/// The text of a Material prim.
+/// \param path  path of the prim.
 /// \param name  last component of the path.
 std::string material_text(const std::string& path, const std::string& name,
                           const UsdaSurface& surface) {

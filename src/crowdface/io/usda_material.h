@@ -12,9 +12,9 @@ namespace crowdface {
 struct UsdaSurface {
   /// linear RGB, used if there is no colour map; and opacity, used if there is no mask
   std::array<float, 4> colour = {1, 1, 1, 1};
-  std::string colour_map = {};     ///< colour map, sRGB
-  std::string normal_map = {};     ///< tangent-space normal map
-  std::string roughness_map = {};  ///< roughness map, first channel
+  std::string colour_map = {};     ///< path of the colour map, sRGB
+  std::string normal_map = {};     ///< path of the tangent-space normal map
+  std::string roughness_map = {};  ///< path of the roughness map; its first channel is used
   /// Path of a mask file. The surface is opaque where the mask is at least one half; elsewhere it
   /// has holes.
   std::string opacity_map = {};

@@ -28,13 +28,13 @@ class UsdaMesh {
  public:
   /// What the prim contains in addition to the polygons. These contents are the same in all files.
   struct Options {
-    Subdivision subdivision = Subdivision::kNone;
-    std::vector<std::string> materials = {};  ///< names of the materials; may be empty
+    Subdivision subdivision = Subdivision::kNone;  ///< the mesh's subdivision scheme
+    std::vector<std::string> materials = {};       ///< names of the materials; may be empty
     /// for each polygon, the index of its material in `materials`; empty: all polygons use the
     /// first material
     std::vector<std::uint32_t> polygon_materials = {};
-    /// Blend shapes, each with the vertices that it moves. If the vertices of a blend shape differ
-    /// from face to face, its list here is empty.
+    /// The blend shapes. If the vertices that a blend shape moves differ from face to face,
+    /// `GlbMorphTarget::vertices` is empty.
     std::vector<GlbMorphTarget> targets = {};
     std::string extra_prim_lines = {};  ///< text lines that are added to the prim
   };
@@ -64,6 +64,7 @@ class UsdaMesh {
   /// Names of the blend shapes, in quotes.
   const std::vector<std::string>& quoted_shape_names() const { return quoted_shape_names_; }
 
+  /// Memory used by this object, in bytes.
   std::size_t memory_bytes() const;
   /// Memory needed for one call of `add`, in bytes.
   std::size_t encoding_memory_bytes() const;
@@ -83,7 +84,7 @@ class UsdaMesh {
   std::vector<std::string> materials_;
   std::vector<std::string> subsets_;  ///< one per material: the text that lists its polygons
   std::vector<std::string> shapes_;   ///< prim names of the blend shapes
-  std::vector<std::string> quoted_shape_names_;
+  std::vector<std::string> quoted_shape_names_;  ///< names of the blend shapes, in quotes
   /// for each blend shape, the text of its vertex list; "" if the list differs from face to face
   std::vector<std::string> indices_;
   /// upper bound of the number of displacements in all blend shapes together

@@ -23,6 +23,7 @@ class UsdaPart {
   /// Placeholder in the names of texture files. The `PartLook::name` of each face replaces it.
   static constexpr std::string_view kLookPlaceholder = "<LOOK>";
 
+  /// A material of the additional mesh.
   struct Material {
     std::string name;
     UsdaSurface surface;
@@ -33,7 +34,7 @@ class UsdaPart {
   /// \param materials  at least one.
   /// \param polygon_materials  for each polygon, the index of its material in `materials`.
   /// \param targets  names of the blend shapes of the face's mesh.
-  /// \param fixed  vertices with given normals.
+  /// \param fixed  normals that replace the computed normals of some vertices.
   UsdaPart(std::string name, const Topology& topology, const TextureCoordinates& uvs,
            const std::vector<Material>& materials, std::vector<std::uint32_t> polygon_materials,
            const std::vector<std::string>& targets, GivenNormals fixed = {});
@@ -53,18 +54,18 @@ class UsdaPart {
   std::size_t encoding_memory_bytes() const { return mesh_.encoding_memory_bytes(); }
 
  private:
-  std::string name_;
+  std::string name_;  ///< prim name
   Topology topology_;
-  NormalFans fans_;
+  NormalFans fans_;  ///< the polygons around each vertex, for its normal
   UsdaMesh mesh_;
-  std::vector<UsdaSurface> surfaces_;
-  GivenNormals given_normals_;
+  std::vector<UsdaSurface> surfaces_;  ///< one per material
+  GivenNormals given_normals_;         ///< replace the computed normals of some vertices
 };
 
 /// A `UsdaPart` and its positions for the layer of one face.
 struct PlacedUsdaPart {
   const UsdaPart* part;
-  const Positions* positions;
+  const Positions* positions;                 ///< #V by 3, of the part
   std::span<const Displacements> moves = {};  ///< one item per blend shape
   PartLook look = {};
 };

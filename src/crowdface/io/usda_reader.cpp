@@ -27,16 +27,16 @@ constexpr std::size_t kLongestStatement = 16;  // words before '='
 
 struct PrimProperty {
   std::vector<double> numbers;
-  std::vector<std::string> texts;  ///< strings and paths
+  std::vector<std::string> texts;  ///< the strings and paths in the value
   std::string interpolation;
   bool is_time_sample = false;  ///< whether the value is the first time sample
 };
 
 struct Prim {
   std::string_view type, name;
-  std::string path;  ///< such as "/head/skin"
+  std::string path;  ///< path of the prim, such as "/head/skin"
   std::map<std::string, PrimProperty, std::less<>> properties;
-  std::string colours;  ///< name of the primvar
+  std::string colours;  ///< name of the primvar that holds vertex colours
   /// names of the primvars of texture coordinates by their rank (see rank_of_uvs)
   std::multimap<int, std::string> uvs;
   std::vector<Prim> subsets, shaders;
@@ -50,7 +50,7 @@ struct Prim {
 /// A Mesh prim and the transform from its axes to the axes of a prim above it, or of the layer.
 struct MeshPrim {
   Eigen::Matrix4d place;
-  bool has_final_place;  ///< whether `place` leads to the layer's axes (see LocalTransform)
+  bool has_final_place;  ///< whether `place` transforms to the layer's axes
   Prim prim;
   bool is_hidden = false;    ///< whether the prim or a parent is inactive or invisible
   bool is_animated = false;  ///< whether the prim or a parent has a property without default value
@@ -74,9 +74,9 @@ int rank_of_uvs(std::string_view type, std::string_view primvar) {
   return type.starts_with("texCoord") ? 2 : 3;
 }
 
-/// Number of numbers per value if a primvar of this type and name may be texture coordinates;
-/// otherwise 0. Vectors of three numbers are texture coordinates only if the type or the usual names
-/// say so.
+/// The size of a value (2 or 3 numbers) if a primvar of this type and name may be texture
+/// coordinates; otherwise 0. Values of three numbers are texture coordinates only if the type or a
+/// usual name says so.
 std::size_t uv_width(std::string_view type, std::string_view primvar) {
   for (const std::string_view start : {"texCoord", "float", "double", "half"}) {
     if (!type.starts_with(start)) continue;
@@ -148,10 +148,10 @@ struct UvSource {
   auto operator<=>(const UvSource&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The transform that a prim's xformOpOrder describes.
+/// The transform from a prim's axes that its xformOpOrder describes.
 struct LocalTransform {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  bool ignores_parents = false;  ///< whether the matrix leads to the layer's axes
+  bool ignores_parents = false;  ///< true: to the layer's axes; false: to the parent's axes
 };
 
 LocalTransform local_transform(const Prim& prim) {

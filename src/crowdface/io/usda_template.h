@@ -49,13 +49,15 @@ class UsdaTemplate {
   std::size_t encoding_memory_bytes() const { return mesh_.encoding_memory_bytes(); }
 
  private:
+  /// Adds one child prim of the face's prim per point.
+  /// \param points  #points by 3.
   void add_points(EncodedFile& file, const Positions& points, const std::string& what) const;
 
-  UsdaMesh mesh_;
+  UsdaMesh mesh_;               ///< the Mesh prim of the face
   std::string layer_metadata_;  ///< the layer's unit and up axis
   /// transform of the mesh if the stage's axes differ from the heads' axes; else empty
   std::string axis_transform_;
-  std::vector<GlbMaterial> glb_materials_;
+  std::vector<GlbMaterial> glb_materials_;     ///< `GlbOptions::materials`
   std::string shared_folder_;                  ///< see `GlbOptions::shared_folder`
   std::vector<std::string> point_prim_names_;  ///< prim names of the points
 };

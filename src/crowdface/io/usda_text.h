@@ -22,11 +22,12 @@ class UsdaNames {
   std::string add(std::string_view text);
 
  private:
-  std::set<std::string> used_names_;
+  std::set<std::string> used_names_;  ///< all names returned so far
 };
 
-/// Formats a list: "[1, 2, 3]".
+/// Formats a list of numbers: "[1,2,3]".
 std::string usda_list(std::span<const std::uint32_t> numbers);
+/// Formats a list of items that are already USD text: "[a, b]".
 std::string usda_list(std::span<const std::string> items);
 /// The text in double quotes, with special characters escaped.
 std::string usda_string(std::string_view text);

@@ -9,8 +9,10 @@ namespace crowdface {
 
 /// A token of a USD text layer: a word, a quoted text or path, or a punctuation character.
 struct UsdaToken {
+  /// kEnd: the text has ended; kSign: a punctuation character.
   enum class Kind { kEnd, kWord, kQuoted, kSign } kind = Kind::kEnd;
-  std::string_view text;
+  std::string_view text;  ///< without quotation marks; empty for kEnd
+  /// Whether the token is this punctuation character.
   bool is(char sign) const { return kind == Kind::kSign && text.front() == sign; }
   bool is_word(std::string_view word) const { return kind == Kind::kWord && text == word; }
 };
@@ -38,13 +40,15 @@ class UsdaTokens {
   [[noreturn]] void fail(std::string_view what) const;
 
  private:
+  /// Skips whitespace and comments.
   void skip_blanks();
   /// Returns the text before `end`. Consumes this text and `end`.
+  /// \param escapes  whether a backslash protects the character after it from ending the text.
   std::string_view text_before(std::string_view end, bool escapes);
 
-  std::string_view text_;
-  const std::string& name_;
-  std::size_t position_ = 0;
+  std::string_view text_;     ///< the layer
+  const std::string& name_;   ///< name of the file, for messages
+  std::size_t position_ = 0;  ///< offset in `text_` of the first character not yet consumed
 };
 
 }  // namespace crowdface

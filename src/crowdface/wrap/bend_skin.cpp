@@ -229,10 +229,11 @@ class Bending {
   /// and is 0 inside mouth, nose and eye sockets.
   std::vector<double> visibility_weights_;
   std::vector<std::uint32_t> scan_points_;
-  // Results of the previous search for closest points; the next search uses them as guesses.
-  /// for each skin vertex: a triangle of the scan
+  /// For each skin vertex, the closest triangle of the scan in the previous search. The next search
+  /// uses the triangle as a guess.
   std::vector<std::uint32_t> last_scan_triangles_;
-  std::vector<SurfaceHit> last_skin_hits_;  ///< for each sampled scan point: a point of the skin
+  /// For each sampled scan point, the closest point of the skin in the previous search, as a guess.
+  std::vector<SurfaceHit> last_skin_hits_;
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;
   /// Only some scan vertices are sampled; each sampled point stands for this many scan vertices.

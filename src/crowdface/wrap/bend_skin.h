@@ -9,12 +9,13 @@
 
 namespace crowdface {
 
+/// Settings of `bend_skin`. Each round has a smaller stiffness than the previous round.
 struct BendOptions {
   /// Stiffness of each round, given as a wavelength. The round suppresses variations of the
   /// displacement with shorter wavelengths. The effect does not depend on the mesh resolution.
   std::vector<double> wavelengths_mm = {60, 40, 25, 16, 10, 7, 5, 3.5, 2.5};
-  /// Weight of offsets along the surface, in the first and in the last round. Offsets along the
-  /// normal have weight 1.
+  /// Weight of the offsets from the skin to the scan along the surface, in the first and in the
+  /// last round. Offsets along the normal have weight 1.
   double first_round_tangential_weight = 0.2, last_round_tangential_weight = 0.8;
   /// Weight of the landmarks in the first and in the last round.
   double first_round_landmark_weight = 1, last_round_landmark_weight = 0.3;

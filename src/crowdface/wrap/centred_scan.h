@@ -9,14 +9,15 @@
 namespace crowdface {
 
 /// A scan and its landmarks, translated so that the centre of the scan's bounding box is the
-/// origin, and rounded to about a millionth of the box. Without centring and rounding, the result
-/// of a wrap would depend on the scan's position: discrete choices, such as the nearest triangle,
-/// depend on the last digits of coordinates, and their effects accumulate.
+/// origin, and rounded to about a millionth of the box's size. Without centring and rounding, the
+/// result of a wrap would depend on the scan's position: discrete choices, such as the nearest
+/// triangle, depend on the last digits of coordinates, and their effects accumulate.
 struct CentredScan {
-  Scan scan;
-  std::vector<WrapLandmark> landmarks;
-  Eigen::Vector3d box_centre;  ///< centre of the bounding box in the scan file
+  Scan scan;                            ///< the translated and rounded scan
+  std::vector<WrapLandmark> landmarks;  ///< with translated and rounded `scan_position`
+  Eigen::Vector3d box_centre;           ///< centre of the bounding box in the scan file
 };
+/// Translates and rounds a scan and its landmarks.
 CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks);
 
 }  // namespace crowdface

@@ -34,6 +34,7 @@ struct DataTerms {
   std::vector<Eigen::Matrix3d> matrices;  ///< W of each vertex: symmetric, positive semidefinite
   Positions right_hand_side;  ///< #V by 3: W · offset of each vertex, summed over its terms
 
+  /// Creates terms that are zero, for this number of vertices.
   explicit DataTerms(Index vertices)
       : matrices(static_cast<std::size_t>(vertices), Eigen::Matrix3d::Zero()),
         right_hand_side(Positions::Zero(vertices, 3)) {}
@@ -54,6 +55,7 @@ class ElasticSolver {
   ElasticSolver(const SparseMatrix& stiffness, const Eigen::VectorXd& typical_weights);
   ~ElasticSolver();
 
+  /// When the conjugate gradients stop: after `max_steps` steps or at the `tolerance`.
   struct Limits {
     int max_steps = 60;
     double tolerance = 1e-3;  ///< residual relative to the right-hand side
@@ -63,7 +65,7 @@ class ElasticSolver {
   void solve(const DataTerms& data_terms, const Limits& limits, Positions& displacements) const;
 
  private:
-  struct State;
+  struct State;  ///< the stiffness matrix and the factorisation
   std::unique_ptr<State> state_;
 };
 

@@ -146,7 +146,7 @@ struct SkinPair {
   Eigen::VectorXd areas;
 };
 
-/// Every k-th element, so that at most `count` elements remain.
+/// Keeps every k-th element, with the smallest k for which at most `count` elements remain.
 std::vector<std::uint32_t> thinned(const std::vector<std::uint32_t>& all, std::size_t count) {
   std::vector<std::uint32_t> kept;
   const std::size_t step = (all.size() + count - 1) / count;

@@ -13,7 +13,7 @@ namespace crowdface {
 /// A part of the face whose relief differs from the skin around it: the mouth, the nose, an eye, an
 /// ear.
 struct FaceFeature {
-  std::string name;
+  std::string name;                          ///< for messages, such as "mouth"
   std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
 };
 
@@ -29,7 +29,8 @@ struct ReliefCorrelation {
   /// correlation between the template's and the wrapped head's relief
   double correlation_at_feature = 1;
   /// The highest correlation between the template's relief and the wrapped head's relief at places
-  /// up to 20 mm above or below the feature. Computed only if `correlation_at_feature` is not high.
+  /// up to 20 mm above or below the feature. −1: not computed, because `correlation_at_feature` is
+  /// high.
   double best_correlation_nearby = -1;
 
   bool is_high() const { return correlation_at_feature >= 0.7; }
@@ -44,6 +45,8 @@ struct ReliefCorrelation {
   }
 };
 
+/// Compares the relief of each feature on the template and on the wrapped head.
+/// \param wrapped  #V by 3, positions of the whole template after the wrap.
 /// \return one entry per feature
 std::vector<ReliefCorrelation> relief_correlations(const WrapTemplate& wrap_template,
                                                    const std::vector<FaceFeature>& features,

@@ -26,18 +26,19 @@ class GrowingPatch {
   double weight(std::size_t i) const {
     return std::min(1.0, weight_steepness_ * (1 - rings_[i] / (ring_count_ + 1.0)));
   }
+  /// Sets the steepness that `weight` uses.
   void set_weight_steepness(double weight_steepness) { weight_steepness_ = weight_steepness; }
 
  private:
   const SkinMesh& skin_;
-  std::vector<std::uint32_t> vertices_;
-  std::vector<int> rings_;  ///< one per entry of `vertices_`: its ring number
-  std::vector<bool> is_member_;
-  int ring_count_ = 0;  ///< number of rings added so far
-  double weight_steepness_ = 1;
+  std::vector<std::uint32_t> vertices_;  ///< the patch's vertices, as vertex indices of the skin
+  std::vector<int> rings_;  ///< for each of the `vertices_`, its ring; 0: a corner of the triangle
+  std::vector<bool> is_member_;  ///< for each vertex of the skin, whether the patch contains it
+  int ring_count_ = 0;           ///< number of rings added so far
+  double weight_steepness_ = 1;  ///< see `weight`
 };
 
-/// An operation on a patch, and the operation that undoes it.
+/// An operation on a patch (`make`), and the operation that reverts it (`undo`).
 struct PatchChange {
   std::function<void(const GrowingPatch&)> make, undo;
 };
@@ -49,19 +50,22 @@ class PatchMender {
   /// vertices or to about 15 mm, measured in these positions.
   PatchMender(const SkinMesh& skin, const Positions& rest_positions);
 
-  /// For each bad triangle, finds the smallest surrounding patch on which the operation reduces the
-  /// number of bad triangles, and applies the operation there. If there is no such patch, the
-  /// triangle stays unchanged.
+  /// For each bad triangle, finds the smallest surrounding patch on which `change` reduces the
+  /// number of bad triangles, and applies `change` there. If there is no such patch, the triangle
+  /// stays unchanged.
+  /// \param triangles  indices of the triangles that may be bad.
+  /// \param is_bad  whether a triangle needs repair.
   void mend(std::span<const std::uint32_t> triangles,
             const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 
  private:
+  /// Like `mend`, for one triangle.
   void mend_around(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,
                    const PatchChange& change) const;
 
   const SkinMesh& skin_;
   VertexFaces triangles_of_vertex_;  ///< triangles around each vertex of the skin
-  int max_rings_ = 0;
+  int max_rings_ = 0;                ///< largest number of rings of a patch
 };
 
 }  // namespace crowdface

@@ -10,9 +10,9 @@
 
 namespace crowdface {
 
-/// The orientation of the head in a scan without landmarks: unit vectors in the scan's frame.
+/// The orientation of the head in a scan without landmarks.
 struct PoseHint {
-  Eigen::Vector3d up, front;
+  Eigen::Vector3d up, front;  ///< directions of the head: unit vectors in the scan's frame
   std::optional<ReliefMatch> face = {};  ///< face of the scan, if already known
 };
 
@@ -21,7 +21,8 @@ struct PoseHint {
 /// pose with closest points. Otherwise the function aligns the tops of the heads with several
 /// scales and offsets, refines each pose with closest points, and returns the pose with the
 /// smallest distances.
-/// \param rest_positions  positions of the skin, in millimetres
+/// \param rest_positions  positions of the template's skin, in millimetres
+/// \param axes  axes of the template
 /// \param hint  may contain the face of the scan
 /// \param face  face of the template's skin, found by its relief
 Similarity guess_pose(const SkinMesh& skin, const Positions& rest_positions, const HeadAxes& axes,

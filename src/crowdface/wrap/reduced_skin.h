@@ -14,8 +14,8 @@ struct ReducedSkin {
   /// Position of a vertex of the original skin on the reduced skin: triangle and barycentric
   /// coordinates.
   struct BarycentricPoint {
-    std::uint32_t triangle;
-    std::array<float, 3> barycentric;
+    std::uint32_t triangle;            ///< index of a triangle of the reduced skin
+    std::array<float, 3> barycentric;  ///< coordinates in this triangle
   };
   std::vector<BarycentricPoint> vertex_positions;  ///< one per vertex of the original skin
   int smoothing_steps = 0;  ///< number of smoothing steps after interpolation

@@ -238,7 +238,7 @@ void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result
   }
   if (const double far = measure_distances(wrap_template, result).percentile_95_mm;
       !(far <= kMaxDistanceMm)) {
-    throw InvalidInput(concat("5 % of the skin stay more than ", format_fixed(far, 1),
+    throw InvalidInput(concat("5 % of the skin stays more than ", format_fixed(far, 1),
                               " mm off the scan, expected less than ", kMaxDistanceMm,
                               farthest_region(wrap_template, result, regions),
                               result.landmarks.empty() ? ": pick four landmarks or more"

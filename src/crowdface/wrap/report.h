@@ -12,11 +12,12 @@
 
 namespace crowdface {
 
-/// Statistics of the distances from a wrapped skin to the scan, in mm, over the vertices that the
-/// scan covers.
+/// Statistics of the distances from a wrapped skin to the scan, in mm, over the visible vertices
+/// that the scan covers.
 struct WrapDistances {
   double median_mm = 0, percentile_95_mm = 0;
 };
+/// Computes the distances from the wrapped skin to the scan.
 WrapDistances measure_distances(const WrapTemplate& wrap_template, const WrapResult& result);
 /// Returns the fraction of the visible skin for which there is no scan data.
 double fraction_without_data(const WrapTemplate& wrap_template, const WrapResult& result);
@@ -39,16 +40,19 @@ void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result
 
 /// Facts for the report that WrapResult does not contain.
 struct WrapFacts {
-  std::string template_file, scan_file, inputs_digest, mesh_digest;
+  std::string template_file, scan_file;  ///< paths of the template and of the scan
+  std::string inputs_digest;             ///< hash of all input files and options
+  std::string mesh_digest;               ///< hash of the written head; empty: no head was written
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
-  /// Leave-one-out error of the pose by landmark name, in mm. A similarity that is fitted to the
-  /// other landmarks predicts the position of the landmark. The error is the landmark's distance
-  /// from this prediction. A landmark that cannot be predicted has no entry.
+  /// Leave-one-out error of the pose by landmark name, in mm: the distance between the landmark and
+  /// its prediction. A similarity that is fitted to the other landmarks gives the prediction. A
+  /// landmark that cannot be predicted has no entry.
   std::map<std::string, double> cross_validated_pose_errors_mm;
   /// Error of the wrap by landmark name, in mm: the result of `cross_validate_wrap`; empty if the
   /// user did not request it.
   std::map<std::string, double> cross_validated_wrap_errors_mm = {};
-  /// Fraction of the texels, 0 … 1, that are filled in because the scan does not cover them.
+  /// Fraction of the new texture's texels, 0 … 1, that are filled in because the scan does not
+  /// cover them. Nothing if no texture was made.
   std::optional<double> share_without_scan = {};
 };
 

@@ -79,7 +79,8 @@ void look_at_mouth(const WrapTemplate& wrap_template, const WrapResult& result,
   std::vector<double> wider;
   for (std::size_t i = 0; i < contacts.size(); ++i) wider.push_back(after[i] - before[i]);
   if (wider.empty()) return;
-  // Contacts beside the lips stay closed, so that only the larger third counts
+  // Some contacts lie beside the lips and stay closed. Therefore use the value that a third of the
+  // contacts exceed, and not the median.
   const std::size_t rank = wider.size() * 2 / 3;
   if (const double by = nth_smallest(std::move(wider), rank); by > kOpenMouthMm) {
     faults.push_back(concat("the mouth seems to be open: lips are ", format_fixed(by, 1),

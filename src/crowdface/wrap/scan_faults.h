@@ -9,12 +9,12 @@
 
 namespace crowdface {
 
-/// A skin vertex farther from the scan than this distance counts as far.
+/// A vertex of the wrapped skin counts as far from the scan if its distance exceeds this length.
 inline constexpr double kFarFromScanMm = 3;
 
 /// Regions of the skin for which a report lists distances to the scan separately.
 struct SkinRegions {
-  std::vector<std::string> names;
+  std::vector<std::string> names;             ///< names of the regions
   std::vector<std::size_t> region_of_vertex;  ///< one index into `names` per skin vertex; or empty
 
   /// Whether a vertex of the skin belongs to the region `name`.

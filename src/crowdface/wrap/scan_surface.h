@@ -20,36 +20,40 @@ class ScanSurface {
   ScanSurface(const ScanSurface&) = delete;
   ScanSurface& operator=(const ScanSurface&) = delete;
 
+  /// Result of `nearest`.
   struct ClosestPoint {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the closest point on the scan
     /// unit normal, interpolated from the vertex normals
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    double distance = 0;
+    double distance = 0;    ///< distance from the query point
     bool is_found = false;  ///< whether a point is within reach and not on the scan's boundary
-    bool is_on_boundary = false;  ///< whether the point lies on the scan's boundary
-    std::uint32_t triangle = kNoIndex;
+    bool is_on_boundary = false;        ///< whether the point lies on the scan's boundary
+    std::uint32_t triangle = kNoIndex;  ///< index of the scan's triangle; kNoIndex: none in reach
   };
-  /// The closest point whose normal has a cosine of at least `min_cosine` with the unit vector
-  /// `facing`.
+  /// The closest point within the distance `reach` whose normal has a cosine of at least
+  /// `min_cosine` with the unit vector `facing`.
   /// \param guess  a triangle that is probably the closest, or kNoIndex.
   ClosestPoint nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                        double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
-  /// The closest point regardless of the surface normal.
+  /// The closest point within the distance `reach`, regardless of the surface normal.
   ClosestPoint nearest(const Eigen::Vector3d& point, double reach,
                        std::uint32_t guess = kNoIndex) const;
 
+  /// The scan without small loose components.
   const Scan& scan() const { return scan_; }
+  /// Unit normals of the scan's vertices; zero where undefined.
   const Positions& normals() const { return normals_; }
   /// For each vertex: whether the vertex lies on the scan's boundary.
   const std::vector<bool>& is_boundary_vertex() const { return is_boundary_vertex_; }
 
  private:
+  /// Adds the surface normal to a hit, and whether the hit lies on the scan's boundary.
   ClosestPoint closest_point_of(const SurfaceHit& hit) const;
 
-  Scan scan_;
-  Positions normals_;
-  std::vector<bool> is_boundary_vertex_;
-  SurfaceTree tree_;
+  Scan scan_;                             ///< without small loose components
+  Positions normals_;                     ///< normals of the vertices
+  std::vector<bool> is_boundary_vertex_;  ///< for each vertex
+  SurfaceTree tree_;                      ///< over the triangles of `scan_`
 };
 
 /// Returns the distance to the scan above which a point counts as an outlier: three standard

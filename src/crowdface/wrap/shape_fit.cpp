@@ -157,8 +157,7 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
   middle /= static_cast<double>(matches.size());
   const auto modes = static_cast<Index>(model.modes.size());
   Equations equations(modes);
-  const double weight =
-      options.independent_measurement_count / (static_cast<double>(matches.size()) * mm * mm);
+  const double weight = options.scan_weight / (static_cast<double>(matches.size()) * mm * mm);
   for (const Match& match : matches) {
     const Eigen::Vector3d arm = placed.row(match.vertex).transpose() - middle;
     const double along = std::sqrt(options.tangential_weight);
@@ -167,10 +166,10 @@ std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurfac
                              (1 - along) * match.normal * match.normal.transpose());
     equations.add(jacobian_of(model, fit, match.vertex, arm), match.offset, root);
   }
-  const double for_landmarks =
-      landmarks.empty() ? 0
-                        : options.landmark_weight * options.independent_measurement_count /
-                              (static_cast<double>(landmarks.size()) * mm * mm);
+  const double for_landmarks = landmarks.empty()
+                                   ? 0
+                                   : options.landmark_weight * options.scan_weight /
+                                         (static_cast<double>(landmarks.size()) * mm * mm);
   for (const WrapLandmark& landmark : landmarks) {
     const Eigen::Vector3d point = placed.row(landmark.vertex).transpose();
     equations.add(jacobian_of(model, fit, landmark.vertex, point - middle),

@@ -48,13 +48,17 @@ struct ShapeFit {
   double median_distance_mm = 0;  ///< median distance from the visible skin to the scan
 };
 
+/// Settings of `fit_shape`.
 struct ShapeFitOptions {
-  std::vector<double> search_radii_mm = {25, 20, 16, 12, 10};  ///< search radius of each round
-  int steps_per_round = 4;                                     ///< number of steps in each round
-  /// The whole scan has the weight of this many independent measurements with an error of 1 mm.
-  /// With larger values, the prior pulls the coefficients less strongly towards 0.
-  double independent_measurement_count = 7;
-  /// Weight of offsets along the surface; offsets along the normal have weight 1.
+  /// For each round, the largest distance at which the closest point of the scan is used.
+  std::vector<double> search_radii_mm = {25, 20, 16, 12, 10};
+  int steps_per_round = 4;  ///< number of Gauss–Newton steps in each round
+  /// Weight of the mean squared distance (mm²) between skin and scan. The fit minimises the
+  /// weighted mean plus the sum of the squared coefficients. With a larger weight, the coefficients
+  /// may therefore be farther from 0.
+  double scan_weight = 7;
+  /// Weight of the part of a vertex's offset from the scan that lies along the surface. The part
+  /// along the normal has weight 1.
   double tangential_weight = 0.1;
   double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface
 };

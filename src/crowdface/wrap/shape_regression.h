@@ -10,6 +10,7 @@
 
 namespace crowdface {
 
+/// Settings of `regress_shape`.
 struct RegressionOptions {
   /// Fraction of the heads' variance that the model treats as local: correlated only between nearby
   /// points.
@@ -20,7 +21,8 @@ struct RegressionOptions {
   double smooth_deformation_deviation_mm = 1.8;
   double noise_deviation_mm = 1;   ///< standard deviation of the scan's noise
   std::size_t sample_count = 800;  ///< number of sampled vertices of the skin
-  std::vector<double> search_radii_mm = {10, 8, 6, 5, 4, 4, 4};  ///< search radius of each round
+  /// For each round, the largest distance at which the closest point of the scan is used.
+  std::vector<double> search_radii_mm = {10, 8, 6, 5, 4, 4, 4};
 };
 
 /// Returns the most likely head, given the model and the observation that points of the skin lie on

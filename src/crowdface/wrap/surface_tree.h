@@ -14,10 +14,10 @@ namespace crowdface {
 
 /// A point on a triangle mesh.
 struct SurfaceHit {
-  std::uint32_t triangle = kNoIndex;       ///< kNoIndex: nothing found
+  std::uint32_t triangle = kNoIndex;       ///< index of the triangle; kNoIndex: nothing found
   std::array<double, 3> barycentric = {};  ///< barycentric coordinates, not negative, with sum 1
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double distance = 0;
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the point on the mesh
+  double distance = 0;                              ///< distance from the query point
 };
 
 /// The point of a triangle closest to `point` (Ericson 2005, "Real-Time Collision Detection",
@@ -32,15 +32,15 @@ class SurfaceTree {
   /// \param positions, triangles  must outlive the tree; triangles without area are left out.
   SurfaceTree(const Positions& positions, const std::vector<Triangle>& triangles);
 
-  /// The closest point within `reach`; of equally close points, the point on the triangle with the
-  /// smallest index.
+  /// The closest point within the distance `reach`. Of equally close points, returns the point on
+  /// the triangle with the smallest index.
   /// \param guess  a triangle that is probably the closest, or kNoIndex. A good guess makes the
   /// search much faster.
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
                      std::uint32_t guess = kNoIndex) const;
-  /// The closest point among triangles whose normal has a cosine of at least `min_cosine` with the
-  /// unit vector `facing`. Here, a triangle's normal is the mean of the vertex normals at its
-  /// corners, so that noise and sharp edges have less influence.
+  /// The closest point within `reach` on the triangles whose normal has a cosine of at least
+  /// `min_cosine` with the unit vector `facing`. Here, a triangle's normal is the mean of the
+  /// vertex normals at its corners, so that noise and sharp edges have less influence.
   SurfaceHit nearest_facing(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                             double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
 
@@ -48,6 +48,8 @@ class SurfaceTree {
   /// Returns the closest point of one triangle, or no hit if the point is farther than `reach`.
   SurfaceHit hit_on_triangle(std::uint32_t triangle, const Eigen::Vector3d& point,
                              double reach) const;
+  /// The closest point on the triangles for which `accept` returns true, if it is closer than
+  /// `start`; otherwise `start`.
   template <class Accept>
   SurfaceHit search(const Eigen::Vector3d& point, const SurfaceHit& start,
                     const Accept& accept) const;
@@ -57,7 +59,7 @@ class SurfaceTree {
   /// for each triangle, the mean of its corners' normals
   std::vector<Eigen::Vector3d> mean_normals_;
   MedianSplitTree tree_;                    ///< over the triangles with nonzero area
-  std::vector<Eigen::AlignedBox3d> boxes_;  ///< box of each node
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< bounding box of each node of `tree_`
 };
 
 }  // namespace crowdface

@@ -192,10 +192,9 @@ static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeMod
     result.landmarks = residuals_of(rest, fit.pose, landmarks);
     if (model != nullptr) {
       used = small ? &*small->model : model;
-      fit = fit_shape(bent, *used, surface, marks, fit,
-                      {.search_radii_mm = {20, 16, 12, 8, 6, 4},
-                       .independent_measurement_count = 6,
-                       .landmark_weight = 0.1});
+      fit = fit_shape(
+          bent, *used, surface, marks, fit,
+          {.search_radii_mm = {20, 16, 12, 8, 6, 4}, .scan_weight = 6, .landmark_weight = 0.1});
     }
   }
   result.pose = fit.pose;

@@ -31,15 +31,16 @@ struct LandmarkResidual {
 /// the scan.
 struct FeatureCheck {
   std::string name;
-  ReliefCorrelation correlation;
+  ReliefCorrelation correlation;             ///< agreement of the reliefs before and after the wrap
   std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
 };
 
+/// A template that was wrapped onto a scan, and measures of the quality.
 struct WrapResult {
   Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
   Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
-  std::vector<LandmarkResidual> landmarks;
-  std::vector<FeatureCheck> features;  ///< set by `wrap_checked` only
+  std::vector<LandmarkResidual> landmarks;  ///< the residuals of all landmarks used
+  std::vector<FeatureCheck> features;       ///< set by `wrap_checked` only
   /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
   /// without them agrees better.
   std::vector<std::string> dropped_landmarks;
@@ -68,8 +69,8 @@ inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determ
 ///               nullptr.
 /// \param landmarks  vertices of the whole template, positions in the scan's frame; the function
 /// ignores landmarks outside the skin.
-/// \throws InvalidInput if there are fewer than kMinLandmarks and no hint, or if the scan has no
-/// data near the landmarks.
+/// \throws InvalidInput if there are fewer than kMinLandmarks landmarks and no hint, or if the scan
+/// has no data near the landmarks.
 WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 

@@ -15,17 +15,18 @@ namespace crowdface {
 /// scans.
 struct WrapTemplate {
   Topology topology;
-  Adjacency adjacency;
-  Components components;
-  PartList parts;
-  HeadAxes axes;
-  Positions positions;  ///< #V by 3, in millimetres
+  Adjacency adjacency;    ///< neighbours of each vertex along edges
+  Components components;  ///< connected components of the mesh
+  PartList parts;         ///< the class of each component, and the parts that are not skin
+  HeadAxes axes;          ///< up and front direction of the head
+  Positions positions;    ///< #V by 3, in millimetres
   SkinMesh skin;
   /// the face found on the skin; nothing if the skin does not have the relief of a face
   std::optional<ReliefMatch> face_match;
   std::optional<ReducedSkin> reduced_skin;  ///< replaces a skin of many vertices during deformation
 };
 
+/// Settings of `make_template`.
 struct TemplateOptions {
   /// If a skin has more than `max_vertices` vertices, a reduced skin with about `reduced_vertices`
   /// vertices is deformed instead, and the result is interpolated.
