@@ -59,8 +59,7 @@ float AttachmentSurface::opacity(std::uint32_t quad, const Eigen::Vector4f& weig
                                  std::uint8_t level) const {
   const AttachmentMaterial& material = materials_[material_of_quad_[quad]];
   if (!material.opacity) return material.opacity_factor;
-  return material.opacity_factor *
-         colour_at(material.opacity->levels[level], uv_at(quad, weights))[0];
+  return material.opacity_factor * value_at(material.opacity->levels[level], uv_at(quad, weights));
 }
 
 std::uint8_t AttachmentSurface::mip_level(std::uint32_t quad, float pixel_count) const {

@@ -26,20 +26,19 @@ std::uint32_t texture_of(const HeadScene& scene, std::uint32_t primitive) {
                                       : texture_of(scene, *scene.texture_set, primitive);
 }
 
-/// Samples a layer's texture at a point of a quad.
-LinearRgb texel_at(const HeadScene& scene, const TextureLayer& layer, std::uint32_t texture,
-                   std::uint32_t primitive, const Eigen::Vector4f& weights) {
+Eigen::Vector2f uv_at(const HeadScene& scene, std::uint32_t primitive,
+                      const Eigen::Vector4f& weights) {
   const TexturedQuad& quad = scene.textured_quads[primitive];
   Eigen::Vector2f uv = Eigen::Vector2f::Zero();
   for (int c = 0; c < 4; ++c) uv += weights[c] * quad.uvs[static_cast<std::size_t>(c)];
-  return colour_at(*layer.textures[texture], uv);
+  return uv;
 }
 
 LinearRgb own_albedo(const HeadScene& scene, std::uint32_t primitive,
                      const Eigen::Vector4f& weights, const Vector& point) {
   const std::uint32_t texture = texture_of(scene, primitive);
   if (texture != TextureSet::kNone)
-    return texel_at(scene, *scene.texture_set, texture, primitive, weights);
+    return colour_at(*scene.texture_set->textures[texture], uv_at(scene, primitive, weights));
   if (!scene.quad_colours.empty() && scene.quad_colours[primitive])
     return *scene.quad_colours[primitive];
   const SurfaceKind kind = scene.kinds[primitive];
@@ -87,11 +86,11 @@ void apply_surface_maps(const HeadScene& scene, std::uint32_t primitive,
   const TextureLayer& slopes = scene.texture_set->slopes;
   const TextureLayer& roughness = scene.texture_set->roughness;
   if (const auto at = texture_of(scene, slopes, primitive); at != TextureLayer::kNone) {
-    normal =
-        tilted_normal(scene, primitive, normal, texel_at(scene, slopes, at, primitive, weights));
+    normal = tilted_normal(scene, primitive, normal,
+                           colour_at(*slopes.textures[at], uv_at(scene, primitive, weights)));
   }
   if (const auto at = texture_of(scene, roughness, primitive); at != TextureLayer::kNone) {
-    surface.roughness = texel_at(scene, roughness, at, primitive, weights)[0];
+    surface.roughness = value_at(*roughness.textures[at], uv_at(scene, primitive, weights));
   }
 }
 

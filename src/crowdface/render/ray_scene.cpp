@@ -204,9 +204,11 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kMovable;
-  // Robust mode avoids gaps along edges. Scenes with kMovable do not use robust mode: these scenes
-  // are used only for shadows, and gaps are not visible in shadows.
-  rtcSetSceneFlags(state.scene, moves ? RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
+  // Robust mode avoids gaps along edges, but takes longer. Gaps are not visible in shadows, for
+  // which scenes with kMovable are used, nor between partly transparent quads.
+  rtcSetSceneFlags(state.scene, moves     ? RTC_SCENE_FLAG_DYNAMIC
+                                : opacity ? RTC_SCENE_FLAG_NONE
+                                          : RTC_SCENE_FLAG_ROBUST);
   // Embree refits trees only in scenes of low build quality. The scene's quality affects only how
   // the trees of several geometries are joined, and this scene has one geometry.
   if (moves) rtcSetSceneBuildQuality(state.scene, RTC_BUILD_QUALITY_LOW);

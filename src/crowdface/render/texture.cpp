@@ -95,7 +95,12 @@ void spread_colours(Texture& texture, std::vector<bool> painted, int steps) {
   }
 }
 
-LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
+namespace {
+
+/// Interpolates bilinearly between the four texels around a point.
+/// \param value_of  returns the value of a texel
+template <class Value, class ValueOf>
+Value interpolated(const Texture& texture, const Eigen::Vector2f& uv, const ValueOf& value_of) {
   // The fraction of a coordinate; std::floor is called only for repeated textures
   const auto within_tile = [](float at) { return at >= 0 && at < 1 ? at : at - std::floor(at); };
   const auto between = [](float place, int count) {
@@ -108,14 +113,28 @@ LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
   const int top = static_cast<int>(y);
   const int right = std::min(left + 1, texture.width - 1);
   const int bottom = std::min(top + 1, texture.height - 1);
-  const auto at = [&](int i, int j) -> const LinearRgb& {
-    return texture.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(texture.width) +
-                          static_cast<std::size_t>(i)];
+  const auto at = [&](int i, int j) -> const Value& {
+    return value_of(
+        texture.texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(texture.width) +
+                       static_cast<std::size_t>(i)]);
   };
   const float s = x - static_cast<float>(left);
   const float t = y - static_cast<float>(top);
-  return (1 - t) * ((1 - s) * at(left, top) + s * at(right, top)) +
-         t * ((1 - s) * at(left, bottom) + s * at(right, bottom));
+  const Value upper = (1 - s) * at(left, top) + s * at(right, top);
+  const Value lower = (1 - s) * at(left, bottom) + s * at(right, bottom);
+  return (1 - t) * upper + t * lower;
+}
+
+}  // namespace
+
+LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv) {
+  return interpolated<LinearRgb>(texture, uv,
+                                 [](const LinearRgb& texel) -> const LinearRgb& { return texel; });
+}
+
+float value_at(const Texture& texture, const Eigen::Vector2f& uv) {
+  return interpolated<float>(texture, uv,
+                             [](const LinearRgb& texel) -> const float& { return texel[0]; });
 }
 
 }  // namespace crowdface

@@ -36,6 +36,8 @@ void spread_colours(Texture& texture, std::vector<bool> painted, int steps);
 /// The texture's colour, interpolated bilinearly between texel centres. The texture repeats in
 /// every unit square of `uv`, but opposite edges are not interpolated with each other.
 LinearRgb colour_at(const Texture& texture, const Eigen::Vector2f& uv);
+/// The first channel of colour_at, for textures with one value per texel.
+float value_at(const Texture& texture, const Eigen::Vector2f& uv);
 
 /// A texture at decreasing resolutions, so that one lookup averages all texels behind a pixel.
 struct MipMap {
