@@ -238,6 +238,13 @@ Index random_target(const std::vector<WeightedHead>& targets, const Age& age,
 
 }  // namespace
 
+const SamplingOptions& sampling_of(const CastingOptions& casting,
+                                   const std::optional<std::string>& group) {
+  const auto own =
+      group ? std::ranges::find(casting.groups, *group, &Group::name) : casting.groups.end();
+  return own == casting.groups.end() ? casting.sampling : own->sampling;
+}
+
 std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale) {
   return static_cast<std::uint64_t>(std::round(smoothness * static_cast<double>(scale.max_level)));
 }
@@ -264,6 +271,14 @@ FaceDistribution distribution_of_group(const CastingOptions& casting,
   return {&own.sampling, own.sampling.targets, own.name};
 }
 
+std::vector<FaceDistribution> face_distributions(const CastingOptions& casting) {
+  std::vector<FaceDistribution> kinds = {distribution_of_group(casting)};
+  for (std::size_t g = 0; g < casting.groups.size(); ++g) {
+    kinds.push_back(distribution_of_group(casting, g));
+  }
+  return kinds;
+}
+
 FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
                           const FaceRandomKey& key, const FaceDistribution& distribution) {
   const FaceRandom draws(casting.seed, key);
@@ -287,7 +302,7 @@ FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& man
         draw_region(casting, distribution, k, face.recipe.target, draws, region));
   }
   if (!manual.colours.empty()) face.recipe.colours = normalized_source_weights(manual.colours);
-  apply_age(face, age, properties_of_heads(casting), sampling);
+  apply_age(face, age, casting);
   face.recipe.asymmetry = draws.in(manual.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
   face.recipe.mirrored = manual.mirrored.value_or(sampling.mirror == Mirroring::kRandom &&
                                                   draws.unit("mirror", "") < 0.5);

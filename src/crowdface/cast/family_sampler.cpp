@@ -107,8 +107,7 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
 
 void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan face,
                                FaceSpace::Point point) {
-  undo_age(face, properties_of_heads(casting_),
-           sampling_of(face));  // remove the parent's age, because children do not inherit it
+  undo_age(face, casting_);  // children do not inherit their parents' age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
@@ -207,15 +206,6 @@ double FamilySampler::distance_to_new_parent_mm(const FaceSpace::Point& point) c
   return mm;
 }
 
-/// Returns the sampling parameters that apply to a face: the parameters of the face's group or of
-/// the crowd.
-const SamplingOptions& FamilySampler::sampling_of(const FacePlan& face) const {
-  for (const Group& group : casting_.groups) {
-    if (face.group == group.name) return group.sampling;
-  }
-  return casting_.sampling;
-}
-
 BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, std::size_t band,
                                       const BandRecipe& random_band) const {
   BandRecipe own = random_band;
@@ -269,7 +259,7 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draf
   FacePlan face = draft.random_face;
   face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.level_scale);
   face.mother_share = (1 - t) * from.mother_share + t * draft.random_face.mother_share;
-  apply_age(face, draft.age, properties_of_heads(casting_), sampling_of(face));
+  apply_age(face, draft.age, casting_);
   if (draft.age_years_of_twins) face.age_years = draft.age_years_of_twins;
   return face;
 }
@@ -367,7 +357,7 @@ FacePlan FamilySampler::twins_prototype(const FamilyPlan& family_plan,
   MemberDraft model = member_draft(family_plan, 0, attempt);
   const Age age = std::exchange(model.age, Age{});
   FacePlan face = face_at_chosen_distance(family_plan, model);
-  face.age = age_as_fraction(age, face, properties_of_heads(casting_), sampling_of(face));
+  face.age = age_as_fraction(age, face, casting_);
   if (age.unit == AgeUnit::kYears) face.age_years = age.value;
   return face;
 }

@@ -110,7 +110,6 @@ class FamilySampler {
   /// with both parents (at least three heads, if there are as many), so that a child's skin tone
   /// stays plausible.
   FaceDistribution third_contributor_distribution() const;
-  const SamplingOptions& sampling_of(const FacePlan& face) const;
   /// Returns the band of detail that a parent passes on: the band of the parent's recipe or, if the
   /// parent is an input head, the head's own detail. Heads outside the family's group are replaced
   /// by similar heads of the group.
