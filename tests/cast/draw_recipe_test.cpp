@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/cast/ageing.h"
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/core/require.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/smooth/level_size.h"

@@ -6,6 +6,7 @@
 
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
@@ -253,10 +254,6 @@ std::vector<SourceWeight> normalized_source_weights(const std::vector<WeightedHe
   std::vector<SourceWeight> weights;
   for (const WeightedHead& source : written) weights.push_back({source.head, source.weight});
   return normalized_weights(std::move(weights));
-}
-
-std::string face_id(const std::string& crowd, std::uint64_t index) {
-  return concat(crowd, '_', zero_padded(index, 4));
 }
 
 const std::vector<Index>& sources_of(const FaceDistribution& distribution, std::size_t band) {

@@ -37,9 +37,6 @@ std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale)
 /// Scales the weights of a hand-written recipe so that they sum to one.
 std::vector<SourceWeight> normalized_source_weights(const std::vector<WeightedHead>& written);
 
-/// Returns the id of sampled face `index`: the crowd's name and at least four digits.
-std::string face_id(const std::string& crowd, std::uint64_t index);
-
 /// Key of a face's random numbers. Each combination of the three members gives independent numbers.
 struct FaceRandomKey {
   /// number of the sampled face or of the family's member, from 1; 0 for other faces

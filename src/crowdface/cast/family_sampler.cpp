@@ -8,6 +8,7 @@
 
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/cast/mixed_recipe.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
@@ -414,14 +415,6 @@ double FamilySampler::fraction_of_strangers_nearer_than_parent(
     share = std::max(share, unrelated_faces_.fraction_nearer(point, mm, family_.group));
   }
   return share;
-}
-
-std::string parent_id(const std::string& crowd, const Parent& parent) {
-  return concat(crowd, '_', parent.id);
-}
-
-std::string member_id(const std::string& crowd, const std::string& family, int member) {
-  return concat(crowd, '_', family, '_', member < 10 ? "0" : "", member);
 }
 
 }  // namespace crowdface

@@ -156,10 +156,4 @@ class FamilySampler {
   NearestFaceSearch relative_points_, stranger_points_;
 };
 
-/// Returns the id of a family's member, such as "NAME_FAMILY_01".
-std::string member_id(const std::string& crowd, const std::string& family, int member);
-
-/// Returns the full id of a new parent of a family: "NAME_FAMILY_mother".
-std::string parent_id(const std::string& crowd, const Parent& parent);
-
 }  // namespace crowdface

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 
