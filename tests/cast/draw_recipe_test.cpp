@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "crowdface/cast/ageing.h"
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/core/require.h"
 #include "crowdface/plane/layout.h"
 #include "crowdface/smooth/level_size.h"
@@ -65,8 +66,8 @@ TEST(Ageing, CanBeTakenBack) {
   casting.sampling.heads_tagged_old = {1, 4};
   const FacePlan young = random_face(casting, 7, 0, distribution_of_group(casting));
   FacePlan face = young;
-  apply_age(face, 0.4, properties_of_heads(casting), casting.sampling);
-  undo_age(face, properties_of_heads(casting), casting.sampling);
+  apply_age(face, {0.4}, casting);
+  undo_age(face, casting);
   EXPECT_FALSE(face.age);
   for (std::size_t k = 0; k < face.recipe.regions.size(); ++k) {
     const auto &back = face.recipe.regions[k].weights, &before = young.recipe.regions[k].weights;
@@ -86,7 +87,7 @@ TEST(Ageing, DetailComesFromTheNearestOldHead) {
   const auto aged = [&](Index source, double age) {
     FacePlan face = draw_any_face(casting, 7);
     for (RegionRecipe& region : face.recipe.regions) region.weights = {{source, 1}};
-    apply_age(face, age, properties_of_heads(casting), casting.sampling);
+    apply_age(face, {age}, casting);
     return face.recipe.regions[0].weights;
   };
   EXPECT_EQ(aged(0, 0.25), (std::vector<SourceWeight>{{0, 0.75}, {1, 0.25}}));
@@ -106,12 +107,11 @@ TEST(Ageing, MeetsAnAgeInYears) {
   casting.head_ages_years = {20, 60, 70, 80, 40};
   casting.sampling.heads_tagged_old = {1, 2, 3};
   casting.sampling.heads_tagged_young = {0};
-  const HeadProperties heads = properties_of_heads(casting);
   const auto years_of = [&](const std::vector<SourceWeight>& weights, double years) {
     FacePlan face = draw_any_face(casting, 7);
     for (RegionRecipe& region : face.recipe.regions) region.weights = weights;
     const Age age = {years, AgeUnit::kYears};
-    apply_age(face, age_as_fraction(age, face, heads, casting.sampling), heads, casting.sampling);
+    apply_age(face, age, casting);
     double mean = 0;
     for (const SourceWeight& source : face.recipe.regions[0].weights) {
       mean += source.weight * casting.head_ages_years[static_cast<std::size_t>(source.head)];
@@ -229,7 +229,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
   casting.sampling.heads_tagged_old = {1};
   const FacePlan young = draw_any_face(casting, 7);
   FacePlan old = young;
-  apply_age(old, 0.8, properties_of_heads(casting), casting.sampling);
+  apply_age(old, {0.8}, casting);
   const auto share_of_old = [](const BandRecipe& band) {
     double share = 0;
     for (const SourceWeight& source : band.weights) share += source.head == 1 ? source.weight : 0;
@@ -246,7 +246,7 @@ TEST(Bands, AgeActsOnThoseThatCarryIt) {
       EXPECT_FALSE(band_of(after, b).position);
     }
   }
-  undo_age(old, properties_of_heads(casting), casting.sampling);
+  undo_age(old, casting);
   EXPECT_FALSE(old.age);
   for (std::size_t k = 0; k < 2; ++k) {
     for (std::size_t b = 0; b < 3; ++b) {

@@ -59,7 +59,8 @@ TEST(TellShortfall, NamesTheHeadsOfAGroupThatHasFew) {
   const char* const advice = "more heads in the group old_men: its only heads are bob (the keys";
   EXPECT_THAT(told({0, {}, 0}), ::testing::HasSubstr(advice));
   EXPECT_THAT(told({0, {}, 1}), ::testing::Not(::testing::HasSubstr("more heads in the group")));
-  EXPECT_THAT(told({0, {}, -1, "brothers"}), ::testing::HasSubstr(advice));
+  EXPECT_THAT(told({0, {}, -1, Shortfall::What::kFamily, "brothers"}),
+              ::testing::HasSubstr(advice));
 }
 
 }  // namespace

@@ -28,11 +28,15 @@ bool same_sex(const std::vector<std::string>& one, const std::vector<std::string
 /// The heads of one age class (old or young). A face that is aged gets the detail of these heads.
 class AgedHeads {
  public:
-  AgedHeads(double age, const HeadProperties& all, const SamplingOptions& sampling)
-      : heads_(age > 0 ? sampling.heads_tagged_old : sampling.heads_tagged_young), all_(all) {
+  AgedHeads(double age, const CastingOptions& casting, const SamplingOptions& sampling)
+      : heads_(heads_of_class(age, sampling)), casting_(casting) {
     require(!heads_.empty(), "an age of ", age, " without heads of that age");
   }
 
+  /// Returns the heads tagged old (age above 0) or young.
+  static const std::vector<Index>& heads_of_class(double age, const SamplingOptions& sampling) {
+    return age > 0 ? sampling.heads_tagged_old : sampling.heads_tagged_young;
+  }
   bool has(Index head) const { return std::ranges::binary_search(heads_, head); }
   /// Returns, of all heads of the age class, the head nearest to `head`. (The mean of several old
   /// heads would have no wrinkles.)
@@ -59,14 +63,14 @@ class AgedHeads {
  private:
   std::tuple<bool, std::ptrdiff_t, double> rank(Index head, Index other) const {
     const auto a = static_cast<std::size_t>(head), b = static_cast<std::size_t>(other);
-    const double apart = (all_.anchors[a] - all_.anchors[b]).norm();
-    if (all_.tags.empty()) return {false, 0, apart};
-    const auto &own = all_.tags[a], &tags = all_.tags[b];
+    const double apart = (casting_.anchors[a] - casting_.anchors[b]).norm();
+    if (casting_.tags.empty()) return {false, 0, apart};
+    const auto &own = casting_.tags[a], &tags = casting_.tags[b];
     return {!same_sex(own, tags), -static_cast<std::ptrdiff_t>(common_tag_count(own, tags)), apart};
   }
 
   const std::vector<Index>& heads_;
-  const HeadProperties& all_;
+  const CastingOptions& casting_;
 };
 
 /// Returns the weighted mean of the ages of the heads that lend the finest detail, over all
@@ -74,12 +78,12 @@ class AgedHeads {
 ///
 /// \param weights_of  returns the weights of a band.
 template <class WeightsOf>
-double mean_age_years(const FacePlan& face, const HeadProperties& heads,
+double mean_age_years(const FacePlan& face, const std::vector<double>& head_ages_years,
                       const WeightsOf& weights_of) {
   double sum = 0, weight = 0;
   for (const RegionRecipe& region : face.recipe.regions) {
     for (const SourceWeight& source : weights_of(band_of(region, band_count(region) - 1))) {
-      sum += source.weight * heads.ages_years[static_cast<std::size_t>(source.head)];
+      sum += source.weight * head_ages_years[static_cast<std::size_t>(source.head)];
       weight += source.weight;
     }
   }
@@ -88,40 +92,33 @@ double mean_age_years(const FacePlan& face, const HeadProperties& heads,
 
 }  // namespace
 
-double age_as_fraction(const Age& age, const FacePlan& face, const HeadProperties& heads,
-                       const SamplingOptions& sampling) {
+double age_as_fraction(const Age& age, const FacePlan& face, const CastingOptions& casting) {
   if (age.unit == AgeUnit::kFraction) return age.value;
-  require(!heads.ages_years.empty(), "an age of ", age.value, " years without ages of the heads");
+  const std::vector<double>& ages_years = casting.head_ages_years;
+  require(!ages_years.empty(), "an age of ", age.value, " years without ages of the heads");
   const double own =
-      mean_age_years(face, heads, [](const BandRecipe& band) { return band.weights; });
+      mean_age_years(face, ages_years, [](const BandRecipe& band) { return band.weights; });
   const double sign = age.value > own ? 1 : -1;
-  if ((sign > 0 ? sampling.heads_tagged_old : sampling.heads_tagged_young).empty()) return 0;
-  const AgedHeads aged(sign, heads, sampling);
+  const SamplingOptions& sampling = sampling_of(casting, face.group);
+  if (AgedHeads::heads_of_class(sign, sampling).empty()) return 0;
+  const AgedHeads aged(sign, casting, sampling);
   const double share = aged_fraction(sign, sampling, band_count(sampling) - 1);
-  const double most = mean_age_years(
-      face, heads, [&](const BandRecipe& band) { return aged.with_moved(band.weights, share); });
+  const double most = mean_age_years(face, ages_years, [&](const BandRecipe& band) {
+    return aged.with_moved(band.weights, share);
+  });
   // The mean age is a linear function of the fraction of the weights that apply_age moves.
   const double change = sign * (most - own);
   if (change <= 0) return 0;
   return sign * rounded(std::min(1.0, sign * (age.value - own) / change));
 }
 
-std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
-                                        const std::vector<SourceWeight>& b, double t) {
-  std::map<Index, double> sum;
-  for (const SourceWeight& source : a) sum[source.head] += (1 - t) * source.weight;
-  for (const SourceWeight& source : b) sum[source.head] += t * source.weight;
-  std::vector<SourceWeight> mixed;
-  for (const auto& [head, weight] : sum) {
-    if (weight > 0) mixed.push_back({head, weight});
-  }
-  return mixed;
-}
-
-void apply_age(FacePlan& face, double age, const HeadProperties& heads,
-               const SamplingOptions& sampling) {
+void apply_age(FacePlan& face, const Age& wanted, const CastingOptions& casting) {
+  face.age_years.reset();
+  if (wanted.unit == AgeUnit::kYears) face.age_years = rounded(wanted.value);
+  const double age = age_as_fraction(wanted, face, casting);
   if (age == 0) return;
-  const AgedHeads aged(age, heads, sampling);
+  const SamplingOptions& sampling = sampling_of(casting, face.group);
+  const AgedHeads aged(age, casting, sampling);
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {
       const double share = aged_fraction(age, sampling, b);
@@ -134,17 +131,11 @@ void apply_age(FacePlan& face, double age, const HeadProperties& heads,
   face.age = age;
 }
 
-void apply_age(FacePlan& face, const Age& age, const HeadProperties& heads,
-               const SamplingOptions& sampling) {
-  apply_age(face, age_as_fraction(age, face, heads, sampling), heads, sampling);
-  face.age_years.reset();
-  if (age.unit == AgeUnit::kYears) face.age_years = rounded(age.value);
-}
-
-void undo_age(FacePlan& face, const HeadProperties& heads, const SamplingOptions& sampling) {
+void undo_age(FacePlan& face, const CastingOptions& casting) {
   constexpr double kRounding = 1e-9;
   if (face.age.value_or(0) == 0) return;
-  const AgedHeads aged(*face.age, heads, sampling);
+  const SamplingOptions& sampling = sampling_of(casting, face.group);
+  const AgedHeads aged(*face.age, casting, sampling);
   bool known = true;
   for (RegionRecipe& region : face.recipe.regions) {
     for (std::size_t b = 0; b < band_count(region); ++b) {

@@ -121,7 +121,8 @@ class FaceRedrawer {
     }
     cast_.rejections.add(rejections);
     if (!found) {
-      cast_.shortfall = Shortfall{casting_.count, rejections, -1, {}, old.id};
+      cast_.shortfall =
+          Shortfall{casting_.count, rejections, -1, Shortfall::What::kRedrawnFace, old.id};
       return false;
     }
     store_redrawn_face(at, std::move(*found), old, is_final);
@@ -206,18 +207,7 @@ class FaceRedrawer {
 
   void store_redrawn_face(std::size_t at, FaceSearch::FoundFace found, const FacePlan& old,
                           const std::vector<bool>& is_final) {
-    const auto [head, head_distance_mm] = judge_.nearest_head(found.point);
-    NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
-    double mm = HUGE_VAL;
-    for (std::size_t i = 0; i < cast_.crowd.size(); ++i) {
-      if (!is_final[i]) continue;
-      const double distance = FaceSpace::distance(found.point, cast_.points[i]);
-      if (distance >= mm) continue;
-      mm = distance;
-      nearest.earlier_face = cast_.crowd[i].id;
-      nearest.earlier_face_distance_mm = mm;
-    }
-    found.face.notes.nearest = nearest;
+    found.face.notes.nearest = nearest_neighbours(judge_, cast_, found.point, is_final);
     found.face.notes.review = old.notes.review;
     cast_.crowd[at] = std::move(found.face);
     cast_.points[at] = std::move(found.point);

@@ -2,7 +2,7 @@
 #include "crowdface/cast/cast_crowd.h"
 
 #include <algorithm>
-#include <memory>
+#include <utility>
 
 #include "crowdface/cast/apply_review.h"
 #include "crowdface/cast/face_changes.h"
@@ -16,72 +16,6 @@
 namespace crowdface {
 namespace {
 
-/// Casts the sampled faces `from` … `to`. Each face must be far enough from all earlier faces.
-///
-/// \param diversity  options whose `min_distance_mm` applies to all these faces.
-void cast_first_fit(const CastingOptions& casting, const DiversityOptions& diversity,
-                    const FaceJudge& judge, const std::vector<FaceDistribution>& distributions,
-                    const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
-                    CrowdSoFar& crowd, PopulationBalance& population,
-                    const FaceJoinedCallback& on_face_joined, CastingResult& result) {
-  const AvoidedFaces changes(result, diversity.min_distance_mm);
-  FaceSearch::Cost cost;
-  if (!casting.trait_targets.empty()) {
-    cost = [&](const Positions& landmarks) { return population.cost(landmarks); };
-  }
-  for (std::uint64_t first = from; first <= to; first += kFacesCastInParallel) {
-    throw_if_interrupted();
-    const std::uint64_t last = std::min(to, first + kFacesCastInParallel - 1);
-    std::vector<FaceSearch> searches;
-    for (std::uint64_t index = first; index <= last; ++index) {
-      const FaceDistribution& kind =
-          distributions[static_cast<std::size_t>(result.group_indices[index - 1] + 1)];
-      searches.emplace_back(
-          [&casting, &kind, index](std::uint32_t attempt) {
-            return random_face(casting, index, attempt, kind);
-          },
-          judge, diversity, DiversityOptions::candidate_count(index));
-    }
-    parallel_for_each(searches.size(), [&](std::size_t i) { searches[i].prepare(crowd); });
-    for (std::uint64_t index = first; index <= last; ++index) {
-      FaceSearch& search = searches[index - first];
-      auto found = search.choose_face(
-          crowd,
-          [&](const FaceSpace::Point& point) {
-            const auto why = family_separation.rejection_reason(point);
-            return why ? why : changes.rejection_reason(point);
-          },
-          cost);
-      result.rejections.add(search.rejections());
-      if (!found) {
-        result.shortfall =
-            Shortfall{index - 1, search.rejections(), result.group_indices[index - 1]};
-        return;
-      }
-      if (cost) population.add(found->landmarks);
-      crowd.add(std::move(found->face), std::move(found->point));
-      if (on_face_joined) on_face_joined(search.rejections());
-    }
-  }
-}
-
-/// Casts the sampled faces `from` … `to`. Different faces may have different minimum distances, see
-/// DiversityOptions::min_distance_mm_up_to_face.
-void cast_first_fit(const CastingOptions& casting, const FaceJudge& judge,
-                    const std::vector<FaceDistribution>& distributions,
-                    const FamilySeparation& family_separation, std::uint64_t from, std::uint64_t to,
-                    CrowdSoFar& crowd, PopulationBalance& population,
-                    const FaceJoinedCallback& on_face_joined, CastingResult& result) {
-  const auto& distances = casting.diversity.min_distance_mm_up_to_face;
-  while (from <= to && !result.shortfall) {
-    const auto same = distances.lower_bound(from);
-    const std::uint64_t last = same == distances.end() ? to : std::min(to, same->first);
-    cast_first_fit(casting, casting.diversity.options_of_face(from), judge, distributions,
-                   family_separation, from, last, crowd, population, on_face_joined, result);
-    from = last + 1;
-  }
-}
-
 /// Completes a hand-written recipe with random values. Draws these values again until the face
 /// meets the recipe's limits on measurements.
 ///
@@ -92,27 +26,11 @@ std::optional<FacePlan> completed_within_limits(const CastingOptions& casting,
       kAttemptFactorWithTraits * static_cast<std::uint32_t>(casting.diversity.max_attempts);
   for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
     FacePlan face = completed_face_plan(casting, hand, attempt);
-    const TraitRules* rules = hand.traits.empty() ? nullptr : judge.trait_rules();
-    if (rules == nullptr) return face;
-    if (rules->check(face, rules->measurer().landmarks(face.recipe))) continue;
-    if (!judge.check_traits(face)) return face;
+    if (!judge.check_traits(face, judge.landmarks(face.recipe)) && !judge.check_traits(face)) {
+      return face;
+    }
   }
   return std::nullopt;
-}
-
-/// Returns one value for each review: the number of sampled faces that are cast before the review
-/// is applied.
-std::vector<std::uint64_t> faces_before_reviews(const CastingOptions& casting) {
-  std::vector<std::uint64_t> counts;
-  std::uint64_t so_far = 0;
-  const bool at_once = casting.diversity.mode == DiversityOptions::Mode::kSpread;
-  for (const Review& review : casting.reviews) {
-    const std::uint64_t own =
-        at_once ? casting.count : review.reviewed_face_count.value_or(casting.count);
-    so_far = std::max(so_far, std::min(own, casting.count));
-    counts.push_back(so_far);
-  }
-  return counts;
 }
 
 FamilySeparation separation_of(const CastingResult& cast) {
@@ -124,90 +42,173 @@ FamilySeparation separation_of(const CastingResult& cast) {
   return separation;
 }
 
-void take_crowd(const FaceJudge& judge, CrowdSoFar& crowd, CastingResult& result) {
-  const std::size_t known = result.crowd.size();
-  result.crowd = crowd.take_faces();
-  result.points = crowd.take_points();
-  if (!result.shortfall) find_nearest_neighbours(judge, result, known);
-}
+/// Casts one crowd: each step adds to the result. After a shortfall, all further steps do nothing.
+class CrowdCaster {
+ public:
+  CrowdCaster(const CastingOptions& casting, const FaceJudge& judge,
+              const FaceJoinedCallback& on_face_joined)
+      : casting_(casting),
+        judge_(judge),
+        on_face_joined_(on_face_joined),
+        distributions_(face_distributions(casting)),
+        population_(casting.trait_targets) {}
 
-/// Casts the sampled faces `from` … `to`, after a review has been applied.
-void cast_after_review(const CastingOptions& casting, const FaceJudge& judge,
-                       const std::vector<FaceDistribution>& distributions, std::uint64_t from,
-                       std::uint64_t to, PopulationBalance& population,
-                       const FaceJoinedCallback& on_face_joined, CastingResult& result) {
-  auto crowd = std::make_unique<CrowdSoFar>(judge.space().dimensions());
-  const std::size_t others = result.crowd.size() - (from - 1);
-  for (std::size_t i = 0; i < result.crowd.size(); ++i) {
-    if (i == others) crowd->begin_sampled_faces();
-    crowd->add(result.crowd[i], result.points[i]);
+  CastingResult cast() {
+    CrowdSoFar unsampled(judge_.space().dimensions());
+    cast_recipes(unsampled);
+    cast_families(unsampled);
+    if (result_.shortfall) return std::move(result_);
+    take_crowd(unsampled);
+    first_sampled_ = result_.crowd.size();
+    result_.group_indices = schedule_groups(casting_.groups, casting_.count);
+    for (std::size_t r = 0; r < casting_.reviews.size(); ++r) {
+      cast_sampled_faces(count_before(casting_.reviews[r]));
+      if (!result_.shortfall) apply_review(casting_, judge_, r, result_);
+    }
+    cast_sampled_faces(casting_.count);
+    if (!result_.shortfall) apply_changes_of_config(casting_, judge_, result_);
+    return std::move(result_);
   }
-  if (others == result.crowd.size()) crowd->begin_sampled_faces();
-  cast_first_fit(casting, judge, distributions, separation_of(result), from, to, *crowd, population,
-                 on_face_joined, result);
-  take_crowd(judge, *crowd, result);
-}
+
+ private:
+  void cast_recipes(CrowdSoFar& crowd) {
+    for (const ManualRecipe& hand : casting_.recipes) {
+      std::optional<FacePlan> face = completed_within_limits(casting_, hand, judge_);
+      if (!face) {
+        RejectionCounts rejections;
+        rejections.add(RejectionReason::kTraits);
+        result_.shortfall = Shortfall{0, rejections, -1, Shortfall::What::kManualRecipe, hand.id};
+        return;
+      }
+      FaceSpace::Point point = judge_.space().point(face->recipe);
+      crowd.add(*std::move(face), std::move(point));
+    }
+  }
+
+  void cast_families(CrowdSoFar& crowd) {
+    FamilySeparation family_separation;
+    const UnrelatedFaces unrelated(casting_, judge_.space());
+    CastingOptions of_families = casting_;
+    of_families.diversity = casting_.diversity.options_of_face(0);
+    for (const FamilyOptions& family : casting_.families) {
+      if (result_.shortfall) return;
+      RejectionCounts rejections;
+      auto cast =
+          cast_family(of_families, family, judge_, unrelated, crowd, family_separation, rejections);
+      result_.rejections.add(rejections);
+      if (cast) {
+        result_.families.push_back(std::move(*cast));
+      } else {
+        result_.shortfall = Shortfall{0, rejections, -1, Shortfall::What::kFamily, family.name};
+      }
+    }
+  }
+
+  /// Returns the number of sampled faces that are cast before a review is applied.
+  std::uint64_t count_before(const Review& review) const {
+    const bool at_once = casting_.diversity.mode == DiversityOptions::Mode::kSpread;
+    const std::uint64_t reviewed =
+        at_once ? casting_.count : review.reviewed_face_count.value_or(casting_.count);
+    return std::min(reviewed, casting_.count);
+  }
+
+  /// Casts the sampled faces after those that are cast already, up to face number `count`.
+  void cast_sampled_faces(std::uint64_t count) {
+    const std::uint64_t cast_count = result_.crowd.size() - first_sampled_;
+    if (result_.shortfall || count <= cast_count) return;
+    const FamilySeparation family_separation = separation_of(result_);
+    CrowdSoFar crowd(judge_.space().dimensions());
+    for (std::size_t i = 0; i < result_.crowd.size(); ++i) {
+      if (i == first_sampled_) crowd.begin_sampled_faces();
+      crowd.add(std::move(result_.crowd[i]), std::move(result_.points[i]));
+    }
+    if (cast_count == 0) crowd.begin_sampled_faces();
+    if (casting_.diversity.mode == DiversityOptions::Mode::kSpread) {
+      cast_spread(casting_, judge_, distributions_, family_separation, crowd, on_face_joined_,
+                  result_);
+    } else {
+      cast_first_fit(family_separation, cast_count + 1, count, crowd);
+    }
+    take_crowd(crowd);
+  }
+
+  /// Casts the sampled faces `from` … `to`. Each face must be far enough from all earlier faces.
+  void cast_first_fit(const FamilySeparation& family_separation, std::uint64_t from,
+                      std::uint64_t to, CrowdSoFar& crowd) {
+    const auto& distances = casting_.diversity.min_distance_mm_up_to_face;
+    while (from <= to && !result_.shortfall) {
+      std::uint64_t last = std::min(to, from + kFacesCastInParallel - 1);
+      if (const auto same = distances.lower_bound(from); same != distances.end()) {
+        last = std::min(last, same->first);
+      }
+      cast_block(casting_.diversity.options_of_face(from), family_separation, from, last, crowd);
+      from = last + 1;
+    }
+  }
+
+  /// Like `cast_first_fit`, for few faces with the same minimum distance.
+  void cast_block(const DiversityOptions& diversity, const FamilySeparation& family_separation,
+                  std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd) {
+    throw_if_interrupted();
+    const AvoidedFaces changes(result_, diversity.min_distance_mm);
+    FaceSearch::Cost cost;
+    if (!casting_.trait_targets.empty()) {
+      cost = [&](const Positions& landmarks) { return population_.cost(landmarks); };
+    }
+    std::vector<FaceSearch> searches;
+    for (std::uint64_t index = from; index <= to; ++index) {
+      const FaceDistribution& kind =
+          distributions_[static_cast<std::size_t>(result_.group_indices[index - 1] + 1)];
+      searches.emplace_back(
+          [this, &kind, index](std::uint32_t attempt) {
+            return random_face(casting_, index, attempt, kind);
+          },
+          judge_, diversity, DiversityOptions::candidate_count(index));
+    }
+    parallel_for_each(searches.size(), [&](std::size_t i) { searches[i].prepare(crowd); });
+    for (std::uint64_t index = from; index <= to; ++index) {
+      FaceSearch& search = searches[index - from];
+      auto found = search.choose_face(
+          crowd,
+          [&](const FaceSpace::Point& point) {
+            const auto why = family_separation.rejection_reason(point);
+            return why ? why : changes.rejection_reason(point);
+          },
+          cost);
+      result_.rejections.add(search.rejections());
+      if (!found) {
+        result_.shortfall =
+            Shortfall{index - 1, search.rejections(), result_.group_indices[index - 1]};
+        return;
+      }
+      if (cost) population_.add(found->landmarks);
+      crowd.add(std::move(found->face), std::move(found->point));
+      if (on_face_joined_) on_face_joined_(search.rejections());
+    }
+  }
+
+  /// Moves the faces to the result, and finds the nearest neighbours of the new faces.
+  void take_crowd(CrowdSoFar& crowd) {
+    const std::size_t known = result_.crowd.size();
+    result_.crowd = crowd.take_faces();
+    result_.points = crowd.take_points();
+    if (!result_.shortfall) find_nearest_neighbours(judge_, result_, known);
+  }
+
+  const CastingOptions& casting_;
+  const FaceJudge& judge_;
+  const FaceJoinedCallback& on_face_joined_;
+  const std::vector<FaceDistribution> distributions_;
+  PopulationBalance population_;
+  std::size_t first_sampled_ = 0;  ///< index of the first sampled face in the crowd
+  CastingResult result_;
+};
 
 }  // namespace
 
 CastingResult cast_crowd(const CastingOptions& casting, const FaceJudge& judge,
                          const FaceJoinedCallback& on_face_joined) {
-  CastingResult result;
-  auto so_far = std::make_unique<CrowdSoFar>(judge.space().dimensions());
-  CrowdSoFar& crowd = *so_far;
-  for (const ManualRecipe& hand : casting.recipes) {
-    std::optional<FacePlan> face = completed_within_limits(casting, hand, judge);
-    if (!face) {
-      RejectionCounts rejections;
-      rejections.add(RejectionReason::kTraits);
-      result.shortfall = Shortfall{0, rejections, -1, {}, {}, hand.id};
-      return result;
-    }
-    FaceSpace::Point point = judge.space().point(face->recipe);
-    crowd.add(*std::move(face), std::move(point));
-  }
-  FamilySeparation family_separation;
-  const UnrelatedFaces unrelated(casting, judge.space());
-  CastingOptions of_families = casting;
-  of_families.diversity = casting.diversity.options_of_face(0);
-  for (const FamilyOptions& family : casting.families) {
-    RejectionCounts rejections;
-    auto cast =
-        cast_family(of_families, family, judge, unrelated, crowd, family_separation, rejections);
-    result.rejections.add(rejections);
-    if (!cast) {
-      result.shortfall = Shortfall{0, rejections, -1, family.name};
-      return result;
-    }
-    result.families.push_back(std::move(*cast));
-  }
-  crowd.begin_sampled_faces();
-  result.group_indices = schedule_groups(casting.groups, casting.count);
-  const std::vector<FaceDistribution> distributions = face_distributions(casting);
-  const std::vector<std::uint64_t> before = faces_before_reviews(casting);
-  PopulationBalance population(casting.trait_targets);
-  std::uint64_t sampled = before.empty() ? casting.count : before.front();
-  if (casting.diversity.mode == DiversityOptions::Mode::kSpread) {
-    cast_spread(casting, judge, distributions, family_separation, crowd, on_face_joined, result);
-  } else {
-    cast_first_fit(casting, judge, distributions, family_separation, 1, sampled, crowd, population,
-                   on_face_joined, result);
-  }
-  take_crowd(judge, crowd, result);
-  so_far.reset();  // free the search index, which takes as much memory as the points
-  const auto grow_to = [&](std::uint64_t count) {
-    if (result.shortfall || count <= sampled) return;
-    cast_after_review(casting, judge, distributions, sampled + 1, count, population, on_face_joined,
-                      result);
-    sampled = count;
-  };
-  for (std::size_t r = 0; r < casting.reviews.size(); ++r) {
-    grow_to(before[r]);
-    if (!result.shortfall) apply_review(casting, judge, r, result);
-  }
-  grow_to(casting.count);
-  if (!result.shortfall) apply_changes_of_config(casting, judge, result);
-  return result;
+  return CrowdCaster(casting, judge, on_face_joined).cast();
 }
 
 void find_nearest_neighbours(const FaceJudge& judge, CastingResult& cast, std::size_t first) {

@@ -20,13 +20,12 @@ namespace crowdface {
 /// Why casting stopped before all faces were found: the face that could not be cast, and how often
 /// each constraint rejected a candidate.
 struct Shortfall {
+  enum class What { kSampledFace, kManualRecipe, kFamily, kRedrawnFace, kChangedFace };
   std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
   RejectionCounts rejections;  ///< how often each constraint rejected a candidate for the next face
   int group_index = -1;        ///< group of the sampled face that could not be found, or −1
-  std::string family = {};     ///< name of the family that could not be cast, if any
-  std::string reviewed_face_id = {};  ///< id of the face that could not be redrawn, if any
-  std::string manual_face_id = {};  ///< id of the hand-written face that could not be cast, if any
-  std::string unchangeable_face_id = {};  ///< id of the face that could not be changed, if any
+  What what = What::kSampledFace;
+  std::string name = {};  ///< name of the family, or id of the face unless it is a sampled face
 };
 
 struct ChangedFace;

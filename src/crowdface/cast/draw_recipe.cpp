@@ -6,6 +6,7 @@
 
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/core/random.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
@@ -238,6 +239,13 @@ Index random_target(const std::vector<WeightedHead>& targets, const Age& age,
 
 }  // namespace
 
+const SamplingOptions& sampling_of(const CastingOptions& casting,
+                                   const std::optional<std::string>& group) {
+  const auto own =
+      group ? std::ranges::find(casting.groups, *group, &Group::name) : casting.groups.end();
+  return own == casting.groups.end() ? casting.sampling : own->sampling;
+}
+
 std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale) {
   return static_cast<std::uint64_t>(std::round(smoothness * static_cast<double>(scale.max_level)));
 }
@@ -246,10 +254,6 @@ std::vector<SourceWeight> normalized_source_weights(const std::vector<WeightedHe
   std::vector<SourceWeight> weights;
   for (const WeightedHead& source : written) weights.push_back({source.head, source.weight});
   return normalized_weights(std::move(weights));
-}
-
-std::string face_id(const std::string& crowd, std::uint64_t index) {
-  return concat(crowd, '_', zero_padded(index, 4));
 }
 
 const std::vector<Index>& sources_of(const FaceDistribution& distribution, std::size_t band) {
@@ -262,6 +266,14 @@ FaceDistribution distribution_of_group(const CastingOptions& casting,
   if (!group) return {&casting.sampling, casting.sampling.targets, std::nullopt};
   const Group& own = casting.groups[*group];
   return {&own.sampling, own.sampling.targets, own.name};
+}
+
+std::vector<FaceDistribution> face_distributions(const CastingOptions& casting) {
+  std::vector<FaceDistribution> kinds = {distribution_of_group(casting)};
+  for (std::size_t g = 0; g < casting.groups.size(); ++g) {
+    kinds.push_back(distribution_of_group(casting, g));
+  }
+  return kinds;
 }
 
 FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& manual,
@@ -287,7 +299,7 @@ FacePlan random_face_plan(const CastingOptions& casting, const ManualRecipe& man
         draw_region(casting, distribution, k, face.recipe.target, draws, region));
   }
   if (!manual.colours.empty()) face.recipe.colours = normalized_source_weights(manual.colours);
-  apply_age(face, age, properties_of_heads(casting), sampling);
+  apply_age(face, age, casting);
   face.recipe.asymmetry = draws.in(manual.asymmetry.value_or(sampling.asymmetry), "asymmetry", "");
   face.recipe.mirrored = manual.mirrored.value_or(sampling.mirror == Mirroring::kRandom &&
                                                   draws.unit("mirror", "") < 0.5);

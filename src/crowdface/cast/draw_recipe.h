@@ -5,50 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/ageing.h"
-#include "crowdface/cast/diversity.h"
+#include "crowdface/cast/casting_options.h"
 #include "crowdface/cast/face_plan.h"
-#include "crowdface/cast/family.h"
-#include "crowdface/cast/review.h"
-#include "crowdface/cast/sampling.h"
-#include "crowdface/cast/typical_head.h"
-#include "crowdface/smooth/smoothing_operator.h"
 
 namespace crowdface {
-
-/// Converts a smoothness (0 … 1) to a number of smoothing iterations.
-struct SmoothingLevelScale {
-  OperatorKind operator_kind = OperatorKind::kUmbrella;
-  std::uint64_t max_level = 1;  ///< L_max: number of iterations at smoothness 1
-  /// root mean square edge length of the skin, averaged over the heads
-  double edge_length_mm = 1;
-};
-
-/// All inputs of casting except the face space.
-struct CastingOptions {
-  std::string name;         ///< name of the crowd
-  std::uint64_t count = 0;  ///< number of sampled faces
-  std::uint64_t seed = 1;
-  std::vector<PlanePoint> anchors;        ///< position of each head on the weight plane
-  std::vector<std::string> region_names;  ///< contains only "all" if there are no regions
-  SamplingOptions sampling;
-  std::vector<ManualRecipe> recipes;
-  Normalization normalization = Normalization::kPartition;
-  SmoothingLevelScale level_scale;
-  DiversityOptions diversity = {};
-  std::vector<FamilyOptions> families = {};
-  std::vector<Review> reviews = {};  ///< reviews, which are applied one after the other
-  std::vector<Group> groups = {};    ///< groups of the sampled faces
-  HeadTags tags = {};                ///< the tags of each head; or empty
-  /// distributions that the measurements of the crowd should have
-  std::vector<TraitTarget> trait_targets = {};
-  std::vector<FaceChange> changes = {};      ///< changes of single faces that the config requests
-  std::vector<double> head_ages_years = {};  ///< the age of each head; or empty
-};
-/// Returns the properties of the heads on which ageing depends.
-inline HeadProperties properties_of_heads(const CastingOptions& casting) {
-  return {casting.anchors, casting.tags, casting.head_ages_years};
-}
 
 /// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the
 /// possible targets.
@@ -67,14 +27,15 @@ const std::vector<Index>& sources_of(const FaceDistribution& distribution, std::
 FaceDistribution distribution_of_group(const CastingOptions& casting,
                                        std::optional<std::size_t> group = std::nullopt);
 
+/// Returns the distribution of the faces that have no group, followed by the distribution of each
+/// group's faces.
+std::vector<FaceDistribution> face_distributions(const CastingOptions& casting);
+
 /// Returns smoothness · L_max, rounded to whole smoothing iterations.
 std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale);
 
 /// Scales the weights of a hand-written recipe so that they sum to one.
 std::vector<SourceWeight> normalized_source_weights(const std::vector<WeightedHead>& written);
-
-/// Returns the id of sampled face `index`: the crowd's name and at least four digits.
-std::string face_id(const std::string& crowd, std::uint64_t index);
 
 /// Key of a face's random numbers. Each combination of the three members gives independent numbers.
 struct FaceRandomKey {

@@ -99,7 +99,9 @@ class FaceChanger {
           concat(change.origin, ": ", join(changed_keys(change))));
     }
     changed_.point = judge_.space().point(changed_.face.recipe);
-    note_nearest();
+    std::vector<bool> is_before(cast_.crowd.size());
+    std::fill_n(is_before.begin(), at_, true);
+    changed_.face.notes.nearest = nearest_neighbours(judge_, cast_, changed_.point, is_before);
   }
 
  private:
@@ -129,10 +131,6 @@ class FaceChanger {
     return {*original.index, attempt, concat("change/", number_, '/', original.notes.attempt)};
   }
 
-  const SamplingOptions& sampling_of(const FacePlan& face) const {
-    return *distribution_of_named_group(face.group, casting_).sampling;
-  }
-
   /// Returns the faces that precede the changed face in the plan, as they were before any review.
   CrowdSoFar faces_before() const {
     std::map<std::string, FaceSpace::Point> first;
@@ -151,9 +149,8 @@ class FaceChanger {
     FacePlan other = changed_.variant_of->face;
     const FaceSpace::Point point = judge_.space().point(other.recipe);
     const double age = other.age.value_or(0);
-    const SamplingOptions& sampling = sampling_of(other);
-    undo_age(other, properties_of_heads(casting_), sampling);
-    return [=, this, &sampling](std::uint32_t attempt) {
+    undo_age(other, casting_);
+    return [=, this](std::uint32_t attempt) {
       ManualRecipe open;
       open.id = changed_.face.id;
       open.target = other.recipe.target;
@@ -165,8 +162,8 @@ class FaceChanger {
         face.recipe = mixed(other.recipe, drawn.recipe, share, casting_.level_scale);
         face.recipe.colours = other.recipe.colours;
         face.age = other.age;
+        if (!other.age) apply_age(face, {age}, casting_);
         face.age_years = other.age_years;
-        if (!other.age) apply_age(face, age, properties_of_heads(casting_), sampling);
         return face;
       };
       const auto is_beyond = [&](const FacePlan& face) {
@@ -218,16 +215,15 @@ class FaceChanger {
                                               const CrowdSoFar& others) {
     FaceJudge judge = judge_;
     CastingOptions limited;
-    std::optional<TraitRules> rules;
     if (!changed_.traits.empty() && !changed_.variant_of) {
       limited.sampling.traits = merge_limits(casting_.sampling.traits, changed_.traits);
       limited.groups = casting_.groups;
       for (Group& group : limited.groups) {
         group.sampling.traits = merge_limits(group.sampling.traits, changed_.traits);
       }
-      judge.set_trait_rules(&rules.emplace(judge.trait_rules()->measurer(), limited));
+      judge.set_trait_rules(TraitRules(judge.trait_rules()->measurer(), limited));
     } else if (changed_.variant_of) {
-      judge.set_trait_rules(nullptr);
+      judge.set_trait_rules(std::nullopt);
     }
     DiversityOptions diversity = casting_.diversity;
     diversity.min_distance_mm = min_distance_mm_;
@@ -235,8 +231,8 @@ class FaceChanger {
     auto face = found.choose_face(others);
     cast_.rejections.add(found.rejections());
     if (!face) {
-      cast_.shortfall = Shortfall{casting_.count, found.rejections()};
-      cast_.shortfall->unchangeable_face_id = changed_.face.id;
+      cast_.shortfall = Shortfall{casting_.count, found.rejections(), -1,
+                                  Shortfall::What::kChangedFace, changed_.face.id};
     }
     return face;
   }
@@ -250,25 +246,9 @@ class FaceChanger {
   }
 
   void set_age(const Age& age) {
-    const SamplingOptions& sampling = sampling_of(changed_.face);
-    const HeadProperties heads = properties_of_heads(casting_);
-    undo_age(changed_.face, heads, sampling);
+    undo_age(changed_.face, casting_);
     changed_.face.age.reset();
-    apply_age(changed_.face, age, heads, sampling);
-  }
-
-  /// Notes the head and the earlier face that are nearest to the changed face, with their
-  /// distances. These notes are for information only.
-  void note_nearest() {
-    const auto [head, head_distance_mm] = judge_.nearest_head(changed_.point);
-    NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
-    for (std::size_t i = 0; i < at_; ++i) {
-      const double mm = FaceSpace::distance(changed_.point, cast_.points[i]);
-      if (nearest.earlier_face && mm >= nearest.earlier_face_distance_mm) continue;
-      nearest.earlier_face = cast_.crowd[i].id;
-      nearest.earlier_face_distance_mm = mm;
-    }
-    changed_.face.notes.nearest = nearest;
+    apply_age(changed_.face, age, casting_);
   }
 
   const CastingOptions& casting_;
@@ -324,6 +304,21 @@ AvoidedFaces::AvoidedFaces(const CastingResult& cast, double min_distance_mm,
   for (const auto& [face, changed] : cast.changed) {
     if (is_considered.empty() || is_considered[face]) points_.push_back(changed.point);
   }
+}
+
+NearestNeighbours nearest_neighbours(const FaceJudge& judge, const CastingResult& cast,
+                                     const FaceSpace::Point& point,
+                                     const std::vector<bool>& is_considered) {
+  const auto [head, head_distance_mm] = judge.nearest_head(point);
+  NearestNeighbours nearest{head, head_distance_mm, std::nullopt, 0};
+  for (std::size_t i = 0; i < cast.crowd.size(); ++i) {
+    if (!is_considered[i]) continue;
+    const double mm = FaceSpace::distance(point, cast.points[i]);
+    if (nearest.earlier_face && mm >= nearest.earlier_face_distance_mm) continue;
+    nearest.earlier_face = cast.crowd[i].id;
+    nearest.earlier_face_distance_mm = mm;
+  }
+  return nearest;
 }
 
 std::optional<RejectionReason> AvoidedFaces::rejection_reason(const FaceSpace::Point& point) const {

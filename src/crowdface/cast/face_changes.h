@@ -49,6 +49,12 @@ class AvoidedFaces {
   std::vector<FaceSpace::Point> points_;  ///< points of the changed faces
 };
 
+/// Returns the nearest head, and the nearest of the faces that `is_considered` marks (one entry per
+/// face of the crowd).
+NearestNeighbours nearest_neighbours(const FaceJudge& judge, const CastingResult& cast,
+                                     const FaceSpace::Point& point,
+                                     const std::vector<bool>& is_considered);
+
 /// Applies the changes that the config requests, before the changes that reviews request.
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
                              CastingResult& cast);

@@ -44,8 +44,17 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
                              kFractionOfMedian * quartiles(pair_distances(heads)).median);
 }
 
+Positions FaceJudge::landmarks(const Recipe& recipe) const {
+  return !trait_rules_ ? Positions() : trait_rules_->measurer().landmarks(recipe);
+}
+
+std::optional<RejectionReason> FaceJudge::check_traits(const FacePlan& face,
+                                                       const Positions& landmarks) const {
+  return !trait_rules_ ? std::nullopt : trait_rules_->check(face, landmarks);
+}
+
 std::optional<RejectionReason> FaceJudge::check_traits(const FacePlan& face) const {
-  if (trait_rules_ == nullptr || trait_rules_->limits_of(face).empty()) return std::nullopt;
+  if (!trait_rules_ || trait_rules_->limits_of(face).empty()) return std::nullopt;
   return trait_rules_->check(face, trait_rules_->measurer().exact_landmarks(face.recipe));
 }
 

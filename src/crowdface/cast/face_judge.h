@@ -33,12 +33,20 @@ class FaceJudge {
             const BelievabilityOptions& believability, const ProxySkin* proxy_skin = nullptr,
             MeshDefectFinder find_mesh_defects = {});
 
-  /// Sets the limits on measurements.
-  ///
-  /// \param rules  must outlive this object; null: no limits
-  void set_trait_rules(const TraitRules* rules) { trait_rules_ = rules; }
-  const TraitRules* trait_rules() const { return trait_rules_; }
-  /// Checks the limits on measurements, with landmarks of the whole mesh.
+  /// Sets the limits on measurements. Nothing: no limits.
+  void set_trait_rules(std::optional<TraitRules> rules) { trait_rules_ = rules; }
+  const TraitRules* trait_rules() const { return trait_rules_ ? &*trait_rules_ : nullptr; }
+  void set_diversity(const DiversityOptions& diversity) { diversity_ = diversity; }
+  /// Returns whether this judge checks whole meshes.
+  bool checks_meshes() const { return find_mesh_defects_ != nullptr; }
+  void stop_mesh_checks() { find_mesh_defects_ = nullptr; }
+  /// Returns the landmarks of a face in microseconds, see FaceMeasurer::landmarks. Returns no rows
+  /// if there are neither limits on measurements nor distributions of measurements.
+  Positions landmarks(const Recipe& recipe) const;
+  /// Checks the limits on measurements at these landmarks.
+  std::optional<RejectionReason> check_traits(const FacePlan& face,
+                                              const Positions& landmarks) const;
+  /// Checks the limits on measurements at the landmarks of the whole mesh. Takes a millisecond.
   std::optional<RejectionReason> check_traits(const FacePlan& face) const;
 
   /// Checks everything that needs only the recipe and the face's point in the face space: weights,
@@ -81,7 +89,7 @@ class FaceJudge {
   Plausibility plausibility_;
   const ProxySkin* proxy_skin_;
   MeshDefectFinder find_mesh_defects_;
-  const TraitRules* trait_rules_ = nullptr;
+  std::optional<TraitRules> trait_rules_;
 };
 
 }  // namespace crowdface

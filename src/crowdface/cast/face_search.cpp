@@ -45,10 +45,8 @@ bool FaceSearch::needs_candidates(std::size_t unchecked_count, std::size_t too_n
 /// that violates these limits raises the allowed number of attempts by one, up to a multiple of the
 /// usual number.
 bool FaceSearch::meets_limits(Candidate& candidate) {
-  const TraitRules* rules = judge_.trait_rules();
-  if (rules == nullptr) return true;
-  candidate.landmarks = rules->measurer().landmarks(candidate.face.recipe);
-  const auto reason = rules->check(candidate.face, candidate.landmarks);
+  candidate.landmarks = judge_.landmarks(candidate.face.recipe);
+  const auto reason = judge_.check_traits(candidate.face, candidate.landmarks);
   if (!reason) return true;
   rejections_.add(*reason);
   const auto usual = static_cast<std::uint32_t>(diversity_.max_attempts);

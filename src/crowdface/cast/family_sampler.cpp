@@ -8,6 +8,7 @@
 
 #include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/cast/mixed_recipe.h"
 #include "crowdface/core/contains.h"
 #include "crowdface/core/error.h"
@@ -107,8 +108,7 @@ FamilySampler::FamilySampler(const CastingOptions& casting, const FamilyOptions&
 
 void FamilySampler::add_parent(std::size_t parent, std::string name, FacePlan face,
                                FaceSpace::Point point) {
-  undo_age(face, properties_of_heads(casting_),
-           sampling_of(face));  // remove the parent's age, because children do not inherit it
+  undo_age(face, casting_);  // children do not inherit their parents' age
   parents_[parent] = {std::move(name), std::move(face), std::move(point)};
 }
 
@@ -207,15 +207,6 @@ double FamilySampler::distance_to_new_parent_mm(const FaceSpace::Point& point) c
   return mm;
 }
 
-/// Returns the sampling parameters that apply to a face: the parameters of the face's group or of
-/// the crowd.
-const SamplingOptions& FamilySampler::sampling_of(const FacePlan& face) const {
-  for (const Group& group : casting_.groups) {
-    if (face.group == group.name) return group.sampling;
-  }
-  return casting_.sampling;
-}
-
 BandRecipe FamilySampler::parent_band(std::size_t parent, std::size_t region, std::size_t band,
                                       const BandRecipe& random_band) const {
   BandRecipe own = random_band;
@@ -269,7 +260,7 @@ FacePlan FamilySampler::mixed_face(const FacePlan& from, const MemberDraft& draf
   FacePlan face = draft.random_face;
   face.recipe = mixed(from.recipe, draft.random_face.recipe, t, casting_.level_scale);
   face.mother_share = (1 - t) * from.mother_share + t * draft.random_face.mother_share;
-  apply_age(face, draft.age, properties_of_heads(casting_), sampling_of(face));
+  apply_age(face, draft.age, casting_);
   if (draft.age_years_of_twins) face.age_years = draft.age_years_of_twins;
   return face;
 }
@@ -367,7 +358,7 @@ FacePlan FamilySampler::twins_prototype(const FamilyPlan& family_plan,
   MemberDraft model = member_draft(family_plan, 0, attempt);
   const Age age = std::exchange(model.age, Age{});
   FacePlan face = face_at_chosen_distance(family_plan, model);
-  face.age = age_as_fraction(age, face, properties_of_heads(casting_), sampling_of(face));
+  face.age = age_as_fraction(age, face, casting_);
   if (age.unit == AgeUnit::kYears) face.age_years = age.value;
   return face;
 }
@@ -424,14 +415,6 @@ double FamilySampler::fraction_of_strangers_nearer_than_parent(
     share = std::max(share, unrelated_faces_.fraction_nearer(point, mm, family_.group));
   }
   return share;
-}
-
-std::string parent_id(const std::string& crowd, const Parent& parent) {
-  return concat(crowd, '_', parent.id);
-}
-
-std::string member_id(const std::string& crowd, const std::string& family, int member) {
-  return concat(crowd, '_', family, '_', member < 10 ? "0" : "", member);
 }
 
 }  // namespace crowdface

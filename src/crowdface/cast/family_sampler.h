@@ -110,7 +110,6 @@ class FamilySampler {
   /// with both parents (at least three heads, if there are as many), so that a child's skin tone
   /// stays plausible.
   FaceDistribution third_contributor_distribution() const;
-  const SamplingOptions& sampling_of(const FacePlan& face) const;
   /// Returns the band of detail that a parent passes on: the band of the parent's recipe or, if the
   /// parent is an input head, the head's own detail. Heads outside the family's group are replaced
   /// by similar heads of the group.
@@ -156,11 +155,5 @@ class FamilySampler {
   /// points of relatives (kin) and of all other faces (strangers)
   NearestFaceSearch relative_points_, stranger_points_;
 };
-
-/// Returns the id of a family's member, such as "NAME_FAMILY_01".
-std::string member_id(const std::string& crowd, const std::string& family, int member);
-
-/// Returns the full id of a new parent of a family: "NAME_FAMILY_mother".
-std::string parent_id(const std::string& crowd, const Parent& parent);
 
 }  // namespace crowdface

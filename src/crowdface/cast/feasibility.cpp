@@ -37,32 +37,28 @@ double smaller_distance(double fails, std::uint64_t reached, std::uint64_t count
 
 }  // namespace
 
-Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
-                   const BelievabilityOptions& believability, const ProxySkin* skin,
-                   const Shortfall& shortfall, const std::function<void()>& trial_done,
-                   const TraitRules* traits, const MeshDefectFinder& find_mesh_defects) {
+Remedy find_remedy(const CastingOptions& casting, const FaceJudge& judge,
+                   const Shortfall& shortfall, const std::function<void()>& trial_done) {
   Remedy remedy;
   remedy.binding_constraint = shortfall.rejections.most_frequent();
   CastingOptions easier = casting;
-  if (!shortfall.family.empty() || !shortfall.reviewed_face_id.empty() ||
-      !shortfall.manual_face_id.empty() || !shortfall.unchangeable_face_id.empty()) {
-    return remedy;
-  }
+  if (shortfall.what != Shortfall::What::kSampledFace) return remedy;
   easier.reviews.clear();
   easier.changes.clear();
   const bool is_slow =
-      casting.diversity.mode == DiversityOptions::Mode::kSpread || find_mesh_defects;
+      casting.diversity.mode == DiversityOptions::Mode::kSpread || judge.checks_meshes();
   easier.count = std::min(casting.count, is_slow ? kMaxSlowTrialFaces : kMaxTrialFaces);
   remedy.trial_face_count = easier.count;
   const Constraint& constraint = constraint_of(remedy.binding_constraint);
   if (!constraint.is_distance()) return remedy;
   double& distance = easier.diversity.*constraint.diversity_limit;
   std::uint64_t draws = 0;
-  const auto shortfall_at = [&](double mm, const MeshDefectFinder& finder) {
+  FaceJudge coarse = judge;
+  coarse.stop_mesh_checks();
+  const auto shortfall_at = [&](double mm, FaceJudge of_trial) {
     distance = mm;
-    FaceJudge judge(space, easier.diversity, believability, skin, finder);
-    judge.set_trait_rules(traits);
-    const CastingResult cast = cast_crowd(easier, judge);
+    of_trial.set_diversity(easier.diversity);
+    const CastingResult cast = cast_crowd(easier, of_trial);
     draws += cast.rejections.total() +
              cast.crowd.size() * static_cast<std::uint64_t>(easier.diversity.candidate_count(1));
     if (trial_done) trial_done();
@@ -73,7 +69,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
   while ((draws < kMaxTrialCandidates || works == 0) && fails >= kBisectionRatio * works) {
     const double mm = whole_hundredths(next);
     if (mm <= works) break;
-    if (const auto missing = shortfall_at(mm, {})) {
+    if (const auto missing = shortfall_at(mm, coarse)) {
       fails = mm;
       next = works > 0 ? std::sqrt(works * fails)
                        : smaller_distance(fails, missing->cast_count, easier.count);
@@ -83,8 +79,7 @@ Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
     }
   }
   // The trials above check coarse meshes only. Repeat the check with whole meshes.
-  for (int trial = 0; find_mesh_defects && works > 0 && shortfall_at(works, find_mesh_defects);
-       ++trial) {
+  for (int trial = 0; judge.checks_meshes() && works > 0 && shortfall_at(works, judge); ++trial) {
     works = trial + 1 < kMaxMeshTrials ? whole_hundredths(0.93 * works) : 0;
   }
   if (works > 0) remedy.largest_distance_mm = works;

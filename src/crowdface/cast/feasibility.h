@@ -19,16 +19,12 @@ struct Remedy {
 
 /// Searches for a remedy. Casts again with smaller distances, and bisects until the smallest
 /// distance that fails is at most 8 % above the largest distance that works. Also stops when all
-/// trials together have used 200,000 candidates and a trial has succeeded.
+/// trials together have used 200,000 candidates and a trial has succeeded. If the judge checks whole
+/// meshes, only the last trials do; if four of these fail, the remedy has no distance.
 ///
 /// \param trial_done  Called after each trial.
-/// \param find_mesh_defects  If given, the last trials also judge the candidates' whole meshes. If
-///                           four trials with whole meshes fail, the remedy has no distance.
-Remedy find_remedy(const CastingOptions& casting, const FaceSpace& space,
-                   const BelievabilityOptions& believability, const ProxySkin* skin,
-                   const Shortfall& shortfall, const std::function<void()>& trial_done = {},
-                   const TraitRules* traits = nullptr,
-                   const MeshDefectFinder& find_mesh_defects = {});
+Remedy find_remedy(const CastingOptions& casting, const FaceJudge& judge,
+                   const Shortfall& shortfall, const std::function<void()>& trial_done = {});
 
 /// Checks in seconds whether a crowd of more than 3200 faces is impossible in spread mode: tries to
 /// place 400 faces by first fit. Spread mode finds at most twice as many faces as first fit, so if

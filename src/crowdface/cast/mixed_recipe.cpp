@@ -1,9 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/cast/mixed_recipe.h"
 
-#include "crowdface/cast/ageing.h"
+#include <map>
 
 namespace crowdface {
+
+std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
+                                        const std::vector<SourceWeight>& b, double t) {
+  std::map<Index, double> sum;
+  for (const SourceWeight& source : a) sum[source.head] += (1 - t) * source.weight;
+  for (const SourceWeight& source : b) sum[source.head] += t * source.weight;
+  std::vector<SourceWeight> mixed;
+  for (const auto& [head, weight] : sum) {
+    if (weight > 0) mixed.push_back({head, weight});
+  }
+  return mixed;
+}
 
 double mixed(double a, double b, double t) {
   return a == b ? a : (1 - t) * a + t * b;

@@ -6,6 +6,9 @@
 
 namespace crowdface {
 
+/// Mixes the two weights of each head: returns (1 − t)·a + t·b.
+std::vector<SourceWeight> mixed_weights(const std::vector<SourceWeight>& a,
+                                        const std::vector<SourceWeight>& b, double t);
 /// Returns (1 − t)·a + t·b.
 double mixed(double a, double b, double t);
 /// Returns (1 − t)·a + t·b for the weights, the smoothness and the extrapolation of two bands. The

@@ -139,12 +139,4 @@ std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t
   return schedule;
 }
 
-std::vector<FaceDistribution> face_distributions(const CastingOptions& casting) {
-  std::vector<FaceDistribution> kinds = {distribution_of_group(casting)};
-  for (std::size_t g = 0; g < casting.groups.size(); ++g) {
-    kinds.push_back(distribution_of_group(casting, g));
-  }
-  return kinds;
-}
-
 }  // namespace crowdface

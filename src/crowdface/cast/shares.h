@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/sampling.h"
 
 namespace crowdface {
 
@@ -37,9 +37,5 @@ std::vector<int> schedule_shares_randomly(std::vector<double> shares, std::uint6
 ///                          multiples of the crowd's size.
 std::vector<int> schedule_groups(const std::vector<Group>& groups, std::uint64_t count,
                                  std::uint64_t pool_size_factor = 1);
-
-/// Returns the distribution of the faces that have no group, followed by the distribution of each
-/// group's faces.
-std::vector<FaceDistribution> face_distributions(const CastingOptions& casting);
 
 }  // namespace crowdface

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/cast/face_ids.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 
@@ -64,14 +65,14 @@ CandidatePool sample_pool(const CastingOptions& casting, const FaceJudge& judge,
     for (int attempt = 0; attempt < attempts; ++attempt) {
       const FaceRandomKey key = {at + 1, static_cast<std::uint32_t>(attempt), "pool"};
       FacePlan face = random_face_plan(casting, {}, key, kind);
-      const TraitRules* rules = judge.trait_rules();
-      if (rules != nullptr && !rules->measurer().meets(kind.sampling->traits,
-                                                       rules->measurer().landmarks(face.recipe))) {
-        rejections[at].add(RejectionReason::kTraits);
-        continue;
+      face.index = key.index;  // a sampled face, see TraitRules::limits_of
+      auto reason = judge.check_traits(face, judge.landmarks(face.recipe));
+      FaceSpace::Point point;
+      if (!reason) {
+        point = judge.space().point(face.recipe);
+        reason = judge.check_candidate(face.recipe, point, key.attempt);
       }
-      FaceSpace::Point point = judge.space().point(face.recipe);
-      if (const auto reason = judge.check_candidate(face.recipe, point, key.attempt)) {
+      if (reason) {
         rejections[at].add(*reason);
         continue;
       }
@@ -138,9 +139,6 @@ void cast_spread(const CastingOptions& casting, const FaceJudge& judge,
     FarthestPoints::Pick pick = points.farthest(group_index);
     while (pick.candidate >= 0) {
       const auto at = static_cast<std::size_t>(pick.candidate);
-      // the number of the sampled face that this candidate becomes if the search picks the
-      // candidate
-      pool.faces[at].index = index;
       std::optional<RejectionReason> why = judge.check_traits(pool.faces[at]);
       if (!why) why = judge.check_skin(pool.faces[at].recipe);
       if (!why && family_separation.is_too_near_to_family(pool.points[at]))

@@ -15,27 +15,23 @@ bool limits_faces(const TraitLimits& limits) {
 
 TraitLimits TraitRules::limits_of(const FacePlan& face) const {
   if (face.family) {
-    const auto family = std::ranges::find(casting_.families, *face.family, &FamilyOptions::name);
-    if (family == casting_.families.end()) return {};
+    const auto family = std::ranges::find(casting_->families, *face.family, &FamilyOptions::name);
+    if (family == casting_->families.end()) return {};
     const SamplingOptions& common =
-        family->group ? casting_.groups[*family->group].sampling : casting_.sampling;
+        family->group ? casting_->groups[*family->group].sampling : casting_->sampling;
     return merge_limits(common.traits, family->traits);
   }
-  if (face.group) {
-    const auto group = std::ranges::find(casting_.groups, *face.group, &Group::name);
-    if (group != casting_.groups.end()) return group->sampling.traits;
-  }
-  if (!face.index) {
+  if (!face.group && !face.index) {
     if (face.id.empty()) return {};
-    const auto hand = std::ranges::find(casting_.recipes, face.id, &ManualRecipe::id);
-    if (hand != casting_.recipes.end()) return hand->traits;
+    const auto hand = std::ranges::find(casting_->recipes, face.id, &ManualRecipe::id);
+    if (hand != casting_->recipes.end()) return hand->traits;
   }
-  return casting_.sampling.traits;
+  return sampling_of(*casting_, face.group).traits;
 }
 
 std::optional<RejectionReason> TraitRules::check(const FacePlan& face,
                                                  const Positions& landmarks) const {
-  if (measurer_.meets(limits_of(face), landmarks)) return std::nullopt;
+  if (measurer_->meets(limits_of(face), landmarks)) return std::nullopt;
   return RejectionReason::kTraits;
 }
 

@@ -15,7 +15,7 @@ class TraitRules {
  public:
   /// \param measurer, casting  must outlive this object.
   TraitRules(const FaceMeasurer& measurer, const CastingOptions& casting)
-      : measurer_(measurer), casting_(casting) {}
+      : measurer_(&measurer), casting_(&casting) {}
 
   /// Returns the limits that apply to a face. A hand-written face has the limits of its recipe. A
   /// member of a family has the limits of the family, and also the limits of the family's group or,
@@ -28,11 +28,11 @@ class TraitRules {
   ///
   /// \param landmarks  from FaceMeasurer::landmarks or exact_landmarks
   std::optional<RejectionReason> check(const FacePlan& face, const Positions& landmarks) const;
-  const FaceMeasurer& measurer() const { return measurer_; }
+  const FaceMeasurer& measurer() const { return *measurer_; }
 
  private:
-  const FaceMeasurer& measurer_;
-  const CastingOptions& casting_;
+  const FaceMeasurer* measurer_;
+  const CastingOptions* casting_;
 };
 
 /// Returns whether any face of the crowd has limits on measurements.

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crowdface/cast/family_sampler.h"
+#include "crowdface/cast/face_ids.h"
+#include "crowdface/cast/family.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/traits_keys.h"
 #include "crowdface/core/contains.h"

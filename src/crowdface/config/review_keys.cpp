@@ -2,7 +2,8 @@
 // The config key `review`, and the review files that it lists.
 #include <algorithm>
 
-#include "crowdface/cast/family_sampler.h"
+#include "crowdface/cast/face_ids.h"
+#include "crowdface/cast/family.h"
 #include "crowdface/config/config_keys.h"
 #include "crowdface/config/edited_entries.h"
 #include "crowdface/core/contains.h"

@@ -140,11 +140,8 @@ EditSession::JudgingData EditSession::make_judging_data() const {
   FaceJudge judge(space, *job_.config.diversity, *job_.config.believability,
                   &searched_space->proxy_skin);
   auto traits = available_face_traits(job_.config, job_.inputs, prepared_);
-  std::unique_ptr<const TraitRules> rules;
-  if (traits) rules = std::make_unique<const TraitRules>(traits->measurer(), casting_);
-  judge.set_trait_rules(rules.get());
-  return {std::move(searched_space), std::move(judge), std::move(crowd), std::move(traits),
-          std::move(rules)};
+  if (traits) judge.set_trait_rules(TraitRules(traits->measurer(), casting_));
+  return {std::move(searched_space), std::move(judge), std::move(crowd), std::move(traits)};
 }
 
 std::vector<HeadSmoothing> EditSession::preview_levels() const {
@@ -208,7 +205,8 @@ FaceMeasures EditSession::measure(const FacePlan& recipe, const std::string& ope
       measures.nearest_face_distance_mm = nearest.distance_mm;
     }
   }
-  if (judging.traits) measure_traits(*judging.traits, *judging.rules, recipe, measures);
+  if (judging.traits)
+    measure_traits(*judging.traits, *judging.judge.trait_rules(), recipe, measures);
   if (const auto why = judge.check_recipe(recipe.recipe, point)) {
     measures.warnings.push_back(sentence(*why, job_.config));
   }

@@ -139,7 +139,6 @@ class EditSession {
     FaceJudge judge;
     NearestFaceSearch crowd_search;            ///< the faces of crowd(), in the same order
     std::unique_ptr<const FaceTraits> traits;  ///< null if no measurement is available
-    std::unique_ptr<const TraitRules> rules;   ///< limits on measurements; null with `traits`
   };
   JudgingData make_judging_data() const;
   /// Finds the nearest face of the crowd, except the faces with the ids `recipe.id` and

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "crowdface/cast/ageing.h"
 #include "crowdface/cast/band_order.h"
+#include "crowdface/cast/mixed_recipe.h"
 #include "crowdface/core/error.h"
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/text.h"
@@ -75,9 +75,7 @@ std::vector<FacePlan> sample_faces(const CastingOptions& casting, const FaceJudg
   for (std::uint32_t i = 0; i < most && faces.size() < request.count; ++i) {
     throw_if_interrupted();
     FacePlan face = sample_one(casting, request, request.first_attempt + i);
-    const TraitRules* rules = judge.trait_rules();
-    if (rules != nullptr && (rules->check(face, rules->measurer().landmarks(face.recipe)) ||
-                             judge.check_traits(face))) {
+    if (judge.check_traits(face, judge.landmarks(face.recipe)) || judge.check_traits(face)) {
       ++reasons[RejectionReason::kTraits];
       continue;
     }

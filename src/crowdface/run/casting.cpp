@@ -248,16 +248,12 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
   for (const std::string& conflict : merged_reviews(config.review.reviews).conflicts) {
     log_warning(concat("reviews made at the same time disagree about ", conflict));
   }
-  MeshDefectFinder find_mesh_defects;
-  if (casting_builds_candidate_meshes(config)) {
-    find_mesh_defects = mesh_defect_finder(config, inputs, builder());
-  }
-  const BelievabilityOptions& believability = *config.believability;
-  FaceJudge judge(space, casting.diversity, believability, &judged_in.proxy_skin,
-                  find_mesh_defects);
+  FaceJudge judge(space, casting.diversity, *config.believability, &judged_in.proxy_skin,
+                  casting_builds_candidate_meshes(config)
+                      ? mesh_defect_finder(config, inputs, builder())
+                      : MeshDefectFinder());
   const auto traits = face_traits_of_config(config, inputs, prepared);
-  std::optional<TraitRules> rules;
-  if (traits) judge.set_trait_rules(&rules.emplace(traits->measurer(), casting));
+  if (traits) judge.set_trait_rules(TraitRules(traits->measurer(), casting));
   CastingResult crowd;
   crowd.shortfall = shortfall_if_spread_impossible(casting, judge);
   if (!crowd.shortfall) {
@@ -271,9 +267,8 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
   if (crowd.shortfall) {
     constexpr std::size_t kMaxTrials = 20;
     Progress progress("searching for values that work", kMaxTrials);
-    const Remedy remedy = find_remedy(
-        with_existing_faces(config, casting), space, believability, &judged_in.proxy_skin,
-        *crowd.shortfall, [&] { progress.step(); }, judge.trait_rules(), find_mesh_defects);
+    const Remedy remedy = find_remedy(with_existing_faces(config, casting), judge, *crowd.shortfall,
+                                      [&] { progress.step(); });
     std::vector<std::string> trait_advice_lines;
     if (remedy.binding_constraint == RejectionReason::kTraits) {
       trait_advice_lines = trait_advice(config, inputs, casting, *traits, *crowd.shortfall);

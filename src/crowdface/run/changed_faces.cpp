@@ -98,11 +98,8 @@ class ChangedLooks {
       band_of(region, band_count(region) - 1).weights = std::exchange(region.colours, {});
     }
     if (other.age != face.age) {
-      const auto group = std::ranges::find(casting_.groups, face.group.value_or(""), &Group::name);
-      const SamplingOptions& sampling =
-          group == casting_.groups.end() ? casting_.sampling : group->sampling;
-      undo_age(other, properties_of_heads(casting_), sampling);
-      apply_age(other, face.age.value_or(0), properties_of_heads(casting_), sampling);
+      undo_age(other, casting_);
+      apply_age(other, {face.age.value_or(0)}, casting_);
     }
     const auto weights = colour_weights(other.recipe, config_.faces.names.size());
     for (std::size_t k = 0; k < weights.size(); ++k) {

@@ -11,6 +11,8 @@
 namespace crowdface {
 namespace {
 
+using What = Shortfall::What;
+
 /// Rounds to one significant digit: 3,480 becomes 3,000.
 std::uint64_t rounded_estimate(double count) {
   const double unit = std::pow(10, std::floor(std::log10(count)));
@@ -34,10 +36,10 @@ std::vector<std::string> advice_for_existing(const Config& config, const Remedy&
             ? concat("diversity.min_distance: ", *remedy.largest_distance_mm, " mm",
                      remedy.trial_face_count == config.crowd.count ? "" : " or less")
             : std::string("a smaller diversity.min_distance");
-    advice.push_back(concat(
-        smaller, shortfall.unchangeable_face_id.empty() ? "" : ", and the change in a review",
-        "; the ", *config.crowd.existing_face_count, " faces that exist stay as they are, ",
-        "only new, redrawn and changed faces come nearer"));
+    advice.push_back(
+        concat(smaller, shortfall.what == What::kChangedFace ? ", and the change in a review" : "",
+               "; the ", *config.crowd.existing_face_count, " faces that exist stay as they are, ",
+               "only new, redrawn and changed faces come nearer"));
   } else if (remedy.binding_constraint == RejectionReason::kRejected) {
     advice.emplace_back(
         "a change of the face in place of the mark (group, lock, traits or variant_of): changes do "
@@ -127,33 +129,37 @@ void throw_shortfall(const Config& config, const Remedy& remedy, const Shortfall
   const std::uint64_t rejected = shortfall.rejections.total();
   const std::uint64_t by_main = shortfall.rejections.of(remedy.binding_constraint);
   std::string message = concat(config.file.string(), ": ");
-  if (!shortfall.family.empty()) {
-    message += concat("the family ", shortfall.family, " cannot be cast: its members cannot be ",
-                      "within max_distance of a founder, min_distance apart and nearer to each ",
-                      "other than to all other faces (most candidates violate ",
-                      asked_of(config, remedy.binding_constraint), ")");
-    const auto family = std::ranges::find(config.families, shortfall.family, &FamilyOptions::name);
-    if (family != config.families.end() && family->group) {
-      message += few_heads(config, config.groups[*family->group]);
+  const std::string asked = asked_of(config, remedy.binding_constraint);
+  switch (shortfall.what) {
+    case What::kFamily: {
+      message += concat("the family ", shortfall.name, " cannot be cast: its members cannot be ",
+                        "within max_distance of a founder, min_distance apart and nearer to each ",
+                        "other than to all other faces (most candidates violate ", asked, ")");
+      const auto family = std::ranges::find(config.families, shortfall.name, &FamilyOptions::name);
+      if (family != config.families.end() && family->group) {
+        message += few_heads(config, config.groups[*family->group]);
+      }
+      break;
     }
-  } else if (!shortfall.manual_face_id.empty()) {
-    message += concat("the recipe ", shortfall.manual_face_id,
-                      " cannot be drawn: ", asked_of(config, remedy.binding_constraint),
-                      ", cannot be met");
-  } else if (!shortfall.unchangeable_face_id.empty()) {
-    message += concat(shortfall.unchangeable_face_id,
-                      " cannot be changed: ", asked_of(config, remedy.binding_constraint),
-                      ", cannot be met");
-  } else if (!shortfall.reviewed_face_id.empty()) {
-    message += concat(shortfall.reviewed_face_id, ", which the review rejects, cannot be redrawn: ",
-                      asked_of(config, remedy.binding_constraint), ", cannot be met");
-  } else {
-    message += concat(
-        config.crowd.count, " faces cannot be cast: ", asked_of(config, remedy.binding_constraint),
-        ", cannot be met; reached ", shortfall.cast_count, " of ", config.crowd.count, " faces");
+    case What::kManualRecipe:
+      message +=
+          concat("the recipe ", shortfall.name, " cannot be drawn: ", asked, ", cannot be met");
+      break;
+    case What::kChangedFace:
+      message += concat(shortfall.name, " cannot be changed: ", asked, ", cannot be met");
+      break;
+    case What::kRedrawnFace:
+      message += concat(shortfall.name, ", which the review rejects, cannot be redrawn: ", asked,
+                        ", cannot be met");
+      break;
+    case What::kSampledFace:
+      message +=
+          concat(config.crowd.count, " faces cannot be cast: ", asked, ", cannot be met; reached ",
+                 shortfall.cast_count, " of ", config.crowd.count, " faces");
+      break;
   }
-  if (config.diversity->mode == DiversityOptions::Mode::kFirstFit && shortfall.family.empty() &&
-      shortfall.manual_face_id.empty()) {
+  if (config.diversity->mode == DiversityOptions::Mode::kFirstFit &&
+      shortfall.what != What::kFamily && shortfall.what != What::kManualRecipe) {
     message += concat(" (for the next face ", by_main, " of ", rejected,
                       " candidates were rejected for this reason)");
   }

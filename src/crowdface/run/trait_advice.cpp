@@ -35,18 +35,20 @@ std::string farthest_heads(const Config& config, const std::vector<double>& of_h
 /// limits of this group, family or recipe.
 FacePlan sample_of_shortfall(const CastingOptions& casting, const Shortfall& shortfall,
                              std::uint32_t attempt) {
-  const auto hand = std::ranges::find(casting.recipes, shortfall.manual_face_id, &ManualRecipe::id);
-  if (!shortfall.manual_face_id.empty() && hand != casting.recipes.end()) {
-    return completed_face_plan(casting, *hand, attempt);
-  }
-  const auto family = std::ranges::find(casting.families, shortfall.family, &FamilyOptions::name);
-  const bool of_family = !shortfall.family.empty() && family != casting.families.end();
   std::optional<std::size_t> group;
   if (shortfall.group_index >= 0) group = static_cast<std::size_t>(shortfall.group_index);
-  if (of_family) group = family->group;
+  std::optional<std::string> family;
+  if (shortfall.what == Shortfall::What::kManualRecipe) {
+    return completed_face_plan(
+        casting, *std::ranges::find(casting.recipes, shortfall.name, &ManualRecipe::id), attempt);
+  }
+  if (shortfall.what == Shortfall::What::kFamily) {
+    family = shortfall.name;
+    group = std::ranges::find(casting.families, *family, &FamilyOptions::name)->group;
+  }
   FacePlan face = random_face(casting, shortfall.cast_count + 1, attempt,
                               distribution_of_group(casting, group));
-  if (of_family) face.family = family->name;
+  face.family = family;
   return face;
 }
 
