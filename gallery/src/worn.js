@@ -8,9 +8,10 @@ import { bytesOf } from './bytes.js';
 import { Draft } from './draft.js';
 import { normalsOf } from './normals.js';
 import { filtered } from './software.js';
-import { studioMaterial } from './studio.js';
+import { extend, studioMaterial } from './studio.js';
 
 const mostPairs = 4e6; // of vertices that are looked at to find which skin is near
+const nearer = 0.004; // of the scene's units, some 0.6 mm: skin that a reduced mesh draws too far out stays behind a beard
 const opaqueBelowSoft = 0.85; // the opacity from which a texel is drawn as opaque below a second pass that draws softer texels
 
 export async function pictureAt(address, { colours, repeated }) {
@@ -68,7 +69,13 @@ async function preparePart(data, software) {
   }
   const part = { object: new Group(), geometry, triangles, twins: numbers(data.twins), vertices: data.vertices, hides: hidesAt(look, geometry, data.vertices) };
   if (software) return { ...part, ...formsOf(part, numbers(data.draft), look) };
-  for (const material of materialsOf(look)) part.object.add(new Mesh(geometry, material));
+  for (const material of materialsOf(look)) {
+    extend(material, (shader) => {
+      shader.vertexShader = shader.vertexShader.replace('#include <project_vertex>', `#include <project_vertex>
+        gl_Position = projectionMatrix * (mvPosition + vec4(0.0, 0.0, ${nearer}, 0.0));`);
+    });
+    part.object.add(new Mesh(geometry, material));
+  }
   return part;
 }
 
@@ -79,6 +86,7 @@ function formsOf({ object, geometry, triangles }, coarse, look) {
   const [whole, draft] = [triangles, coarse].map((all) => {
     const form = new Draft({ triangles: all, uvs: geometry.getAttribute('uv')?.array, kind: 'attachment', isDouble: [true] });
     form.setPicture(0, look.map ?? null, { alphaMap: look.alphaMap ?? null, factor: plain });
+    form.behind.value = -nearer;
     const [material] = form.materials;
     if (!look.alphaMap && look.share < 1) {
       Object.assign(material, { transparent: true, depthWrite: false });
@@ -127,6 +135,7 @@ export class Worn {
     this.node = new Group();
     this.kept = new Map();
     this.parts = [];
+    this.shown = [];
     this.form = 'whole';
   }
 
@@ -174,6 +183,7 @@ export class Worn {
   show(all, skin) {
     this.node.clear();
     this.parts = [];
+    this.shown = all;
     this.skin = skin?.slice();
     for (const [parts, points] of all) {
       let at = 0;

@@ -139,6 +139,16 @@ await settled();
 await take('heads_close');
 assert.ok(areApart(await namesSeen()), 'names lie over each other');
 assert.ok((await namesSeen()).length > 1, 'the others are named');
+const clash = await page.evaluate(() => [...document.querySelectorAll('.head')].filter((node) => {
+  const name = node.querySelector('text').getBoundingClientRect();
+  return name.width > 0 && [...document.querySelectorAll('.head')].some((other) => {
+    const picture = other.querySelector('.anchor > circle').getBoundingClientRect();
+    const across = Math.min(name.right, picture.right) - Math.max(name.left, picture.left);
+    const down = Math.min(name.bottom, picture.bottom) - Math.max(name.top, picture.top);
+    return other !== node && Math.min(across, down) > 6;
+  });
+}).map((node) => node.dataset.head));
+assert.deepEqual(clash, [], 'names that lie behind pictures');
 await page.keyboard.press('Control+z');
 await settled();
 

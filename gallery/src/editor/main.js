@@ -571,6 +571,7 @@ class Editor extends ProgramPage {
     const [lists, shares] = this.coefficientsOf(document);
     const other = shares.join() !== this.shares || Object.keys(this.look.expression).length > 0;
     if (other) view.blender.unsettle();
+    const { shown, skin } = view.worn;
     if (dressed) {
       view.worn.show(dressed);
       view.worn.setForm(view.software ? 'draft' : 'whole');
@@ -578,7 +579,10 @@ class Editor extends ProgramPage {
     } else if (document !== this.exactOf) view.worn.node.visible = false;
     view.blender.blend(lists, shares);
     const picture = view.picture();
-    if (dressed) view.worn.setForm(view.moving ? 'draft' : 'whole');
+    if (dressed) {
+      view.worn.show(shown, skin);
+      view.worn.setForm(view.moving ? 'draft' : 'whole');
+    }
     if (other) this.shares = null;
     this.exactOf = null;
     this.refresh();

@@ -243,14 +243,18 @@ export class PlaneBoard {
       node.setAttribute('transform', `translate(${place})`);
       node.classList.toggle('target', target);
       node.classList.toggle('crowded', !named.has(h));
+      node.querySelector('text').setAttribute('y', this.nameAt(named.get(h)?.side ?? 1));
       node.classList.toggle('away', Boolean(document.anchors?.[name]));
       node.setAttribute('aria-pressed', String(target));
       node.setAttribute('aria-label', target ? `${name}, the target` : `${name}: make it the target`);
     });
   }
 
-  /// The heads whose names touch no other name and no picture; the target's name comes first. Others show theirs when
-  /// they are pointed at.
+  /// How high a name stands in its head's mark. \param side  1 below the picture, -1 above
+  nameAt(side) { return side > 0 ? this.headRadius + 11 : -(this.headRadius + 11 + 3 * this.unit); }
+
+  /// The heads whose names touch no other name and no picture; the target's name comes first, and may stand above its
+  /// picture, where controllers stand. Others show theirs when they are pointed at.
   headsWithRoom(places) {
     const { headRadius, unit } = this;
     const { job, document } = this.editor;
@@ -260,9 +264,10 @@ export class PlaneBoard {
     const target = headIndex(job, document.recipe.target);
     const named = new Map();
     for (const h of [target, ...places.keys()].filter((number) => number >= 0)) {
-      const name = around(places[h], 0.5 * letterWidth * unit * job.heads[h].name.length, headRadius + 11 - 5 * unit, headRadius + 11 + 8 * unit);
-      const isFree = !pictures.some((picture, other) => other !== h && touch(name, picture)) && ![...named.values()].some((other) => touch(name, other));
-      if (isFree && !named.has(h)) named.set(h, name);
+      const half = 0.5 * letterWidth * unit * job.heads[h].name.length;
+      const sides = (h === target ? [1, -1] : [1]).map((way) => ({ side: way, ...around(places[h], half, this.nameAt(way) - 5 * unit, this.nameAt(way) + 8 * unit) }));
+      const free = sides.find((name) => !pictures.some((picture, other) => other !== h && touch(name, picture)) && ![...named.values()].some((other) => touch(name, other)));
+      if (free && !named.has(h)) named.set(h, free);
     }
     return named;
   }
