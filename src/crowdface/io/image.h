@@ -75,9 +75,9 @@ class DamagedImage : public InvalidInput {
 };
 
 /// Reads the image (if there are several, the first) of a PNG, TIFF, OpenEXR, TGA, BMP, GIF or
-/// Photoshop file. The content, not the file name, determines the format. Palette indices become colours; alpha and colours keep
-/// the values of the file. For EXR the result is the display window; pixels outside the data window
-/// are zero.
+/// Photoshop file. The content, not the file name, determines the format. Palette indices become
+/// colours; alpha and colours keep the values of the file. For EXR the result is the display
+/// window; pixels outside the data window are zero.
 /// \throws MissingInput if the file does not exist; DamagedImage if the pixels cannot be read or a
 /// value is not finite (the message names the first such pixel); InvalidInput if the format is
 /// unsupported, the file is truncated or exceeds the limits, integers have more than 16 bits, a

@@ -27,10 +27,10 @@ std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::pat
 void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,
                         FileMesh& mesh);
 
-/// Finds what an OBJ file without material files probably shows: a material file with the name of the
-/// mesh file beside it or, if there is none, an image with this name.
-/// \return an empty path if there is neither, or if the text names a material file or has no texture
-///         coordinates.
+/// Finds what an OBJ file without material files probably shows: a material file with the name of
+/// the mesh file beside it or, if there is none, an image with this name.
+/// \return an empty path if there is neither, or if the text names a material file or has no
+///         texture coordinates.
 std::filesystem::path find_unnamed_texture(const std::filesystem::path& path,
                                            std::string_view text);
 
