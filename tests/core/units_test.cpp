@@ -32,7 +32,9 @@ TEST(LengthUnit, MayBeAnyLength) {
     const LengthUnit unit = *parse_length_unit(text);
     EXPECT_EQ(parse_length_unit(name_of(unit)), unit) << text;
   }
-  EXPECT_EQ(fitting_unit(0.0267, 65), LengthUnit{2400});
+  EXPECT_EQ(fitting_unit(0.0267, 65), LengthUnit{2438.4}) << "Poser";
+  EXPECT_EQ(fitting_unit(0.0286, 65), LengthUnit{2438.4});
+  EXPECT_EQ(fitting_unit(0.0327, 65), LengthUnit{2000});
   EXPECT_EQ(nearest_unit(27, 280, kMetricUnits), LengthUnit::kCentimetre);
   EXPECT_EQ(nearest_unit(0.9, 280, kLengthUnits), LengthUnit::kFoot);
   EXPECT_EQ(nearest_unit(11, 280, kLengthUnits), LengthUnit::kInch);

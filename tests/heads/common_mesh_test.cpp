@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "crowdface/core/file.h"
@@ -103,7 +104,7 @@ class CommonMesh : public ::testing::Test {
     for (const std::string& name : folder_.names()) paths.push_back(folder_.head(name));
     Problems problems;
     std::vector<HeadFile> heads = read_heads(paths, {}, problems);
-    compare_meshes_with_first(heads, problems);
+    compare_meshes(heads, problems);
     problems.throw_if_any();
     return heads;
   }
@@ -169,6 +170,44 @@ TEST_F(CommonMesh, DoesNotDependOnTheDiagonals) {
     EXPECT_EQ(heads[h].mesh, heads[0].mesh);
     EXPECT_EQ(heads[h].file.positions.rows(), used_);
   }
+}
+
+// All other heads were blamed.
+TEST_F(CommonMesh, BlamesTheOddHeadAlsoIfItIsTheFirst) {
+  folder_.folder().write("heads/" + folder_.names()[0] + ".obj",
+                         "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write(1, whole);
+  write(2, whole);
+  try {
+    read();
+    FAIL() << "expected a refusal";
+  } catch (const Error& error) {
+    const std::string message = error.what();
+    EXPECT_THAT(message, ::testing::HasSubstr(folder_.names()[0] + ".obj: not the same mesh as"));
+    EXPECT_EQ(message.find(folder_.names()[2]), message.npos) << message;
+  }
+}
+
+TEST_F(CommonMesh, HasTheOrderOfMostHeads) {
+  write(0, whole, true);
+  write(1, whole);
+  write(2, whole);
+  const std::vector<HeadFile> heads = read();
+  EXPECT_EQ(heads[0].mesh, heads[1].mesh);
+  const ObjFile usual = read_obj(folder_.head(folder_.names()[1]));
+  EXPECT_EQ(heads[1].file.positions, usual.positions);
+}
+
+// Without texture coordinates, polygons that are cut at random in another order are not matched.
+TEST_F(CommonMesh, TellsThatAHeadIsReorderedAndCut) {
+  for (ObjFile& file : original_) file.uvs.setZero();
+  write(0, whole);
+  write(1, whole, true, true, [](Index f) { return static_cast<std::size_t>(f * f % 7 % 2); });
+  write(2, whole);
+  testing::expect_error(
+      ExitCode::kBadData,
+      {folder_.names()[1], "cut into triangles, and its vertices are in another order"},
+      [&] { read(); });
 }
 
 TEST_F(CommonMesh, DoesNotDependOnOrderAndDiagonals) {

@@ -116,18 +116,6 @@ TEST(HeadTextures, OfMaterialsThatNoFaceUsesAreToldNotToBeShown) {
   }
 }
 
-// A head without an mtllib line was grey without a word.
-TEST(HeadTextures, OfAMaterialFileThatTheHeadDoesNotNameAreToldNotToBeShown) {
-  const TemporaryFolder folder;
-  Read head = read(folder, "newmtl right\n");
-  const auto warnings = [&] { return find_texture_files(head.faces, head.files).front().warnings; };
-  EXPECT_THAT(warnings(), ::testing::IsEmpty());
-  head.files[0].material_libraries.clear();
-  EXPECT_THAT(warnings(), ElementsAre(HasSubstr("lacks the line \"mtllib head.mtl\"")));
-  std::filesystem::remove(folder / "head.mtl");
-  EXPECT_THAT(warnings(), ::testing::IsEmpty());
-}
-
 TEST(HeadTextures, ADamagedOneIsRefusedByName) {
   const TemporaryFolder folder;
   folder.write("left.png", "no picture");

@@ -49,6 +49,37 @@ SmallCrowd large_heads() {
   return crowd;
 }
 
+// A head without an mtllib line was grey without a word.
+TEST(ReadHeads, UseTheTextureBesideAHeadThatNamesNone) {
+  SmallCrowd crowd;
+  crowd.heads = 2;
+  const SmallCrowdFolder folder(crowd);
+  const fs::path head = folder.head(folder.names()[0]);
+  const std::string text = read_text(head);
+  folder.folder().write("heads/" + folder.names()[0] + ".obj", "# Exported\n" + text);
+  const auto read = [&] {
+    Problems problems;
+    const std::vector<HeadFile> heads =
+        read_heads({head, folder.head(folder.names()[1])}, folder.out(), problems);
+    problems.throw_if_any();
+    EXPECT_EQ(heads[0].mesh, heads[1].mesh);
+    EXPECT_TRUE(heads[1].file.material_libraries.empty());
+    return heads[0].file;
+  };
+  EXPECT_TRUE(read().material_libraries.empty());
+  const std::string stem = head.stem().string();
+  folder.folder().write("heads/" + stem + ".PNG",
+                        encode_png(1, 1, 3, std::vector<std::uint8_t>{255, 0, 0}));
+  const ObjFile textured = read();
+  EXPECT_EQ(textured.file.bytes(), "mtllib " + stem + ".mtl\n" + text);
+  const NamedTextures named = find_textures(textured.material_path(), textured.material_libraries);
+  ASSERT_EQ(named.paths_by_kind.count(TextureKind::kColour), 1U);
+  EXPECT_FALSE(named.single_material.empty());
+  EXPECT_EQ(read_image(named.paths_by_kind.at(TextureKind::kColour).begin()->second).width, 1);
+  folder.folder().write("heads/" + stem + ".mtl", "newmtl skin\nKd 1 0 0\n");
+  EXPECT_EQ(read().material_path(), head);
+}
+
 class KeptHeads : public ::testing::Test {
  protected:
   KeptHeads() : folder_(large_heads()) {

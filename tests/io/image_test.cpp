@@ -192,6 +192,64 @@ TEST_F(ImageFiles, OtherContentIsRefusedByName) {
               HasSubstr("expected a PNG"));
 }
 
+std::string big_endian(std::uint32_t value, int bytes) {
+  std::string text;
+  while (bytes-- > 0) text.push_back(static_cast<char>(value >> (8 * bytes)));
+  return text;
+}
+
+/// A Photoshop file of 2 x 2 pixels.
+std::string psd(int channels, const std::vector<std::uint8_t>& planes, std::string_view metadata,
+                std::string_view layers) {
+  return "8BPS" + big_endian(1, 2) + std::string(6, '\0') +
+         big_endian(static_cast<std::uint32_t>(channels), 2) + big_endian(2, 4) + big_endian(2, 4) +
+         big_endian(8, 2) + big_endian(3, 2) + big_endian(0, 4) +
+         big_endian(static_cast<std::uint32_t>(metadata.size()), 4) + std::string(metadata) +
+         big_endian(static_cast<std::uint32_t>(layers.size()), 4) + std::string(layers) +
+         big_endian(0, 2) + std::string(planes.begin(), planes.end());
+}
+
+// Scanning software and games write these; "save it as PNG" stopped sound heads.
+TEST_F(ImageFiles, FormatsOfTexturesAreRead) {
+  const auto rgb = counting_bytes(16 * 16 * 3);
+  const auto rgba = counting_bytes(16 * 16 * 4);
+  for (const char* name : {"a.tga", "a.bmp"}) {
+    const path file = write(name, 16, 16, 3, OIIO::TypeDesc::UINT8, rgb);
+    expect_fractions(read_image(file), rgb);
+    const std::string whole = read_file(file);
+    EXPECT_NE(message_of(write_bytes("cut", whole.substr(0, 400))), "accepted") << name;
+  }
+  const Image holes = read_image(write("b.tga", 16, 16, 4, OIIO::TypeDesc::UINT8, rgba));
+  EXPECT_EQ(holes.alpha_channel, 3);
+  expect_fractions(holes, rgba);
+  const path webp = write("a.webp", 16, 16, 3, OIIO::TypeDesc::UINT8, rgb);
+  EXPECT_EQ(read_image(webp, {.allows_jpeg = true}).width, 16);
+  EXPECT_THAT(message_of(webp), HasSubstr("a WebP image, whose values are inexact"));
+  const Image gif = read_image(write("a.gif", 16, 16, 3, OIIO::TypeDesc::UINT8, rgb));
+  EXPECT_EQ(gif.alpha_channel, 3);
+  for (const char* begin : {"BM", "RIFF", "GIF8", "8BPS", "8BPS\0"})
+    EXPECT_NE(message_of(write_bytes("short", begin)), "accepted") << begin;
+}
+
+TEST_F(ImageFiles, PhotoshopFilesAreReadWithoutTheirLayers) {
+  const std::vector<std::uint8_t> planes = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12};
+  const std::vector<std::uint8_t> pixels = {1, 5, 9, 2, 6, 10, 3, 7, 11, 4, 8, 12};
+  const std::string layers = big_endian(8, 4) + "\xff\xff" + std::string(10, '\x7f');
+  const Image image = read_image(write_bytes("a.psd", psd(3, planes, "8BIM junk", layers)));
+  expect_fractions(image, pixels);
+  EXPECT_EQ(image.alpha_channel, -1);
+  std::vector<std::uint8_t> four = planes;
+  four.insert(four.end(), {0, 255, 128, 255});
+  expect_fractions(read_image(write_bytes("h.psd", psd(4, four, "", layers))), pixels);
+  const std::string no_picture = "8BIM\x04\x21" + std::string(2, '\0') + big_endian(5, 4) +
+                                 big_endian(1, 4) + std::string(1, '\0');
+  EXPECT_THAT(message_of(write_bytes("e.psd", psd(3, planes, no_picture, layers))),
+              HasSubstr("Maximize Compatibility"));
+  const std::string whole = psd(3, planes, "8BIM junk", layers);
+  for (std::size_t size = 0; size < whole.size(); ++size)
+    EXPECT_NE(message_of(write_bytes("cut", whole.substr(0, size))), "accepted") << size;
+}
+
 TEST_F(ImageFiles, EveryCutOfAFileIsRefused) {
   const auto bytes = counting_bytes(16 * 16 * 3);
   std::vector<float> floats(16 * 16 * 3);

@@ -114,6 +114,10 @@ TEST(LandmarkLists, HeadersNameTheColumns) {
                        "\n# c\nError,Name,Z (m),Y (m),X (m)\n1,chin,3,-2.5,1\n"
                        "2,nose tip,6,5,4\n");
   expect_chin_and_nose("b.csv", "id,label,x,y,z,note\n7,chin,1,-2.5,3,\n8,nose tip,4,5,6,good\n");
+  expect_chin_and_nose("title.csv",
+                       "Anna; 12 May;;\n;;;\nSubject;7;;\nname;x;y;z\nchin;1;-2,5;3\n"
+                       "nose tip;4;5;6\n");
+  expect_chin_and_nose("titles.csv", "Landmarks,,,\nof Anna,,,\nchin,1,-2.5,3\nnose tip,4,5,6\n");
   expect_chin_and_nose("r.txt", "x\ty\tz\nchin\t1\t-2.5\t3\nnose tip\t4\t5\t6\n");
 }
 

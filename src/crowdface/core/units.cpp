@@ -57,7 +57,10 @@ LengthUnit nearest_unit(double length, double typical_mm, std::span<const Length
 }
 
 LengthUnit fitting_unit(double length, double typical_mm) {
+  constexpr LengthUnit kPoser{2438.4};  // the only unusual unit of a widespread program
+  constexpr double kNear = 1.1;         // people differ by more, but seldom
   const double mm = typical_mm / std::max(length, 1e-9);
+  if (mm <= kNear * kPoser.mm && mm >= kPoser.mm / kNear) return kPoser;
   const double step = std::pow(10, std::floor(std::log10(mm)) - 1);
   const double digits = std::round(mm / step);
   // If the step is below 1, divide by 1/step, which is a whole number; multiplying by 0.1 would

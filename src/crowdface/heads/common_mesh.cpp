@@ -325,7 +325,8 @@ const HeadFile& find_separate_mesh(const std::vector<const HeadFile*>& heads, He
 
 /// Returns the largest set of heads whose polygons have the same numbers of corners in the same
 /// order. If several sets are equally large, returns the set with the lowest-numbered head. If some
-/// of these heads have texture coordinates, the others are left out.
+/// of these heads have texture coordinates, the others are left out. A head with the most frequent
+/// mesh comes first.
 std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads) {
   std::vector<std::vector<const HeadFile*>> kinds;
   for (const HeadFile& head : heads) {
@@ -342,6 +343,11 @@ std::vector<const HeadFile*> heads_like_most(const std::vector<HeadFile>& heads)
       *std::ranges::max_element(kinds, {}, [](const auto& kind) { return kind.size(); });
   const auto has_no_uvs = [](const HeadFile* head) { return head->mesh->uvs.rows() == 0; };
   if (!std::ranges::all_of(most, has_no_uvs)) std::erase_if(most, has_no_uvs);
+  const auto frequency = [&](const HeadFile* head) {
+    return std::ranges::count(most, head->mesh, [](const HeadFile* other) { return other->mesh; });
+  };
+  const auto usual = std::ranges::max_element(most, {}, frequency);
+  std::rotate(most.begin(), usual, most.end());
   return most;
 }
 

@@ -63,18 +63,18 @@ bool has_only_polygons_of(const Topology& first, const Topology& found) {
   return true;
 }
 
-/// If the proportions of a mesh clearly differ from the proportions of the first head, returns the
+/// If the proportions of a mesh clearly differ from the proportions of another head, returns the
 /// end of a message that asks whether the mesh is only a part of a head; otherwise empty.
-std::string part_of_head(const Positions& first, const Positions& found) {
+std::string part_of_head(const Positions& other, const Positions& found) {
   constexpr double kMinShare = 0.7;  // heads of people differ less in their proportions
   const auto sizes = [](const Positions& positions) -> Eigen::Array3d {
     return (positions.colwise().maxCoeff() - positions.colwise().minCoeff()).transpose().array();
   };
-  const Eigen::Array3d shares = sizes(found) / sizes(first);
+  const Eigen::Array3d shares = sizes(found) / sizes(other);
   if (!(shares.minCoeff() < kMinShare * shares.maxCoeff())) return {};
   return concat("; it is ", format_fixed(shares.x(), 2), ", ", format_fixed(shares.y(), 2), " and ",
                 format_fixed(shares.z(), 2),
-                " times as large along X, Y and Z as the first: is it only a part of a head?");
+                " times as large along X, Y and Z as the other: is it only a part of a head?");
 }
 
 /// Whether an OBJ file ends without a line break, so that its last line may be cut off.
@@ -83,60 +83,73 @@ bool ends_within_line(const ObjFile& file) {
   return !text.empty() && text.back() != '\n' && text.back() != '\r';
 }
 
-/// Explains why a head has another topology than the first head (usually an export setting), and
+/// Explains why a head has another topology than most heads (usually an export setting), and
 /// how to fix the difference.
-std::string cause_of_difference(const HeadFile& first_head, const HeadFile& head) {
-  const Topology &first = first_head.mesh->topology, &found = head.mesh->topology;
+std::string cause_of_difference(const HeadFile& usual_head, const HeadFile& head) {
+  const Topology &usual = usual_head.mesh->topology, &found = head.mesh->topology;
   const auto triangles = [](const Topology& topology) {
     return topology.corner_count() - 2 * topology.face_count();
   };
-  const bool same_vertices = first.vertex_count == found.vertex_count;
-  const bool same_faces = first.face_count() == found.face_count();
+  const bool same_vertices = usual.vertex_count == found.vertex_count;
+  const bool same_faces = usual.face_count() == found.face_count();
   Topology reversed = found;
   reverse_faces(reversed);
-  if (same_vertices && has_same_polygons(first, reversed)) {
+  if (same_vertices && has_same_polygons(usual, reversed)) {
     return "; its polygons have the reverse order of corners, so that one of the two heads is "
            "mirrored: mirror it back (scale it by -1 along one axis, and flip its polygons), or "
            "export both with the same axes";
   }
   if (same_vertices && same_faces) {
     return "; it has as many vertices and polygons, but in another order or with other "
-           "connections: export it again and keep the vertex order, or wrap the first head onto it "
+           "connections: export it again and keep the vertex order, or wrap another head onto it "
            "(crowdface wrap)";
   }
-  if (same_vertices && triangles(first) == triangles(found)) {
-    return found.face_count() > first.face_count()
-               ? "; its polygons were cut into triangles: export it without triangulating"
-               : "; its triangles were joined to polygons: export it like the others";
+  if (same_vertices && triangles(usual) == triangles(found)) {
+    const bool is_cut = found.face_count() > usual.face_count();
+    const bool has_order = has_same_polygons(usual, found);
+    return concat(is_cut ? "; its polygons were cut into triangles"
+                         : "; its triangles were joined to polygons",
+                  has_order ? "" : ", and its vertices are in another order", ": export it ",
+                  is_cut ? "without triangulating" : "like the others",
+                  has_order ? ""
+                            : " and keep the vertex order, or wrap another head onto it "
+                              "(crowdface wrap)");
   }
-  if (same_vertices && has_only_polygons_of(first, found)) {
-    return concat("; it lacks ", first.face_count() - found.face_count(),
+  if (same_vertices && has_only_polygons_of(usual, found)) {
+    return concat("; it lacks ", usual.face_count() - found.face_count(),
                   " of the polygons: show hidden parts and export all parts again");
   }
-  if (triangles(first) == triangles(found)) {
-    return found.vertex_count > first.vertex_count
+  if (triangles(usual) == triangles(found)) {
+    return found.vertex_count > usual.vertex_count
                ? "; its vertices were split, at texture seams or hard edges: export it with "
                  "vertices shared"
                : "; some of its vertices were joined: export it without welding or merging";
   }
-  return concat("; it has ", found.vertex_count, " vertices and ", found.face_count(),
-                " polygons, the first ", first.vertex_count, " and ", first.face_count(),
-                part_of_head(first_head.file.positions, head.file.positions),
-                ": it is another mesh; to fit the first head's mesh to a scan, use crowdface wrap; "
-                "hair, glasses and the like belong in the config's section attachments");
+  return concat(
+      "; it has ", found.vertex_count, " vertices and ", found.face_count(),
+      " polygons, the other ", usual.vertex_count, " and ", usual.face_count(),
+      part_of_head(usual_head.file.positions, head.file.positions),
+      ": it is another mesh; to fit the mesh of the others to a scan, use crowdface wrap; "
+      "hair, glasses and the like belong in the config's section attachments");
 }
 
 }  // namespace
 
-void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& problems) {
+void compare_meshes(const std::vector<HeadFile>& heads, Problems& problems) {
+  if (heads.empty()) return;
+  // Among equally frequent meshes, the first counts.
+  const auto frequency = [&](const HeadFile& head) {
+    return std::ranges::count(heads, head.mesh, &HeadFile::mesh);
+  };
+  const HeadFile& usual_head = *std::ranges::max_element(heads, {}, frequency);
   for (const HeadFile& head : heads) {
-    if (head.mesh == heads[0].mesh) continue;
-    const HeadMesh &first = *heads[0].mesh, &mesh = *head.mesh;
-    std::string difference = first_difference(first.topology, mesh.topology);
+    if (head.mesh == usual_head.mesh) continue;
+    const HeadMesh &usual = *usual_head.mesh, &mesh = *head.mesh;
+    std::string difference = first_difference(usual.topology, mesh.topology);
     if (!difference.empty()) {
-      difference += cause_of_difference(heads[0], head);
+      difference += cause_of_difference(usual_head, head);
     } else {
-      difference = first_uv_difference(first, mesh);
+      difference = first_uv_difference(usual, mesh);
       if (!difference.empty()) {
         difference +=
             "; give all heads the texture coordinates of one (Maya: Transfer Attributes, Blender: "
@@ -149,7 +162,7 @@ void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& pro
           "; its text ends within a line: if the file is cut off, copy or export it again";
     }
     problems.add(ExitCode::kBadData, concat(head.file.path.string(), ": not the same mesh as ",
-                                            heads[0].file.path.string(), ": ", difference));
+                                            usual_head.file.path.string(), ": ", difference));
   }
 }
 

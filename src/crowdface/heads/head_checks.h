@@ -13,9 +13,9 @@
 
 namespace crowdface {
 
-/// Adds a problem for each head whose mesh differs from the mesh of the first head. The message
+/// Adds a problem for each head whose mesh differs from the mesh of most heads. The message
 /// names the difference and the export setting that probably caused it.
-void compare_meshes_with_first(const std::vector<HeadFile>& heads, Problems& problems);
+void compare_meshes(const std::vector<HeadFile>& heads, Problems& problems);
 
 /// Checks that the heads face the configured direction and have the size of people. Returns a
 /// warning if the mesh is too coarse for this check. Checks nothing with `faces.align: none`.

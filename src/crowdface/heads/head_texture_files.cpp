@@ -14,7 +14,6 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/image.h"
 #include "crowdface/io/material_files.h"
-#include "crowdface/io/mesh_as_obj.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -42,19 +41,6 @@ std::optional<std::string> unused_materials_warning(const NamedTextures& named, 
   if (textured.empty()) return concat(not_shown, "no statement newmtl stands before them");
   return concat(not_shown, "no polygon uses their materials ", join(textured),
                 used.empty() ? " (usemtl)" : "; its materials are ", join(used));
-}
-
-/// Returns a warning if an OBJ file names no material file, although a material file with its name
-/// lies beside it.
-std::optional<std::string> unnamed_library_warning(const ObjFile& file) {
-  const fs::path library = fs::path(file.path).replace_extension(".mtl");
-  if (!file.material_libraries.empty() || !is_obj(file.path) || !is_file(library)) {
-    return std::nullopt;
-  }
-  const std::string name = library.filename().string();
-  return concat("the textures of ", quoted(name),
-                " are not shown: the OBJ file lacks the line \"mtllib ", name,
-                "\"; export it with materials, or add the line");
 }
 
 /// Returns the UDIM tile of a polygon. The polygon's centroid determines the tile, so that corners
@@ -202,8 +188,6 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
         for (const std::string& text : of_head[h]->warnings) heads_of_warning[text].push_back(head);
         const auto unused = unused_materials_warning(*of_head[h], files[h], face_count);
         if (unused) heads_of_warning[*unused].push_back(head);
-        const auto unnamed = unnamed_library_warning(files[h]);
-        if (unnamed) heads_of_warning[*unnamed].push_back(head);
       }
       std::vector<fs::path> missing;
       const auto named = of_head[h]->paths_by_kind.find(kind);

@@ -220,7 +220,7 @@ void check_inputs(const ConfigReading& reading, const CacheFolder& cache, Proble
   if (reading.are_heads_known) {
     std::vector<std::filesystem::path> heads = reading.config.faces.files;
     std::erase_if(heads, is_missing);
-    compare_meshes_with_first(read_heads(heads, cache, problems), problems);
+    compare_meshes(read_heads(heads, cache, problems), problems);
   }
   if (reading.are_regions_known) {
     std::vector<std::string> masks = reading.config.regions.mask;
@@ -233,7 +233,7 @@ std::optional<HeadSet> load_head_set(const Config::Faces& faces, const CacheFold
                                      Problems& problems) {
   const std::size_t before = problems.size();
   std::vector<HeadFile> heads = read_heads(faces.files, cache, problems);
-  compare_meshes_with_first(heads, problems);
+  compare_meshes(heads, problems);
   if (problems.size() > before) return std::nullopt;
   HeadSet set;
   set.topology = heads[0].mesh->topology;
@@ -247,7 +247,7 @@ std::optional<HeadSet> load_head_set(const Config::Faces& faces, const CacheFold
 std::optional<Inputs> load_inputs(const Config& config, const CacheFolder& cache,
                                   Problems& problems) {
   std::vector<HeadFile> heads = read_heads(config.faces.files, cache, problems);
-  compare_meshes_with_first(heads, problems);
+  compare_meshes(heads, problems);
   if (!problems.empty()) {
     check_masks(config.regions.mask, problems);
     return std::nullopt;

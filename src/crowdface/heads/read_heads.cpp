@@ -166,6 +166,7 @@ bool read_from_cache(HeadFile& head, const CacheFolder& cache, SharedMeshes& sha
 struct HeadReading {
   HeadFile head;
   ObjSummary summary;
+  fs::path unnamed_texture;  ///< see find_unnamed_texture; empty if there is none
 };
 
 /// Moves the data that was read to the head and to the head's mesh.
@@ -234,6 +235,35 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, SharedMes
   file.is_mended = true;
 }
 
+/// Adds a line to the text of an OBJ file that names a material file beside the OBJ file, or a
+/// material file that keep_unnamed_texture writes. The line takes the place of a comment, so that
+/// messages name the right lines.
+void name_unnamed_texture(HeadReading& reading) {
+  const HeadFile& head = reading.head;
+  std::string_view text = head.file.file.bytes();
+  reading.unnamed_texture = find_unnamed_texture(head.file.path, text);
+  if (reading.unnamed_texture.empty()) return;
+  const std::string library = is_material_file(reading.unnamed_texture)
+                                  ? reading.unnamed_texture.filename().string()
+                                  : head.file.path.stem().string() + ".mtl";
+  if (text.starts_with('#')) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  reading.head.file.file = MappedFile::from_text(concat("mtllib ", library, '\n', text));
+}
+
+/// Writes a material file for the image that a head does not name.
+void keep_unnamed_texture(HeadReading& reading, const CacheFolder& cache) {
+  const fs::path& found = reading.unnamed_texture;
+  if (found.empty()) return;
+  ObjFile& file = reading.head.file;
+  file.notes.push_back(concat("it names no material file; ", quoted(found.filename().string()),
+                              " beside it is used"));
+  if (is_material_file(found)) return;
+  FileMesh mesh;
+  mesh.materials = file.materials;
+  mesh.textures = colour_textures(found, mesh.materials);
+  file.material_base = store_textures(reading.head, cache, mesh).first;
+}
+
 /// Reads a head; skips the mesh if another head has the same mesh, even if that head is still being
 /// read.
 HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, SharedMeshes& shared) {
@@ -247,9 +277,10 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, Shared
     if (auto text = move_polypaint_to_vertices(head.file.file.bytes())) {
       head.file.file = MappedFile::from_text(std::move(*text));
     }
+    name_unnamed_texture(reading);
   }
-  head.is_cached =
-      !cache.path.empty() && is_worth_keeping(head.file) && read_from_cache(head, cache, shared);
+  head.is_cached = !cache.path.empty() && reading.unnamed_texture.empty() &&
+                   is_worth_keeping(head.file) && read_from_cache(head, cache, shared);
   if (head.is_cached) {
     seen.remember(head.text_digest);
     return reading;
@@ -274,10 +305,12 @@ HeadReading begin_reading(const fs::path& path, const CacheFolder& cache, Shared
 
 /// Gives a head the mesh that was read for the first head with the same hash. If that first head
 /// could not be read, reads the mesh from this head's file.
-void finish_reading(HeadReading& reading, SharedMeshes& shared) {
-  if (reading.head.mesh || reading.head.file.is_mended) return;
-  shared.reuse_mesh(reading.summary.mesh_digest, reading.head);
-  if (!reading.head.mesh) read_with_mesh(reading, shared);
+void finish_reading(HeadReading& reading, const CacheFolder& cache, SharedMeshes& shared) {
+  if (!reading.head.mesh && !reading.head.file.is_mended) {
+    shared.reuse_mesh(reading.summary.mesh_digest, reading.head);
+    if (!reading.head.mesh) read_with_mesh(reading, shared);
+  }
+  keep_unnamed_texture(reading, cache);
 }
 
 /// Gives heads without polygons the polygons of the first mesh that has the same number of
@@ -328,7 +361,7 @@ std::vector<std::optional<HeadFile>> read_mesh_files(const std::vector<fs::path>
     progress.step();
   });
   for_each_sound([&](std::size_t i) {
-    finish_reading(readings[i], shared);
+    finish_reading(readings[i], cache, shared);
     files[i] = std::move(readings[i].head);
   });
   give_polygons_to_point_clouds(files, errors);

@@ -23,19 +23,18 @@ namespace {
 
 using std::filesystem::path;
 
-constexpr std::string_view kJpegStart = "\xFF\xD8\xFF";
-
 /// Rejects files that are unsafe to decode.
 /// \return the format's name in OpenImageIO.
 std::string checked_format(const path& file, std::string_view bytes, const ImageLimits& limits) {
-  std::string format = image_format(bytes);
-  if (limits.allows_jpeg && bytes.starts_with(kJpegStart)) format = "jpeg";
-  if (format.empty()) {
+  const std::string format = image_format(bytes);
+  const bool is_inexact = format == "jpeg" || format == "webp";
+  if (format.empty() || (is_inexact && !limits.allows_jpeg)) {
     std::string found = describe_numpy_archive(bytes, file);
     if (found.empty()) found = describe_failed_download(bytes);
     if (bytes.empty()) found = "an empty file";
-    if (bytes.starts_with(kJpegStart)) {
-      found = "a JPEG image, whose values are inexact: paint it again and save it as PNG";
+    if (is_inexact) {
+      found = concat(format == "jpeg" ? "a JPEG" : "a WebP",
+                     " image, whose values are inexact: paint it again and save it as PNG");
     }
     if (found.empty()) {
       found = concat("a file that begins with ", quoted(bytes.substr(0, 8)), ": save it as PNG");
@@ -59,6 +58,7 @@ const ImageCodec& codec_of(std::string_view format) {
 struct OpenImage {
   const ImageCodec& codec;
   ImageHeader header;
+  std::unique_ptr<const std::string> rewritten;  ///< what `picture` reads instead of the file
   std::unique_ptr<void, void (*)(void*)> picture;
 };
 
@@ -198,9 +198,13 @@ std::string encode(const ImageToEncode& picture, std::size_t values) {
 OpenImage open_checked(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
   const std::string format = checked_format(file, mapped.bytes(), limits);
   const ImageCodec& codec = codec_of(format);
-  OpenImage opened{codec, {}, {nullptr, codec.close}};
+  OpenImage opened{codec, {}, {}, {nullptr, codec.close}};
   std::string error;
-  opened.picture.reset(codec.open(format, file.string(), mapped.bytes(), opened.header, error));
+  if (format == "psd")
+    opened.rewritten = std::make_unique<const std::string>(flattened_psd(mapped.bytes()));
+  opened.picture.reset(codec.open(format, file.string(),
+                                  opened.rewritten ? *opened.rewritten : mapped.bytes(),
+                                  opened.header, error));
   if (!opened.picture) refuse_file(file, error);
   check_kind(file, format, opened.header);
   check_size(file, opened.header, limits);
@@ -254,7 +258,7 @@ void crop_to_display_window(const path& file, const ImageHeader& header, const I
 }
 
 Image decode(const path& file, const MappedFile& mapped, const ImageLimits& limits) {
-  const auto [codec, header, picture] = open_checked(file, mapped, limits);
+  const auto [codec, header, rewritten, picture] = open_checked(file, mapped, limits);
   Image image{header.width, header.height,       header.channels, header.alpha_channel, {},
               {},           header.channel_names};
   if (!limits.is_crowdface_file) image.memory = reserve_image_memory(file, pixel_bytes(header));

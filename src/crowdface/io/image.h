@@ -60,7 +60,7 @@ struct ImageLimits {
   int max_side = 16384;  ///< largest width or height in pixels
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
-  /// Whether to accept JPEG; true for colour textures, false for masks.
+  /// Whether to accept JPEG and WebP; true for colour textures, false for masks.
   bool allows_jpeg = false;
   /// Whether crowdface itself wrote the file, so that `input_limits()` does not apply.
   bool is_crowdface_file = false;
@@ -74,10 +74,10 @@ class DamagedImage : public InvalidInput {
   std::filesystem::path path;
 };
 
-/// Reads the image (if there are several, the first) of a PNG, TIFF or OpenEXR file. The content,
-/// not the file name, determines the format. Palette indices become colours; alpha and colours keep
-/// the values of the file. For EXR the result is the display window; pixels outside the data window
-/// are zero.
+/// Reads the image (if there are several, the first) of a PNG, TIFF, OpenEXR, TGA, BMP, GIF or
+/// Photoshop file. The content, not the file name, determines the format. Palette indices become
+/// colours; alpha and colours keep the values of the file. For EXR the result is the display
+/// window; pixels outside the data window are zero.
 /// \throws MissingInput if the file does not exist; DamagedImage if the pixels cannot be read or a
 /// value is not finite (the message names the first such pixel); InvalidInput if the format is
 /// unsupported, the file is truncated or exceeds the limits, integers have more than 16 bits, a

@@ -15,6 +15,92 @@ namespace {
 
 using namespace std::string_view_literals;
 
+constexpr std::string_view kJpegStart = "\xFF\xD8\xFF";
+
+bool has_at(std::string_view bytes, std::size_t at, std::string_view wanted) {
+  return bytes.size() >= at && bytes.substr(at).starts_with(wanted);
+}
+
+/// Whether a header is one of a Truevision TGA file, which begins with no fixed bytes: known types
+/// of picture and palette, sizes above zero, and the bits per pixel of the type.
+bool is_targa(std::string_view bytes) {
+  constexpr std::size_t kHeader = 18;
+  if (bytes.size() <= kHeader) return false;
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(bytes[at]); };
+  const unsigned type = byte(2) & ~8U, bits = byte(16);  // 8: run lengths
+  const bool has_palette = byte(1) == 1;
+  const bool fits_type = type == 1   ? has_palette && (bits == 8 || bits == 16)
+                         : type == 2 ? bits == 15 || bits == 16 || bits == 24 || bits == 32
+                                     : type == 3 && (bits == 8 || bits == 16);
+  const bool fits_palette =
+      has_palette ? byte(7) >= 15 && byte(7) <= 32 : byte(1) == 0 && byte(5) == 0 && byte(6) == 0;
+  const bool has_size = (byte(12) | byte(13)) != 0 && (byte(14) | byte(15)) != 0;
+  return fits_type && fits_palette && has_size && (byte(17) & 0xC0U) == 0;
+}
+
+/// The sections of a Photoshop file; the picture of all layers merged comes last.
+struct PsdSections {
+  std::string_view header_and_palette, metadata, picture;
+};
+
+/// \return nothing if a section is longer than the file.
+std::optional<PsdSections> psd_sections(std::string_view bytes) {
+  constexpr std::size_t kHeader = 26;
+  if (bytes.size() < kHeader) return std::nullopt;
+  const bool is_large = bytes[5] == 2;  // PSB: 64 bits for the length of the layers
+  std::string_view rest = bytes.substr(kHeader);
+  const auto section = [&](std::size_t length_bytes) -> std::optional<std::string_view> {
+    if (rest.size() < length_bytes) return std::nullopt;
+    std::uint64_t length = 0;
+    for (const char c : rest.substr(0, length_bytes))
+      length = length << 8U | static_cast<unsigned char>(c);
+    if (length > rest.size() - length_bytes) return std::nullopt;
+    const std::string_view found = rest.substr(length_bytes, length);
+    rest.remove_prefix(length_bytes + length);
+    return found;
+  };
+  const auto palette = section(4);
+  if (!palette) return std::nullopt;
+  const std::string_view begin = bytes.substr(0, bytes.size() - rest.size());
+  const auto metadata = section(4);
+  const auto layers = metadata ? section(is_large ? 8 : 4) : std::nullopt;
+  if (!layers) return std::nullopt;
+  return PsdSections{begin, *metadata, rest};
+}
+
+/// Whether Photoshop wrote the merged picture; without it, the picture is white.
+bool psd_has_picture(std::string_view metadata) {
+  const std::size_t version = metadata.find("8BIM\x04\x21\0\0"sv);  // block 1057
+  constexpr std::size_t kFlag = 16;                                 // after size and version
+  return version == metadata.npos || version + kFlag >= metadata.size() ||
+         metadata[version + kFlag] != 0;
+}
+
+std::string psd_defect(std::string_view bytes, int max_side) {
+  const auto sections = psd_sections(bytes);
+  if (!sections) return "is damaged or cut short: its sections run beyond the file's end";
+  const std::uint32_t height = big_endian_at(bytes.data() + 14);
+  const std::uint32_t width = big_endian_at(bytes.data() + 18);
+  const auto most = static_cast<std::uint32_t>(max_side);
+  if (height > most || width > most) {
+    return concat("expected at most ", max_side, " pixels a side, found ", width, " x ", height);
+  }
+  if (!psd_has_picture(sections->metadata)) {
+    return "holds layers without their merged picture: save it with \"Maximize Compatibility\", or "
+           "as PNG";
+  }
+  return {};
+}
+
+std::string gif_defect(std::string_view bytes, int max_side) {
+  constexpr std::size_t kHeader = 13;
+  if (bytes.size() < kHeader) return "is damaged or cut short";
+  const int width = number_at<std::uint16_t>(bytes.data() + 6);
+  const int height = number_at<std::uint16_t>(bytes.data() + 8);
+  if (width <= max_side && height <= max_side) return {};
+  return concat("expected at most ", max_side, " pixels a side, found ", width, " x ", height);
+}
+
 /// Whether the chunks of a PNG follow each other without a gap up to the IEND chunk. The check is
 /// needed because libpng accepts files without an IEND chunk.
 bool png_is_whole(std::string_view bytes) {
@@ -181,11 +267,16 @@ std::string exr_defect(std::string_view bytes, int max_side) {
 }  // namespace
 
 std::string image_format(std::string_view bytes) {
+  if (bytes.starts_with(kJpegStart)) return "jpeg";
   if (bytes.starts_with("\x89PNG\r\n\x1a\n"sv)) return "png";
   if (bytes.starts_with("II*\0"sv) || bytes.starts_with("MM\0*"sv)) return "tiff";
   if (bytes.starts_with("II+\0"sv) || bytes.starts_with("MM\0+"sv)) return "tiff";
   if (bytes.starts_with("\x76\x2f\x31\x01"sv)) return "openexr";
-  return {};
+  if (bytes.starts_with("BM"sv) && has_at(bytes, 6, "\0\0\0\0"sv)) return "bmp";
+  if (bytes.starts_with("8BPS\0"sv)) return "psd";
+  if (bytes.starts_with("GIF8"sv)) return "gif";
+  if (bytes.starts_with("RIFF"sv) && has_at(bytes, 8, "WEBP"sv)) return "webp";
+  return is_targa(bytes) ? "targa" : "";
 }
 
 std::string container_defect(std::string_view format, std::string_view bytes, int max_side,
@@ -198,7 +289,15 @@ std::string container_defect(std::string_view format, std::string_view bytes, in
   }
   if (format == "openexr") return exr_defect(bytes, max_side);
   if (format == "tiff") return tiff_defect(bytes, jpeg);
+  if (format == "psd") return psd_defect(bytes, max_side);
+  if (format == "gif") return gif_defect(bytes, max_side);
   return {};
+}
+
+std::string flattened_psd(std::string_view bytes) {
+  const PsdSections sections = psd_sections(bytes).value();
+  const std::size_t empty_sections = bytes[5] == 2 ? 12 : 8;
+  return concat(sections.header_and_palette, std::string(empty_sections, '\0'), sections.picture);
 }
 
 }  // namespace crowdface

@@ -13,10 +13,15 @@ std::string image_format(std::string_view bytes);
 /// Finds defects that a decoder would miss, or that would make the decoder allocate as much memory
 /// as the file claims to need. The defects are: a PNG or JPEG without end marker; an OpenEXR header
 /// with an attribute longer than the file, or a data window wider or higher than `max_side` pixels;
-/// a TIFF rejected by `tiff_defect`.
+/// a TIFF rejected by `tiff_defect`; a GIF or Photoshop file wider or higher than `max_side`; a
+/// Photoshop file without the merged picture of its layers.
 /// \param jpeg  whether a TIFF may contain JPEG data.
 /// \return a description of the defect; empty if there is none.
 std::string container_defect(std::string_view format, std::string_view bytes, int max_side,
                              bool jpeg);
+
+/// A Photoshop file without its layers, their transparency, paths and metadata: its decoder trusts
+/// the sizes that these sections claim. Expects a file without defects.
+std::string flattened_psd(std::string_view bytes);
 
 }  // namespace crowdface

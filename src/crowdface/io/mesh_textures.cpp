@@ -2,6 +2,7 @@
 #include "crowdface/io/mesh_textures.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -9,6 +10,7 @@
 
 #include "crowdface/core/file.h"
 #include "crowdface/core/text.h"
+#include "crowdface/io/image_container.h"
 #include "crowdface/io/texture_search.h"
 #include "crowdface/io/tile_files.h"
 
@@ -18,11 +20,19 @@ namespace {
 /// The file extension for an image. The image's first bytes determine the extension, as they
 /// determine the format when the image is read.
 std::string_view image_ending(std::string_view bytes) {
-  return bytes.starts_with("\x89PNG")          ? ".png"
-         : bytes.starts_with("\xff\xd8")       ? ".jpg"
-         : bytes.starts_with("RIFF")           ? ".webp"
-         : bytes.starts_with("\xabKTX 20\xbb") ? ".ktx2"
-                                               : ".tif";
+  constexpr std::array<std::array<std::string_view, 2>, 8> kEndings = {{{"png", ".png"},
+                                                                        {"jpeg", ".jpg"},
+                                                                        {"openexr", ".exr"},
+                                                                        {"bmp", ".bmp"},
+                                                                        {"psd", ".psd"},
+                                                                        {"gif", ".gif"},
+                                                                        {"webp", ".webp"},
+                                                                        {"targa", ".tga"}}};
+  const std::string format = image_format(bytes);
+  for (const auto& [name, ending] : kEndings) {
+    if (name == format) return ending;
+  }
+  return bytes.starts_with("\xabKTX 20\xbb") ? ".ktx2" : ".tif";
 }
 
 }  // namespace
@@ -56,6 +66,33 @@ void read_texture_files(std::vector<std::string> files, const std::filesystem::p
                                     : " is neither beside it nor in a subfolder and is not used"));
     mesh.textures.erase(mesh.textures.begin() + static_cast<std::ptrdiff_t>(t));
   }
+}
+
+std::filesystem::path find_unnamed_texture(const std::filesystem::path& path,
+                                           std::string_view text) {
+  for (const char* ending : {".mtl", ".png", ".PNG", ".jpg", ".JPG", ".jpeg", ".tif", ".tiff",
+                             ".tga", ".exr", ".bmp", ".webp"}) {
+    std::filesystem::path beside = path.parent_path() / (path.stem().string() + ending);
+    if (!is_file(beside)) continue;
+    const bool has_uvs = text.starts_with("vt ") || text.find("\nvt ") != text.npos;
+    return has_uvs && text.find("mtllib ") == text.npos ? beside : std::filesystem::path();
+  }
+  return {};
+}
+
+bool is_material_file(const std::filesystem::path& path) {
+  return lower_case(path.extension().string()) == ".mtl";
+}
+
+std::vector<MeshTexture> colour_textures(const std::filesystem::path& image,
+                                         const std::vector<MaterialRange>& materials) {
+  std::set<std::string> names;
+  for (const MaterialRange& range : materials) names.insert(range.name);
+  if (names.empty()) names.emplace();
+  std::vector<MeshTexture> textures;
+  const std::string bytes = read_file(image);
+  for (const std::string& name : names) textures.push_back({name, TextureKind::kColour, bytes});
+  return textures;
 }
 
 std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::path& folder,

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crowdface/io/file_mesh.h"
@@ -25,6 +26,19 @@ std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::pat
 /// \param path   path of the mesh file
 void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,
                         FileMesh& mesh);
+
+/// Finds what an OBJ file without material files probably shows: a material file with the name of
+/// the mesh file beside it or, if there is none, an image with this name.
+/// \return an empty path if there is neither, or if the text names a material file or has no
+///         texture coordinates.
+std::filesystem::path find_unnamed_texture(const std::filesystem::path& path,
+                                           std::string_view text);
+
+bool is_material_file(const std::filesystem::path& path);
+
+/// The image as the colour texture of all these materials.
+std::vector<MeshTexture> colour_textures(const std::filesystem::path& image,
+                                         const std::vector<MaterialRange>& materials);
 
 /// Changes a text into a name that is valid for a material in OBJ and material files: one line, not
 /// empty.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The OpenImageIO codec in its own shared library; see image_codec.h.
+#include <algorithm>
+#include <exception>
 #include <memory>
 #include <vector>
 
@@ -45,7 +47,7 @@ ImageHeader facts_of(const OIIO::ImageSpec& spec) {
   header.full_height = spec.full_height;
   header.tile_width = spec.tile_width;
   header.tile_height = spec.tile_height;
-  header.alpha_channel = spec.alpha_channel;
+  header.alpha_channel = std::min(spec.alpha_channel, spec.nchannels - 1);  // GIF: one too many
   header.is_deep = spec.deep;
   header.value_type = kind_of_values(spec.format);
   header.type_name = spec.format.c_str();
@@ -70,8 +72,13 @@ void* open(const std::string& format, const std::string& file, std::string_view 
     error = "this build cannot read " + format + " from memory";
     return nullptr;
   }
-  if (!input->open(file, spec, wish)) {
-    error = "cannot be read as " + format + ": " + input->geterror();
+  try {
+    if (!input->open(file, spec, wish)) {
+      error = "cannot be read as " + format + ": " + input->geterror();
+      return nullptr;
+    }
+  } catch (const std::exception& failure) {  // some decoders let exceptions of the library out
+    error = "cannot be read as " + format + ": " + failure.what();
     return nullptr;
   }
   header = facts_of(spec);
@@ -89,7 +96,7 @@ bool reads_rows(const OIIO::ImageInput& input, const OIIO::ImageSpec& spec) {
          spec.get_string_attribute("planarconfig") != "separate";
 }
 
-bool read(void* picture, void* pixels, std::string& error) {
+bool read(void* picture, void* pixels, std::string& error) try {
   OIIO::ImageInput& input = *static_cast<Picture*>(picture)->input;
   const OIIO::ImageSpec& spec = input.spec();
   const OIIO::TypeDesc type = type_of(kind_of_values(spec.format));
@@ -108,6 +115,9 @@ bool read(void* picture, void* pixels, std::string& error) {
   read = read && !input.has_error();
   if (!read) error = input.geterror();
   return read;
+} catch (const std::exception& failure) {
+  error = failure.what();
+  return false;
 }
 
 void close(void* picture) {

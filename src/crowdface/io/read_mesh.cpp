@@ -7,6 +7,7 @@
 #include "crowdface/core/text.h"
 #include "crowdface/io/fbx_reader.h"
 #include "crowdface/io/foreign_file.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/npy.h"
 #include "crowdface/io/npy_array.h"
 #include "crowdface/io/obj_colours.h"
@@ -19,6 +20,7 @@ namespace fs = std::filesystem;
 
 FileMesh mesh_of_obj(ObjFile file) {
   FileMesh mesh;
+  const fs::path unnamed = find_unnamed_texture(file.path, file.file.bytes());
   const auto painted = move_polypaint_to_vertices(file.file.bytes());
   mesh.colours =
       colour_fractions(obj_colours(painted ? *painted : file.file.bytes(), file.positions.rows()));
@@ -28,6 +30,14 @@ FileMesh mesh_of_obj(ObjFile file) {
   mesh.materials = std::move(file.materials);
   mesh.material_libraries = std::move(file.material_libraries);
   mesh.notes = std::move(file.notes);
+  if (unnamed.empty()) return mesh;
+  mesh.notes.push_back(concat("it names no material file; ", quoted(unnamed.filename().string()),
+                              " beside it is used"));
+  if (is_material_file(unnamed)) {
+    mesh.material_libraries.push_back(unnamed.filename().string());
+  } else {
+    mesh.textures = colour_textures(unnamed, mesh.materials);
+  }
   return mesh;
 }
 

@@ -293,23 +293,38 @@ std::optional<TableRow> row_by_order(const std::vector<std::string_view>& fields
   return row;
 }
 
-/// Reads a name and numbers per line, separated by tabs, semicolons, commas or blanks. The first
-/// line may be a header.
-void read_table(std::string_view text, LandmarkList& list) {
+/// The columns that the table's header names. Titles may stand in lines above the header.
+/// \param header_line  receives the number of the header's line; 0 if there is no header
+TableColumns find_columns(std::string_view text, std::size_t& header_line) {
   std::size_t line_number = 0;
-  bool is_first = true;
-  TableColumns columns;
   for (const std::string_view line : split_lines(text)) {
     ++line_number;
+    const std::vector<std::string_view> fields = fields_of(line, separator_of(line));
+    if (line.starts_with('#') || std::ranges::any_of(fields, is_number)) continue;
+    TableColumns columns = columns_of(fields);
+    if (columns.count == 0) continue;
+    header_line = line_number;
+    return columns;
+  }
+  header_line = 0;
+  return {};
+}
+
+/// Reads a name and numbers per line, separated by tabs, semicolons, commas or blanks. A header,
+/// and lines without numbers, may come first.
+void read_table(std::string_view text, LandmarkList& list) {
+  std::size_t line_number = 0, header_line = 0;
+  const TableColumns columns = find_columns(text, header_line);
+  bool is_first = true;
+  for (const std::string_view line : split_lines(text)) {
+    if (++line_number <= header_line) continue;
     if (is_first && lower_case(line).starts_with("sep="))
       continue;  // a line such as "sep=;", which tells Excel the separator
     const char separator = separator_of(line);
     const std::vector<std::string_view> fields = fields_of(line, separator);
     if (fields.empty() || line[line.find_first_not_of(" \t")] == '#') continue;
-    if (std::exchange(is_first, false) && std::ranges::none_of(fields, is_number)) {
-      columns = columns_of(fields);
-      continue;
-    }
+    if (is_first && columns.count == 0 && std::ranges::none_of(fields, is_number)) continue;
+    is_first = false;
     const std::string where = concat(':', line_number);
     if (was_not_placed(line, fields, columns)) continue;
     const auto row = columns.count > 0 ? row_by_header(fields, columns) : row_by_order(fields);

@@ -13,6 +13,7 @@
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/merged_materials.h"
 #include "crowdface/io/mesh_as_obj.h"
+#include "crowdface/io/mesh_textures.h"
 #include "crowdface/io/tile_files.h"
 
 namespace crowdface {
@@ -131,6 +132,10 @@ void add_texture_files(const fs::path& scan, Hasher& hasher) {
     if (at > 0 && text[at - 1] != '\n') continue;
     const std::string_view line = text.substr(at, text.find_first_of("\r\n", at) - at);
     libraries.emplace_back(material_lines(line).front().arguments);
+  }
+  if (const fs::path unnamed = find_unnamed_texture(scan, text); !unnamed.empty()) {
+    if (is_material_file(unnamed)) libraries.push_back(unnamed.filename().string());
+    hasher.add(hash_file(unnamed).digest);
   }
   for (const MaterialFile& used : find_material_files(scan, libraries).files) {
     hasher.add(hash_file(used.source).digest);
