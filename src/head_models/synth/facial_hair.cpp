@@ -100,8 +100,8 @@ std::span<const FacialHair> facial_hairs() {
   static constexpr auto kStyles = std::to_array<FacialHair>({
       {.name = "brows_fine",
        .is_for_women = true,
-       .brow_width = 0.6,
-       .brow_arch = 0.4,
+       .brow_width = 0.7,
+       .brow_arch = 0.3,
        .brow_density = 1.15},
       {.name = "brows_arched",
        .is_for_women = true,
