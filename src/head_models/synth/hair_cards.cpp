@@ -253,9 +253,11 @@ void add_hair_cards(const HairCut& cut, HairMesh& hair) {
       const auto unit = [&](const char* purpose) { return random_uniform({17, number, purpose}); };
       const bool is_wisp = combed && layer == kWispLayer;
       if (is_wisp && unit("wisp") > kWispFraction) continue;
-      // Hair is thin at the hairline and, if curly, at its surface.
-      const bool is_thin =
-          combed ? roots[r].inside < 0.3 + 0.7 * unit("hairline") : layer + 1 == cut.layers;
+      // Hair is thin at the hairline above the forehead and, if curly, at its surface. Beside the
+      // cheeks, skin would show through thin long hair.
+      const bool shows_skin = cut.is_long() && roots[r].place.y() < 4;
+      const bool is_thin = combed ? !shows_skin && roots[r].inside < 0.3 + 0.7 * unit("hairline")
+                                  : layer + 1 == cut.layers;
       const int strip = is_wisp   ? kWispStrip
                         : is_thin ? kThinStrip
                                   : static_cast<int>(kThinStrip * unit("strip"));

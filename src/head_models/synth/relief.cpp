@@ -38,7 +38,7 @@ const auto& fold_list() {
     Fold{"under_eye", {1.8, -0.6}, {2.9, -1.75}, {4.6, -0.9}, 0.32, 0.055, 0.1, 1.0, 0.2, 0},
     Fold{"nasolabial", {1.85, -3.8}, {2.8, -4.9}, {3.2, -7.1}, 0.5, 0.085, 0.1, 0.9, 0.2, 1.3},
     Fold{"nasolabial_crease", {1.75, -3.7}, {2.75, -4.8}, {3.2, -7.2}, 0.22, 0.05, -0.1, 0.8, 0.2, 0.3},
-    Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.035, 0, 0.8, 0.2, 1.2},
+    Fold{"marionette", {2.75, -7.9}, {2.95, -8.6}, {2.8, -9.5}, 0.36, 0.02, 0, 0.8, 0.2, 1.2},
     Fold{"bag", {1.7, -0.9}, {2.6, -2.3}, {4.6, -1.7}, 0.22, 0.05, -0.3, 0.8, 0.3, 0},
     Fold{"philtrum_ridge", {0.3, -4.95}, {0.42, -5.5}, {0.5, -6.15}, 0.26, -0.07, 1, -0.3, 0.3, 0},
     Fold{"wing_crease", {1.25, -3.0}, {2.0, -3.5}, {1.8, -4.5}, 0.24, 0.07, 0.8, 0.2, 0.2, 0},
@@ -68,13 +68,13 @@ constexpr double kWrinkleHalfWidth = 0.27;
 // clang-format off
 const auto& wrinkle_areas() {
   static const std::array list = {
-    WrinkleArea{"forehead", {0, -20}, false, {0, 5.0}, {6.0, 2.9}, 0.6, 0.055, 0.1, false},
+    WrinkleArea{"forehead", {0, -20}, false, {0, 5.0}, {6.0, 2.9}, 0.5, 0.05, 0.1, false},
     WrinkleArea{"frown", {0, -12}, true, {0, 2.0}, {1.3, 1.7}, 0.7, 0.02, 0.3, false},
     WrinkleArea{"crow", {3.7, 0.1}, true, {5.7, 0.0}, {1.6, 2.3}, 0.36, 0.075, 0.1},
     WrinkleArea{"under_eye", {3.1, 1.6}, false, {3.2, -1.5}, {2.3, 1.2}, 0.3, 0.065, 0.1},
-    WrinkleArea{"cheek", {-1.5, -5.5}, false, {5.0, -4.6}, {2.2, 3.9}, 0.42, 0.024, 0.2},
-    WrinkleArea{"upper_lip", {0, -14}, true, {0, -5.75}, {2.5, 0.9}, 0.34, 0.04, 0.4, false},
-    WrinkleArea{"lower_lip", {0, -2}, true, {0, -8.4}, {2.5, 0.8}, 0.38, 0.015, 0.6, false},
+    WrinkleArea{"cheek", {-1.5, -5.5}, false, {5.0, -4.6}, {2.2, 3.9}, 0.42, 0.012, 0.2},
+    WrinkleArea{"upper_lip", {0.5, -14}, true, {1.4, -5.75}, {1.3, 0.9}, 0.34, 0.03, 0.4},
+    WrinkleArea{"lower_lip", {0.5, -2}, true, {1.4, -8.4}, {1.3, 0.8}, 0.38, 0.008, 0.6},
     WrinkleArea{"neck", {0, 2}, false, {0, -13.6}, {6, 3}, 0.55, 0.06, 0.2, false},
   };
   return list;
@@ -125,7 +125,7 @@ Relief::Relief(const Identity& identity, double edge_cm)
     const auto [uniform, offset] = random_pair({seed, index, purpose});
     const double spacing = area.spacing * (0.75 + 0.5 * uniform);
     const double varied = std::clamp(1 + 0.35 * random_normal({seed, index, purpose}, 1), 0.7, 1.6);
-    const double years = 1.6 * smooth_step(area.begin, area.begin + 1, aged);
+    const double years = 1.9 * smooth_step(area.begin, area.begin + 1, aged);
     // Fade out wrinkles that are too narrow for the mesh. Such wrinkles would look like steps.
     const double drawn = represented_fraction(2.7 * kWrinkleHalfWidth * spacing, edge_cm);
     wrinkles_.push_back({area.depth * varied * years * drawn, spacing, offset});
@@ -232,7 +232,7 @@ double Relief::fold_shade(const Vector3d& p) const {
   // Do not divide the depth by the width itself, because wide folds would hardly be visible.
   return -sum_of_strokes(p, [](const Stroke& stroke) {
     return 1.3 / (0.15 + 0.5 * stroke.width);
-  }) - 6 * wrinkle_height(p);
+  }) - 4.5 * wrinkle_height(p);
 }
 
 double Relief::grain(const Vector3d& p) const {

@@ -89,7 +89,8 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double flush = flush_.at(p);
   const double melanin = 0.55 * mottle + 0.4 * blotch + 0.22 * fine;
   tint(colour, {0.80, 0.72, 0.67},
-       (0.12 + 0.54 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone) * melanin);
+       (male ? 1 : 0.7) * melanin *
+           (0.12 + 0.6 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone));
   tint(colour, {0.80, 0.66, 0.56}, (0.10 + 0.06 * aged_) * smooth_step(0.5, 0.85, fine));
   const double blood = complexion_.redness * (1 + 0.2 * aged_);
   tint(colour, {0.99, 0.80, 0.79},
@@ -108,17 +109,19 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   tint(colour, {0.98, 0.81, 0.80}, blood * std::min(1.0, red) * std::clamp(border, 0.0, 1.3));
   // The outline of a man's face is darker than its middle, above all on dark skin.
   const double middle = smooth_step(1.3, 0.5, Vector2d(p.x() / 6, (p.y() + 1.5) / 8).norm());
-  tint(colour, {0.88, 0.84, 0.82},
-       (male ? 0.15 + 0.25 * complexion_.skin_tone : 0.05) * (1 - front * middle));
-  // Cheeks and temples of old people are hollow, and their jowls throw shadows.
+  if (male) {
+    tint(colour, {0.88, 0.84, 0.82}, (0.25 + 0.25 * complexion_.skin_tone) * (1 - front * middle));
+  }
+  // Cheeks and temples of old people are hollow, and their jowls throw shadows. The shadows are
+  // weaker on women, on whom they would look like beards.
   const double hollows = patch(p, {5.2, -5.4}, {2.2, 3.4}) + patch(p, {6.4, 2.6}, {2.0, 2.6}) +
                          patch(p, {3.4, -9.6}, {1.5, 1.6});
-  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.0 : 0.85) * aged_ * std::min(1.0, hollows));
-  // Old skin is sallow.
-  tint(colour, {0.97, 0.95, 0.90}, aged_);
+  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.7 : 0.87) * aged_ * std::min(1.0, hollows));
+  // Old skin is sallow and reflects less light.
+  tint(colour, {0.88, 0.84, 0.75}, aged_);
   // Darken lines and hollows, because they lie in shade.
-  const double hollow = std::clamp((male ? 1.25 : 0.9) * relief_.fold_shade(p), 0.0, 1.0);
-  tint(colour, {0.66, 0.53, 0.49}, hollow);
+  const double shade = (male ? 1.25 : 1.08) * (1 + 0.6 * aged_) * relief_.fold_shade(p);
+  tint(colour, {0.66, 0.54, 0.50}, std::clamp(shade, 0.0, 1.0));
   return colour;
 }
 
@@ -144,9 +147,11 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   ScreenColour lips = colour;
   const bool male = person_.maleness > 0;
   const double pale = (male ? 0.4 + 0.1 * aged_ : 0);
-  tint(lips, {0.88, 0.63, 0.65}, 1 - pale);
+  // The contrast between skin and lips or eyes is larger in women (Russell 2009, "A sex difference
+  // in facial contrast and its exaggeration by cosmetics").
+  tint(lips, {male ? 0.88 : 0.79, male ? 0.63 : 0.53, male ? 0.65 : 0.55}, 1 - pale);
   tint(lips, {0.90, 0.62, 0.66}, complexion_.lipstick);
-  tint(lips, {male ? 0.82 : 0.97, male ? 0.8 : 0.74, male ? 0.83 : 0.78}, complexion_.skin_tone);
+  tint(lips, {male ? 0.82 : 0.97, male ? 0.8 : 0.63, male ? 0.83 : 0.68}, complexion_.skin_tone);
   // The upper lip is darker, because it faces down; so is the line between the lips.
   const double up = p.y() - lip_line(p.x());
   tint(lips, {0.86, 0.79, 0.79}, smooth_step(-0.05, 0.1, up));
@@ -161,9 +166,11 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   const bool male = person_.maleness > 0;
   // The skin of the eye sockets is thin and bluish, mostly below the eye and at its inner corner.
   const double socket = patch(p, {3.1, -0.2}, {2.9, 2.1}) + patch(p, {1.6, -0.4}, {1.0, 1.3});
-  tint(colour, {0.88, 0.86, 0.88}, (0.35 + 0.6 * aged_) * std::min(1.0, 1.3 * socket));
+  tint(colour, {0.88, 0.86, 0.88},
+       (male ? 1.2 : 0.5) * (0.35 + 0.6 * aged_) * std::min(1.0, 1.3 * socket));
   tint(colour, {0.85, 0.83, 0.87}, (0.3 + 0.9 * aged_) * patch(p, {2.8, -1.3}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
+  if (!male) colour *= 1 - 0.15 * patch(p, {3.12, 0.1}, {2.2, 1.2});
   tint(colour, {0.87, 0.81, 0.79}, 0.7 * lids);
   // Darken the crease of the upper lid.
   const double beside = std::min(1.0, std::abs(std::abs(p.x()) - 3.2) / 2.3);
