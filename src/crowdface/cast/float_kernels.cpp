@@ -114,72 +114,53 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   for (; i < count; ++i) to[i] += factor * from[i];
 }
 
-/// Multiplies kRows rows of `factors` by a matrix of `count` rows and `width` columns, and adds the
-/// products to the rows of `to`. Computes only the leading columns that fill kRegisters SIMD
-/// registers.
+/// Adds Σ factors[i]·rows[i] over the rows i of a list to `to`. Computes only the leading columns
+/// that fill kRegisters SIMD registers.
 ///
-/// \param stride  distance between two rows of `factors`
-template <std::size_t kRows, std::size_t kRegisters>
-void add_product_at_columns(const float* factors, std::size_t stride, std::size_t count,
-                            const float* rows, std::size_t width, float* to) {
+/// \param width  number of columns
+template <std::size_t kRegisters>
+void add_rows_at_columns(const float* factors, const std::size_t* list, std::size_t list_size,
+                         const float* rows, std::size_t width, float* to) {
   const Lanes lanes;
   const std::size_t one = hn::Lanes(lanes);
-  hn::VFromD<Lanes> sums[kRows][kRegisters];
-  for (std::size_t v = 0; v < kRows; ++v) {
+  hn::VFromD<Lanes> sums[kRegisters];
+  for (std::size_t c = 0; c < kRegisters; ++c) sums[c] = hn::LoadU(lanes, to + c * one);
+  for (std::size_t n = 0; n < list_size; ++n) {
+    const auto factor = hn::Set(lanes, factors[list[n]]);
+    const float* row = rows + list[n] * width;
     for (std::size_t c = 0; c < kRegisters; ++c)
-      sums[v][c] = hn::LoadU(lanes, to + v * width + c * one);
+      sums[c] = hn::Add(sums[c], hn::Mul(factor, hn::LoadU(lanes, row + c * one)));
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    bool is_zero = true;
-    for (std::size_t v = 0; v < kRows; ++v) is_zero = is_zero && factors[v * stride + i] == 0;
-    if (is_zero) continue;
-    const float* row = rows + i * width;
-    for (std::size_t v = 0; v < kRows; ++v) {
-      const auto factor = hn::Set(lanes, factors[v * stride + i]);
-      for (std::size_t c = 0; c < kRegisters; ++c)
-        sums[v][c] = hn::Add(sums[v][c], hn::Mul(factor, hn::LoadU(lanes, row + c * one)));
-    }
-  }
-  for (std::size_t v = 0; v < kRows; ++v) {
-    for (std::size_t c = 0; c < kRegisters; ++c)
-      hn::StoreU(sums[v][c], lanes, to + v * width + c * one);
-  }
-}
-
-template <std::size_t kRows>
-void add_product_of_vectors(const float* factors, std::size_t stride, std::size_t count,
-                            const float* rows, std::size_t width, float* to) {
-  const std::size_t one = hn::Lanes(Lanes());
-  std::size_t d = 0;
-  for (; d + 4 * one <= width; d += 4 * one)
-    add_product_at_columns<kRows, 4>(factors, stride, count, rows + d, width, to + d);
-  for (; d + 2 * one <= width; d += 2 * one)
-    add_product_at_columns<kRows, 2>(factors, stride, count, rows + d, width, to + d);
-  for (; d + one <= width; d += one)
-    add_product_at_columns<kRows, 1>(factors, stride, count, rows + d, width, to + d);
-  for (; d < width; ++d) {
-    for (std::size_t v = 0; v < kRows; ++v) {
-      for (std::size_t i = 0; i < count; ++i)
-        to[v * width + d] += factors[v * stride + i] * rows[i * width + d];
-    }
-  }
+  for (std::size_t c = 0; c < kRegisters; ++c) hn::StoreU(sums[c], lanes, to + c * one);
 }
 
 void add_product(const float* factors, std::size_t vectors, std::size_t count, const float* rows,
                  std::size_t width, float* to) {
-  // Multiply all vectors by a few rows at a time, so that these rows stay in the fastest cache.
-  constexpr std::size_t kRows = 48;
+  // Multiply all vectors by some rows at a time, so that these rows stay in a fast cache.
+  constexpr std::size_t kRows = 128;
+  const std::size_t one = hn::Lanes(Lanes());
   for (std::size_t begin = 0; begin < count; begin += kRows) {
     const std::size_t rest = count - begin, now = rest < kRows ? rest : kRows;
     const float* some = rows + begin * width;
-    std::size_t v = 0;
-    for (; v + 2 <= vectors; v += 2) {
-      add_product_of_vectors<2>(factors + v * count + begin, count, now, some, width,
-                                to + v * width);
-    }
-    if (v < vectors) {
-      add_product_of_vectors<1>(factors + v * count + begin, count, now, some, width,
-                                to + v * width);
+    for (std::size_t v = 0; v < vectors; ++v) {
+      const float* row_factors = factors + v * count + begin;
+      std::size_t list[kRows], size = 0;  // rows whose factors are not zero
+      for (std::size_t i = 0; i < now; ++i) {
+        list[size] = i;
+        size += row_factors[i] != 0 ? 1 : 0;
+      }
+      float* sums = to + v * width;
+      std::size_t d = 0;
+      for (; d + 8 * one <= width; d += 8 * one)
+        add_rows_at_columns<8>(row_factors, list, size, some + d, width, sums + d);
+      for (; d + 2 * one <= width; d += 2 * one)
+        add_rows_at_columns<2>(row_factors, list, size, some + d, width, sums + d);
+      for (; d + one <= width; d += one)
+        add_rows_at_columns<1>(row_factors, list, size, some + d, width, sums + d);
+      for (; d < width; ++d) {
+        for (std::size_t n = 0; n < size; ++n)
+          sums[d] += row_factors[list[n]] * some[list[n] * width + d];
+      }
     }
   }
 }

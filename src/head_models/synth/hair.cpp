@@ -81,6 +81,7 @@ double Hair::strand_brightness(const Vector3d& p) const {
   const double across = p.x() / (p - Vector3d(0, -4, -4)).norm();
   const double straight = hairs_.at({9 * across, 0.05 * p.y(), 0.05 * p.z()}) +
                           0.6 * tufts_.at({13 * across, 0.04 * p.y(), 0.04 * p.z()});
+  if (style_.curliness == 0) return straight;
   const double curled = 0.6 * hairs_.at(p) + 0.6 * tufts_.at(p);
   return straight + style_.curliness * (curled - straight);
 }

@@ -97,7 +97,7 @@ double represented_fraction(double wavelength, double edge) {
 
 }  // namespace
 
-Relief::Relief(const Identity& identity, double edge_cm)
+Relief::Relief(const Identity& identity, double edge_cm, double omitted_edge_cm)
     : fold_offset_noise_x_(mix(identity.seed(), identity.index(), 11), 1.4),
       fold_offset_noise_y_(mix(identity.seed(), identity.index(), 12), 1.4),
       wrinkle_waves_(mix(identity.seed(), identity.index(), 14), 1.1),
@@ -105,6 +105,10 @@ Relief::Relief(const Identity& identity, double edge_cm)
       lip_creases_(mix(identity.seed(), identity.index(), 13), 0.18) {
   const std::uint64_t seed = identity.seed(), index = identity.index();
   const double aged = identity.person().scaled_age();
+  const auto drawn_fraction = [&](double wavelength) {
+    return represented_fraction(wavelength, edge_cm) -
+           represented_fraction(wavelength, omitted_edge_cm);
+  };
   for (std::size_t i = 0; i < fold_list().size(); ++i) {
     const Fold& fold = fold_list()[i];
     for (const double side : {1.0, -1.0}) {
@@ -116,8 +120,8 @@ Relief::Relief(const Identity& identity, double edge_cm)
           fold.spread * std::clamp(random_normal({seed, index, purpose}), -2., 2.);
       const double lopsided = random_between({seed, index, lean}, 0.75, 1.25);
       const double depth = 1.5 * fold.depth * std::min(factor, 2.2) * lopsided;
-      const double drawn = represented_fraction(2.7 * fold.width, edge_cm);
-      if (factor > 0.02) add_stroke(i, side, depth * drawn);
+      const double drawn = drawn_fraction(2.7 * fold.width);
+      if (factor > 0.02 && drawn > 0) add_stroke(i, side, depth * drawn);
     }
   }
   for (const WrinkleArea& area : wrinkle_areas()) {
@@ -127,22 +131,23 @@ Relief::Relief(const Identity& identity, double edge_cm)
     const double varied = std::clamp(1 + 0.35 * random_normal({seed, index, purpose}, 1), 0.7, 1.6);
     const double years = 1.9 * smooth_step(area.begin, area.begin + 1, aged);
     // Fade out wrinkles that are too narrow for the mesh. Such wrinkles would look like steps.
-    const double drawn = represented_fraction(2.7 * kWrinkleHalfWidth * spacing, edge_cm);
+    const double drawn = drawn_fraction(2.7 * kWrinkleHalfWidth * spacing);
     wrinkles_.push_back({area.depth * varied * years * drawn, spacing, offset});
   }
   const double rough = 1 + 0.25 * aged + 0.15 * identity.person().maleness;
   const auto octave = [&](std::uint64_t lane, double spacing, double amplitude) {
     return Octave{{mix(seed, index, lane), spacing}, amplitude};
   };
-  broad_octaves_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
+  if (std::isinf(omitted_edge_cm))
+    broad_octaves_ = {octave(21, 1.7, 0.018 * rough), octave(22, 0.75, 0.007 * rough)};
   // The wavelength of SmoothNoise is about 2.5 to 3 times its lattice spacing.
   for (const auto& [lane, spacing, amplitude] :
        {std::tuple{23U, 0.22, 0.0045}, std::tuple{24U, 0.1, 0.004}, std::tuple{25U, 0.05, 0.002}}) {
-    const double part = represented_fraction(2.5 * spacing, edge_cm);
+    const double part = drawn_fraction(2.5 * spacing);
     const double old = 1 + 0.3 * std::max(0.0, aged);
     if (part > 0) fine_octaves_.push_back(octave(lane, spacing, amplitude * rough * old * part));
   }
-  lip_depth_ = 0.012 * represented_fraction(0.45, edge_cm) * (1 + 0.4 * aged);
+  lip_depth_ = 0.012 * drawn_fraction(0.45) * (1 + 0.4 * aged);
 }
 
 void Relief::add_stroke(std::size_t fold_index, double side, double depth) {
@@ -186,7 +191,7 @@ double Relief::stroke_height(const Stroke& stroke, const Vector2d& place) const 
 template <class Weight>
 double Relief::sum_of_strokes(const Vector3d& p, const Weight& weight) const {
   const double front = smooth_step(0.5, 2.5, p.z());
-  if (front <= 0) return 0;
+  if (front <= 0 || strokes_.empty()) return 0;
   const Vector2d place(p.x() + 0.08 * fold_offset_noise_x_.at(p),
                        p.y() + 0.08 * fold_offset_noise_y_.at(p));
   double sum = 0;

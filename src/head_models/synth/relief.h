@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -17,7 +18,10 @@ namespace crowdface::synth {
 class Relief {
  public:
   /// \param edge_cm  typical edge length of the mesh; relief too fine for this length is left out.
-  Relief(const Identity& identity, double edge_cm);
+  /// \param omitted_edge_cm  if finite: relief that a mesh with this edge length represents is left
+  ///                         out as well.
+  Relief(const Identity& identity, double edge_cm,
+         double omitted_edge_cm = std::numeric_limits<double>::infinity());
 
   /// Returns the displacement of the relief along the normal of the average skin, cm.
   double height(const SkinPoint& mean) const;

@@ -128,13 +128,14 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
 void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
   if (complexion_.freckles > 0) {
     const double where = patch(p, {2.6, -2.6}, {5.2, 3.6}) + 0.5 * patch(p, {0, 4}, {6, 4});
-    const double spot = smooth_step(0.42, 0.8, freckles_.at(p) + 0.25 * blotch_.at(p));
+    const double spot =
+        where > 0 ? smooth_step(0.42, 0.8, freckles_.at(p) + 0.25 * blotch_.at(p)) : 0;
     tint(colour, {0.80, 0.68, 0.58},
          0.75 * complexion_.freckles * std::min(1.0, 1.6 * where) * spot);
   }
   if (complexion_.age_spots > 0) {
     const double where = smooth_step(2.0, 5, p.y()) + 0.9 * patch(p, {5.5, -2}, {4.5, 5});
-    const double spot = smooth_step(0.5, 0.8, spots_.at(p) + 0.2 * freckles_.at(p));
+    const double spot = where > 0 ? smooth_step(0.5, 0.8, spots_.at(p) + 0.2 * freckles_.at(p)) : 0;
     tint(colour, {0.76, 0.64, 0.55}, 0.8 * complexion_.age_spots * std::min(1.0, where) * spot);
   }
 }

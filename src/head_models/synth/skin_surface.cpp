@@ -62,12 +62,10 @@ double texel_cm(int size, const std::vector<AtlasTexel>& atlas) {
 }
 
 std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas,
-                                       double texel_size_cm, const Relief& fine,
-                                       const Relief& coarse) {
+                                       double texel_size_cm, const Relief& relief) {
   std::vector<double> heights(atlas.size());
   for_each_texel(size, [&](std::size_t i) {
-    if (!is_skin(atlas[i])) return;
-    heights[i] = fine.height(atlas[i].skin) - coarse.height(atlas[i].skin);
+    if (is_skin(atlas[i])) heights[i] = relief.height(atlas[i].skin);
   });
   const Slopes slopes(atlas, heights, texel_size_cm);
   const auto side = static_cast<std::size_t>(size);

@@ -17,11 +17,9 @@ double texel_cm(int size, const std::vector<AtlasTexel>& atlas);
 /// larger v. Eyeballs are smooth.
 /// \param atlas   skin_atlas(size).
 /// \param texel_size_cm  texel_cm() of the atlas.
-/// \param fine    the complete relief of the head.
-/// \param coarse  the part of the relief that the mesh represents.
+/// \param relief  the relief that the mesh does not represent.
 std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas,
-                                       double texel_size_cm, const Relief& fine,
-                                       const Relief& coarse);
+                                       double texel_size_cm, const Relief& relief);
 
 /// Returns the roughness of the skin at a place, 0 … 1: low on lips, nose and forehead, lowest on
 /// eyes.

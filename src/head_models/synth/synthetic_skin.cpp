@@ -74,8 +74,8 @@ std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint6
   // A texture can represent wavelengths of at least two texels. A mesh can represent wavelengths of
   // at least four edges.
   const double finest = texel_cm_ / 2;
-  return synth::skin_normals(size_, atlas_, texel_cm_, synth::Relief(identity, finest),
-                             synth::Relief(identity, std::max(finest, edge_cm)));
+  return synth::skin_normals(size_, atlas_, texel_cm_,
+                             synth::Relief(identity, finest, std::max(finest, edge_cm)));
 }
 
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {

@@ -37,11 +37,13 @@ double down(double unit) {
 
 /// Half the width of the texture, in the unit of kWidths.
 double half_width() {
-  return across(column_distance(kColumns - 1));
+  static const double half = across(column_distance(kColumns - 1));
+  return half;
 }
 /// Height of the strip in the texture, in the unit of kHeights. The strip lies below the cap.
 double strip_height() {
-  return down(row_distance(kRows - 1));
+  static const double height = down(row_distance(kRows - 1));
+  return height;
 }
 
 Eigen::RowVector2d scaled(double x, double y) {
@@ -53,8 +55,10 @@ Eigen::RowVector2d scaled(double x, double y) {
 // Each eyeball's texture area is a disc in a free corner of the texture, beside the area of the cap
 // (the patch on top of the head).
 constexpr double kDisc = 4.9;  ///< radius of the disc
-Eigen::Vector2d disc_centre() {
-  return {(across(column_distance(kFrontColumn)) + half_width()) / 2, -kCapHeight / 2};
+const Eigen::Vector2d& disc_centre() {
+  static const Eigen::Vector2d centre((across(column_distance(kFrontColumn)) + half_width()) / 2,
+                                      -kCapHeight / 2);
+  return centre;
 }
 
 /// Half-axes of two ellipses in the texture area of an eye, a nostril or the mouth. The area is the
@@ -102,7 +106,7 @@ Eigen::Vector2d point_on_square(double around) {
 }
 
 Eigen::RowVector2d unwrap_eyeball(double side, const Eigen::Vector2d& place) {
-  const Eigen::Vector2d centre = disc_centre();
+  const Eigen::Vector2d& centre = disc_centre();
   return scaled(side * centre.x() + kDisc * place.x(), centre.y() - kDisc * place.y());
 }
 
@@ -112,7 +116,7 @@ Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv) {
   const double x = half_width() * (2 * (uv.x() - low.x()) / (high.x() - low.x()) - 1);
   const double y =
       strip_height() - (strip_height() + kCapHeight) * (uv.y() - low.y()) / (high.y() - low.y());
-  const Eigen::Vector2d centre = disc_centre();
+  const Eigen::Vector2d& centre = disc_centre();
   return {(std::abs(x) - centre.x()) / kDisc, (centre.y() - y) / kDisc};
 }
 
