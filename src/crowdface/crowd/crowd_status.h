@@ -20,8 +20,9 @@ struct ShardStatus {
   std::uint64_t face_count = 0;           ///< number of planned faces in the shard
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::optional<double> faces_a_second;   ///< faces per second in the last run
-  std::optional<double> seconds_left;     ///< set while the shard is working and its speed is known
-  /// set while the shard is working: seconds since its last write
+  /// time until the shard finishes; nothing if the shard is not working or its speed is unknown
+  std::optional<double> seconds_left;
+  /// time since the shard's last write; nothing if the shard is not working
   std::optional<double> seconds_since_write;
   std::string machine;  ///< name of the machine of the last run
   std::string reason;   ///< why the last run ended early
@@ -41,7 +42,7 @@ struct CrowdStatus {
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun
   std::optional<double> faces_a_second;  ///< faces per second, summed over all working shards
-  std::optional<double> seconds_left;    ///< until the last working shard finishes
+  std::optional<double> seconds_left;    ///< time until the last working shard finishes
   std::vector<std::string> failures;     ///< last error of each failed task that is not a shard
 };
 

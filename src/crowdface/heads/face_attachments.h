@@ -68,8 +68,8 @@ class FaceAttachments {
 
   const Config& config_;
   const Inputs& inputs_;
-  std::unique_ptr<const FittedSkin> skin_;  ///< of the fitted head; null if nothing is bound
-  std::vector<BoundMesh> bound_meshes_;     ///< each mesh once
+  std::unique_ptr<const FittedSkin> skin_;  ///< skin of the fitted head; null if nothing is bound
+  std::vector<BoundMesh> bound_meshes_;     ///< all bound meshes, without duplicates
   /// for each attachment of the inputs: an index into `bound_meshes_`; nothing if it is not bound
   std::vector<std::optional<std::size_t>> mesh_of_item_;
 };

@@ -79,7 +79,7 @@ struct AttachmentSet {
 
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.
 struct Rig {
-  GlbSkin skin;     ///< in the heads' axes
+  GlbSkin skin;     ///< joints and skinning weights, in the axes of the heads
   PointSet points;  ///< position of each joint relative to the template
   Digest digest;
 
@@ -107,8 +107,8 @@ struct Inputs {
   std::vector<ColourRows> vertex_colours;
   Digest colours_digest;       ///< hash of `vertex_colours`, if there are any
   PolygonMaterials materials;  ///< material of each polygon of the first head
-  Adjacency adjacency;         ///< of the heads' topology
-  Components components;       ///< of the heads' topology: skin, eyeballs, teeth, …
+  Adjacency adjacency;         ///< edge-neighbours of each vertex of the heads
+  Components components;       ///< connected components of the heads: skin, eyeballs, teeth, …
   PartList parts;              ///< eyeballs, teeth and other parts; empty for `parts: none`
   /// like `components`, but all components of skin are merged into the largest one
   Components skin_components;
@@ -117,7 +117,7 @@ struct Inputs {
   std::shared_ptr<const HeadsOnBody> heads_on_body;
   ShapeSet shapes;                           ///< expressions (blend shapes)
   Digest shapes_digest;                      ///< hash of the shapes, if there are any
-  std::vector<MeasuredLevel> detail_levels;  ///< from the key `output.lods`
+  std::vector<MeasuredLevel> detail_levels;  ///< one for each entry of `output.lods`
   PointSet points;                           ///< named points that every face gets
   Digest points_digest;                      ///< hash of the points, if there are any
   Rig rig;                                   ///< joints and skinning weights; empty: none
@@ -136,7 +136,7 @@ struct Inputs {
   /// colour textures, if they are blended or rendered; otherwise empty
   HeadTextures textures;
   std::vector<HeadTextures> other_textures;  ///< blended textures of all kinds except colour
-  std::vector<std::string> warnings;         ///< in a fixed order; also logged
+  std::vector<std::string> warnings;         ///< all logged warnings, in a fixed order
 
   /// Adds and logs a warning.
   void warn(std::string text);

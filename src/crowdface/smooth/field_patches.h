@@ -66,9 +66,11 @@ struct PatchArrays {
   std::span<const std::uint32_t> stored_vertex_counts;
   /// #patches by #heads: see FieldPatch::field_counts
   std::span<const std::uint32_t> field_counts;
-  std::span<const float> quantization_steps, weights;  ///< see FieldPatch
-  std::span<const std::int16_t> quantized_values;      ///< see FieldPatch
-  std::shared_ptr<const void> memory_owner;            ///< keeps all lists alive
+  /// the arrays of the same names in FieldPatch, one patch after the other
+  std::span<const float> quantization_steps, weights;
+  /// FieldPatch::quantized_values of all patches, one patch after the other
+  std::span<const std::int16_t> quantized_values;
+  std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
 };
 
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all
