@@ -105,8 +105,9 @@ class FittedSkin {
   VertexFaces vertex_faces_;                  ///< the polygons at each vertex of the mesh
   NormalFans fans_;         ///< for each vertex, the polygons that determine the vertex's normal
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
-  std::vector<double> areas_;  ///< see `areas`
-  std::vector<Level> levels_;  ///< from fine to coarse; the spacing doubles from level to level
+  std::vector<double> areas_;  ///< the area of skin around each vertex of the mesh
+  /// all levels, from fine to coarse; the spacing doubles from level to level
+  std::vector<Level> levels_;
 };
 
 }  // namespace crowdface

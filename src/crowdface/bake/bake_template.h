@@ -62,9 +62,9 @@ class BakeTemplate {
   std::map<std::string, std::size_t> pictures_by_material_;  ///< material name → picture index
   std::vector<SurfaceTexels> texels_;             ///< for each picture: the triangle at each texel
   MeshMaps maps_;                                 ///< the template's colour textures
-  std::vector<const FilteredTexture*> textures_;  ///< see `texture`
-  std::vector<std::uint32_t> skin_rows_;          ///< #V: row of a skin vertex, or kNotSkin
-  std::vector<PictureVertex> picture_vertices_;   ///< see `picture_vertices`
+  std::vector<const FilteredTexture*> textures_;  ///< for each picture: the result of `texture()`
+  std::vector<std::uint32_t> skin_rows_;          ///< result of `skin_rows()`
+  std::vector<PictureVertex> picture_vertices_;   ///< result of `picture_vertices()`
   std::vector<std::string> warnings_;
 };
 

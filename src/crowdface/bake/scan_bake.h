@@ -105,7 +105,7 @@ class ScanBake {
   /// the template instead of the scan.
   struct Colour {
     Eigen::Vector3d density = Eigen::Vector3d::Zero();  ///< the optical density of each channel
-    double share_without_scan = 1;  ///< 0: only the scan's colour; 1: only the template's
+    double share_without_scan = 1;  ///< fraction that comes from the template, 0 to 1
   };
   /// Returns the baked colour of a texel.
   /// \param x, y   column and row of the texel in the picture

@@ -34,7 +34,8 @@ struct BandRecipe {
 
 /// The recipe of one region. The base class is the region's coarsest band (the only band in Eq. 7).
 struct RegionRecipe : BandRecipe {
-  /// from coarse to fine; the level of each band is at most the level of the next coarser band
+  /// all further bands, from coarse to fine; the level of each band is at most the level of the
+  /// next coarser band
   std::vector<BandRecipe> finer_bands;
   /// The weights of the heads in the textures of this region, by ascending head; no weight is zero.
   /// Empty: the weights are those of the region's finest band. If Recipe::colours is not empty, its

@@ -25,7 +25,7 @@ class Indirect {
   const T* operator->() const { return value_.get(); }
 
  private:
-  std::unique_ptr<T> value_;  ///< null only in a moved-from object
+  std::unique_ptr<T> value_;  ///< the value; null only in a moved-from object
 };
 
 }  // namespace crowdface

@@ -19,7 +19,7 @@ namespace crowdface {
 /// An attachment placed on a face.
 struct PlacedAttachment {
   const Attachment* item;            ///< the placed attachment
-  std::optional<HairColour> colour;  ///< see ColouredAttachment
+  std::optional<HairColour> colour;  ///< nothing if the face does not colour the attachment
   Positions positions;               ///< the attachment's vertices on the face
   /// displacements of the attachment's vertices, one item for each shape (expression) of the face
   std::vector<Displacements> moves = {};
@@ -62,7 +62,7 @@ class FaceAttachments {
   struct BoundMesh {
     const Attachment* item;                            ///< the first attachment with this mesh
     std::unique_ptr<const AttachmentCarrier> carrier;  ///< places the mesh on faces
-    /// null unless the attachment bends with the skin and there are shapes (expressions)
+    /// bends the mesh in expressions; null for a rigid attachment, or if the inputs have no shapes
     std::unique_ptr<const ShapeBend> bend;
   };
 

@@ -35,9 +35,10 @@ struct HeadTextures {
   /// The textures from which the faces' textures are blended; no images if faces have no textures
   /// of their own.
   CrowdTextures blended;
-  std::vector<PictureName> names;  ///< one per image of the layout
+  /// the name of each image of the layout; empty if faces have no blended textures
+  std::vector<PictureName> names;
 
-  /// #heads, for renders; empty if surfaces have plain colours
+  /// the textures of each head for renders; empty if surfaces have plain colours
   std::vector<TextureSet> texture_sets;
   /// hash of the files read, and of the texture that each polygon of each head uses
   Digest digest;

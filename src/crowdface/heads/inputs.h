@@ -43,7 +43,7 @@ struct Attachment {
 /// An attachment, and the colour that a face gives to this attachment.
 struct ColouredAttachment {
   const Attachment* item;
-  std::optional<HairColour> colour = {};  ///< nothing if the attachment has no tint
+  std::optional<HairColour> colour = {};  ///< nothing if the face does not colour the attachment
 
   /// The colour as text, see colour_label; empty without a colour.
   std::string label() const { return colour ? colour_label(*colour) : std::string(); }
@@ -97,10 +97,11 @@ struct MeasuredLevel {
 
 /// All inputs of a job, checked: heads, their topology, masks, and data computed from these.
 struct Inputs {
-  std::filesystem::path cache;      ///< folder that caches the results; empty: no cache
-  HeadSet head_set;                 ///< the heads after alignment and placement on a body
-  Positions mean_head;              ///< vertex-wise mean of the heads
-  std::vector<ObjFile> head_files;  ///< #heads; topology and positions have moved to `head_set`
+  std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
+  HeadSet head_set;             ///< the heads after alignment and placement on a body
+  Positions mean_head;          ///< vertex-wise mean of the heads
+  /// #heads: the files of the heads; their topology and positions have moved to `head_set`
+  std::vector<ObjFile> head_files;
   std::vector<Digest> head_file_digests;  ///< #heads, hashes of the head files' bytes
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
   /// colours.
@@ -112,7 +113,8 @@ struct Inputs {
   PartList parts;              ///< eyeballs, teeth and other parts; empty for `parts: none`
   /// like `components`, but all components of skin are merged into the largest one
   Components skin_components;
-  std::shared_ptr<const MirrorMap> mirror_map;  ///< null unless the config asks for mirrored faces
+  /// mirror points of the vertices; null unless the config asks for mirrored faces
+  std::shared_ptr<const MirrorMap> mirror_map;
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body;
   ShapeSet shapes;                           ///< expressions (blend shapes)

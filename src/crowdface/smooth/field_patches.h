@@ -33,7 +33,8 @@ struct FieldPatch {
   std::size_t field_count = 0;
   /// number of vertices at which fields are stored (the skeleton, see FieldPatches)
   std::size_t stored_vertex_count = 0;
-  const float* quantization_steps = nullptr;  ///< one per field: a power of two, or zero
+  /// quantization step of each stored field: a power of two, or zero
+  const float* quantization_steps = nullptr;
   /// #fields by values_per_field(), in multiples of the quantization step. For each field: x of all
   /// skeleton vertices, then all y, then all z, then zeros as padding.
   const std::int16_t* quantized_values = nullptr;

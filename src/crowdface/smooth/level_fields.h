@@ -53,8 +53,8 @@ struct LevelFields {
 
 /// The quantized fields of a sequence of tiles, stored one tile after another.
 struct QuantizedTiles {
-  std::vector<std::uint32_t> field_counts;     ///< number of fields of each tile
-  std::vector<float> quantization_steps;       ///< one for each stored field of a tile
+  std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
+  std::vector<float> quantization_steps;    ///< quantization step of each stored field of each tile
   std::vector<std::int16_t> quantized_values;  ///< for each stored field, kTileValues integers
 
   /// Quantizes and appends the fields of one tile.
