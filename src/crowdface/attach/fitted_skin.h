@@ -18,7 +18,7 @@ struct NearestSkinPoint {
   std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
   /// signed distance of the given point from the skin; negative if the point is inside
   double height = 0;
-  /// unit normal, continuous over the skin
+  /// unit normal at the nearest point, interpolated between the normals of the vertices
   Eigen::Vector3d outward_normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest point on the skin
 };
@@ -53,8 +53,10 @@ class FittedSkin {
   /// A patch of skin around a point: vertex indices of the mesh, and a weight for each vertex.
   struct Patch {
     std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh
-    std::vector<double> weights;  ///< per vertex: area times a weight that decreases with distance
-    double radius = 0;            ///< vertices at this distance or farther have no weight
+    /// for each vertex: the area of skin that the vertex represents, times a factor that falls to 0
+    /// at the distance `radius` from the centre of the patch
+    std::vector<double> weights;
+    double radius = 0;  ///< vertices at this distance or farther have no weight
   };
   /// Returns the patch of skin around a point. For a point on the skin, the radius is a few
   /// millimetres. The radius grows with the point's distance from the skin. Weights and radius are
@@ -97,14 +99,15 @@ class FittedSkin {
                           Patch& patch) const;
 
   const Topology& topology_;
-  Positions positions_;                       ///< #V by 3, of the mesh
+  Positions positions_;                       ///< #V by 3: vertex positions of the mesh
   std::vector<std::uint32_t> skin_vertices_;  ///< vertex indices of the mesh, ascending
   double units_per_mm_;                       ///< length of one millimetre in the mesh's unit
   VertexFaces vertex_faces_;                  ///< the polygons at each vertex of the mesh
   NormalFans fans_;         ///< for each vertex, the polygons that determine the vertex's normal
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
-  std::vector<double> areas_;  ///< see `areas`
-  std::vector<Level> levels_;  ///< from fine to coarse; the spacing doubles from level to level
+  std::vector<double> areas_;  ///< the area of skin around each vertex of the mesh
+  /// all levels, from fine to coarse; the spacing doubles from level to level
+  std::vector<Level> levels_;
 };
 
 }  // namespace crowdface

@@ -53,7 +53,7 @@ Positions RigidPlacement::moved_points(const RigidMotion& motion) const {
 RigidMotion RigidPlacement::push_out_of_skin(
     const RigidMotion& motion, const std::vector<SkinGaps::Violation>& violations) const {
   // Three translations, three rotations and a relative change of scale. All unknowns are lengths:
-  // rotations and the change of scale are multiplied by the radius.
+  // rotations and the change of scale are multiplied by `radius`.
   constexpr std::size_t kUnknowns = 7;
   QuadraticProgram program(kUnknowns);
   const Eigen::Vector3d pivot = motion.apply(centre_);

@@ -34,7 +34,7 @@ class RigidPlacement {
   Positions moved_points(const RigidMotion& motion) const;
 
   const FittedSkin& skin_;
-  const Positions& points_;  ///< #P by 3, of the attachment on the fitted mesh
+  const Positions& points_;  ///< #P by 3: the attachment on the fitted mesh
   const SkinGaps& gaps_;     ///< distances of the points from the skin of the fitted mesh
   Socket socket_;            ///< the skin near the attachment, whose motion the attachment follows
   Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< mean of the points

@@ -44,7 +44,7 @@ class ShapeBend {
   static void remove_distant_vertices(const EdgeDistances& along, double limit,
                                       FittedSkin::Patch& patch);
 
-  BendNodes nodes_;  ///< the patches of skin, and the weights of their motions for each point
+  BendNodes nodes_;  ///< the nodes, and their weights in the motion of each point
 };
 
 }  // namespace crowdface

@@ -22,7 +22,7 @@ class SkinGaps {
   struct Violation {
     std::uint32_t vertex;            ///< index of the attachment's vertex
     double height;                   ///< distance by which the vertex must move outwards
-    Eigen::Vector3d outward_normal;  ///< unit normal of the skin
+    Eigen::Vector3d outward_normal;  ///< unit normal at the nearest point of the skin
   };
   /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the
   /// face's skin than their minimum distance. The minimum distance of a vertex is its original

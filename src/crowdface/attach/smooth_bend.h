@@ -27,8 +27,8 @@ class SmoothBend {
 
  private:
   const FittedSkin& skin_;
-  const Positions& points_;  ///< #P by 3, of the attachment on the fitted mesh
-  BendNodes nodes_;  ///< the patches of skin, and the weights of their motions for each point
+  const Positions& points_;  ///< #P by 3: the attachment on the fitted mesh
+  BendNodes nodes_;          ///< the nodes, and their weights in the motion of each point
 };
 
 }  // namespace crowdface

@@ -46,7 +46,7 @@ class BakeTemplate {
 
   /// A picture that shows a vertex, and the vertex's texture coordinates in this picture.
   struct PictureVertex {
-    std::uint32_t picture = kNoIndex;  ///< kNoIndex: the vertex is in no picture
+    std::uint32_t picture = kNoIndex;  ///< index of the picture; kNoIndex: none shows the vertex
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();
     double uv_per_mm = 0;  ///< length in texture coordinates per millimetre of skin
   };
@@ -58,13 +58,13 @@ class BakeTemplate {
   void find_picture_vertices(const ObjFile& file, const TextureLayout& layout);
 
   const WrapTemplate& wrap_template_;
-  std::vector<PictureName> picture_names_;                   ///< #pictures
+  std::vector<PictureName> picture_names_;                   ///< the name of each picture
   std::map<std::string, std::size_t> pictures_by_material_;  ///< material name → picture index
-  std::vector<SurfaceTexels> texels_;             ///< #pictures: the triangle at each texel
+  std::vector<SurfaceTexels> texels_;             ///< for each picture: the triangle at each texel
   MeshMaps maps_;                                 ///< the template's colour textures
-  std::vector<const FilteredTexture*> textures_;  ///< #pictures, nullptr: none
-  std::vector<std::uint32_t> skin_rows_;          ///< #V: row of a skin vertex, or kNotSkin
-  std::vector<PictureVertex> picture_vertices_;   ///< #skin vertices
+  std::vector<const FilteredTexture*> textures_;  ///< for each picture: the result of `texture()`
+  std::vector<std::uint32_t> skin_rows_;          ///< result of `skin_rows()`
+  std::vector<PictureVertex> picture_vertices_;   ///< result of `picture_vertices()`
   std::vector<std::string> warnings_;
 };
 

@@ -65,6 +65,7 @@ class ScanBake {
   };
   /// Mean length in mm of the edges at a vertex of the skin.
   double mean_edge_length(Index vertex) const;
+  /// Finds the point of the scan that gives a skin point its colour.
   /// \param guess  a scan triangle that is probably near the result, or kNoIndex; for speed only.
   ScanPoint find_scan_point(const SkinPoint& skin_point, std::uint32_t guess) const;
   /// The mean optical density of each colour channel over an area of the scan; nothing if the area
@@ -79,20 +80,22 @@ class ScanBake {
   /// \param optical_densities  receives one row for each skin vertex.
   /// \return  the confidence of each row, 0 to 1.
   std::vector<double> measure_scan_optical_densities(OpticalDensities& optical_densities) const;
-  // `confidence` in the functions below: result of measure_scan_optical_densities
   /// Computes edge_weights_, which fade the scan's colours out towards holes of the scan.
+  /// \param confidence  the result of measure_scan_optical_densities.
   void compute_edge_weights(const std::vector<double>& confidence);
   /// Computes shading_densities_ from the scan's optical densities at the skin vertices.
+  /// \param confidence  the result of measure_scan_optical_densities.
   void estimate_shading(const std::vector<double>& confidence, const OpticalDensities& densities);
   /// Computes tone_differences_: keeps the differences where the scan has colours, and continues
   /// them smoothly into the holes of the scan.
+  /// \param confidence   the result of measure_scan_optical_densities.
   /// \param differences  #skin by 3: optical density of the scan minus that of the template.
   void compute_tone_differences(const std::vector<double>& confidence,
                                 const OpticalDensities& differences);
 
   /// One texel of a picture.
   struct Texel {
-    const SurfaceTexels::Triangle* triangle = nullptr;  ///< covers the texel
+    const SurfaceTexels::Triangle* triangle = nullptr;  ///< the triangle that covers the texel
     /// skin vertices at the corners of the triangle, as row indices of `positions_`
     std::array<std::uint32_t, 3> rows = {};
     Eigen::Vector3d to_right_texel;  ///< vector to the next texel on the right
@@ -101,9 +104,10 @@ class ScanBake {
   /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
   /// the template instead of the scan.
   struct Colour {
-    Eigen::Vector3d density = Eigen::Vector3d::Zero();  ///< one per channel
-    double share_without_scan = 1;  ///< 0: only the scan's colour; 1: only the template's
+    Eigen::Vector3d density = Eigen::Vector3d::Zero();  ///< the optical density of each channel
+    double share_without_scan = 1;  ///< fraction that comes from the template, 0 to 1
   };
+  /// Returns the baked colour of a texel.
   /// \param x, y   column and row of the texel in the picture
   /// \param guess  see find_scan_point; receives the triangle that was found
   Colour colour_of(const Texel& texel, std::size_t picture, int x, int y,
@@ -112,7 +116,7 @@ class ScanBake {
   const BakeTemplate& template_;
   const ScanSurface& surface_;  ///< the scan in the template's frame
   const ScanColours& colours_;
-  Positions positions_, normals_;  ///< #skin by 3, of the wrapped skin
+  Positions positions_, normals_;  ///< #skin by 3: vertices and normals of the wrapped skin
   double scan_spacing_mm_;         ///< mean distance between neighbouring vertices of the scan
   /// one per skin vertex: 0 at the edge of the scan's data, 1 far from this edge
   std::vector<double> edge_weights_;

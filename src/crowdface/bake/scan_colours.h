@@ -19,7 +19,8 @@ namespace crowdface {
 
 /// The textures of one kind, such as colour maps, that the polygons of a mesh use.
 struct MeshMaps {
-  std::vector<std::unique_ptr<const FilteredTexture>> textures;  ///< one per texture file
+  /// all textures, one per texture file
+  std::vector<std::unique_ptr<const FilteredTexture>> textures;
   /// for each polygon, an index into `textures`, or kNoIndex; may be empty
   std::vector<std::uint32_t> texture_of_polygon;
   /// for each polygon: lower left corner (u, v) of the unit square of texture space that contains
@@ -67,12 +68,14 @@ class ScanColours {
   };
 
   HeadSet mesh_;                                   ///< topology and texture coordinates of the file
-  std::vector<TriangleCorners> triangle_corners_;  ///< one per triangle of the file
+  std::vector<TriangleCorners> triangle_corners_;  ///< all triangles of the file
   MeshMaps colours_;                               ///< the file's colour textures
   /// #V by 3: colours of vertices in linear light; or no rows
   ColourValues vertex_linear_colours_;
-  std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;  ///< one per material
-  std::vector<std::uint32_t> material_of_polygon_;  ///< one per polygon; or empty
+  /// colour of each material in linear light; nothing if the material has no colour
+  std::vector<std::optional<std::array<float, 3>>> material_linear_colours_;
+  /// index of the material of each polygon; or empty
+  std::vector<std::uint32_t> material_of_polygon_;
   std::vector<std::string> warnings_;
   bool has_colours_ = false;
 };

@@ -56,8 +56,8 @@ std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t reg
                                            Extrapolation extrapolation) {
   const RegionRecipe& bands = recipe.regions[region];
   std::vector<LevelWeights> levels;
-  // The weights of the heads in the first term of G_b (see the declaration): B for the first band,
-  // e_{b−1} C̄_{b−1} for every later band b.
+  // G_b is a difference of two terms (see weights_by_level in recipe.h). `coarser` has the weights
+  // of the heads in the first term: B for the first band, e_{b−1} C̄_{b−1} for later bands b.
   std::vector<SourceWeight> coarser = target_head_weights(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);

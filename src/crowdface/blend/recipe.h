@@ -34,11 +34,12 @@ struct BandRecipe {
 
 /// The recipe of one region. The base class is the region's coarsest band (the only band in Eq. 7).
 struct RegionRecipe : BandRecipe {
-  /// from coarse to fine; the level of each band is at most the level of the next coarser band
+  /// all further bands, from coarse to fine; the level of each band is at most the level of the
+  /// next coarser band
   std::vector<BandRecipe> finer_bands;
-  /// The weights of the heads in the region's textures, by ascending head; no weight is zero. If
-  /// `colours` is empty, the weights of the finest band are used instead. If Recipe::colours is not
-  /// empty, Recipe::colours is used instead.
+  /// The weights of the heads in the textures of this region, by ascending head; no weight is zero.
+  /// Empty: the weights are those of the region's finest band. If Recipe::colours is not empty, its
+  /// weights take precedence.
   std::vector<SourceWeight> colours = {};
 };
 
@@ -60,8 +61,8 @@ struct Recipe {
   /// empty, B is the target alone. Eq. 2 is linear in B, so its result is also linear in the heads
   /// of the mixture.
   std::vector<SourceWeight> mixture = {};
-  /// The weights of the heads in the blended textures: by ascending head, not zero, summing to one.
-  /// If empty, the textures are blended with the weights of the shape.
+  /// The weights of the heads in the textures of all regions: by ascending head, not zero, summing
+  /// to one. If empty, RegionRecipe::colours determines the weights in each region.
   std::vector<SourceWeight> colours = {};
   /// Factor on the differences between the left and the right half of the blended skin: 1 keeps the
   /// differences, 0 makes the skin symmetric.

@@ -13,7 +13,7 @@ namespace crowdface {
 /// are numbered from 0.
 template <class T>
 struct CompressedRows {
-  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1 indices into `items`
+  std::vector<std::uint32_t> offsets = {0};  ///< #groups + 1: where each group begins in `items`
   std::vector<T> items;  ///< group g: the items at offsets[g] … offsets[g + 1] − 1
 
   std::size_t group_count() const { return offsets.size() - 1; }

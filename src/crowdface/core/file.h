@@ -72,8 +72,9 @@ class MappedFile {
 
  private:
   struct Mapping;
-  std::shared_ptr<const Mapping> mapping_;   ///< null if the file is empty
-  std::shared_ptr<const std::string> text_;  ///< set by from_text, instead of `mapping_`
+  /// the file's bytes; null if the file is empty or from_text made this object
+  std::shared_ptr<const Mapping> mapping_;
+  std::shared_ptr<const std::string> text_;  ///< the text; null unless from_text made this object
 };
 
 /// Writes a file atomically. Either `path` is the complete new file afterwards, or the function

@@ -67,7 +67,7 @@ bool path_leads_to(const std::filesystem::path& path, const FileDescriptor& file
 /// A file opened for reading, with its size in bytes.
 struct OpenedFile {
   FileDescriptor descriptor;
-  std::size_t size;  ///< in bytes
+  std::size_t size;  ///< size of the file in bytes
 };
 /// Opens a regular file.
 /// \throws MissingInput if `path` is not a regular file or cannot be opened; IoError if the cause

@@ -30,7 +30,7 @@ class FileLock {
   ~FileLock();
 
  private:
-  std::filesystem::path path_;  ///< of the lock file
+  std::filesystem::path path_;  ///< path of the lock file
   FileDescriptor file_;         ///< the open lock file
 };
 

@@ -5,10 +5,10 @@
 
 namespace crowdface {
 
-/// A value on the heap that is copied like a member, as `std::indirect` of C++26. `T` may be
-/// incomplete where a class has a member of this type, if that class defines its constructors,
-/// destructor and assignments in a source file. A moved-from object may only be assigned to or
-/// destroyed.
+/// Owns a value on the heap. A copy of this object has its own copy of the value, as with
+/// `std::indirect` of C++26. A class can have a member of this type before `T` is defined. Then the
+/// class must define its constructors, destructor and assignments in a source file. A moved-from
+/// object may only be assigned to or destroyed.
 template <class T>
 class Indirect {
  public:
@@ -25,7 +25,7 @@ class Indirect {
   const T* operator->() const { return value_.get(); }
 
  private:
-  std::unique_ptr<T> value_;  ///< null only in a moved-from object
+  std::unique_ptr<T> value_;  ///< the value; null only in a moved-from object
 };
 
 }  // namespace crowdface

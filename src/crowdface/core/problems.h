@@ -29,7 +29,7 @@ class Problems {
 
  private:
   std::vector<std::string> messages_;
-  std::vector<ExitCode> codes_;  ///< one per message
+  std::vector<ExitCode> codes_;  ///< exit code of each message
 };
 
 }  // namespace crowdface

@@ -13,7 +13,7 @@
 
 namespace crowdface {
 
-/// Returns the seconds since some fixed time.
+/// A function that returns the current time, as seconds since an arbitrary fixed time.
 using SecondsClock = std::function<double()>;
 /// A clock that changes of the system time do not affect.
 SecondsClock steady_seconds_clock();
@@ -45,18 +45,20 @@ class Progress {
  private:
   /// Shows the progress, unless it was shown a short time ago. The caller must hold mutex_.
   void show(std::size_t finished_steps);
-  /// The estimate for this number of finished steps. The caller must hold mutex_.
+  /// The estimate of `seconds_left()` for this number of finished steps. The caller must hold
+  /// mutex_.
   std::optional<double> seconds_left(std::size_t finished_steps) const;
 
   std::string stage_;
   std::size_t total_steps_;
   SecondsClock clock_;
-  double start_seconds_;  ///< clock_ at the construction
+  double start_seconds_;  ///< time of the construction on `clock_`
   std::atomic<std::size_t> finished_steps_{0};
   mutable std::mutex mutex_;
-  StepRate rate_;              ///< guarded by mutex_
-  double last_shown_seconds_;  ///< clock_ at the last output; at first start_seconds_
-  bool has_shown_ = false;     ///< whether `show` has written a line
+  StepRate rate_;  ///< guarded by mutex_
+  /// time of the last output on `clock_`; start_seconds_ before the first output
+  double last_shown_seconds_;
+  bool has_shown_ = false;  ///< whether `show` has written a line
 };
 
 /// A function that receives the name of a stage, the number of finished steps and the number of all

@@ -39,9 +39,9 @@ double random_between(const RandomKey& key, double low, double high) {
 }
 
 double random_stratified(const RandomKey& key, std::uint64_t strata) {
-  // Call the indices k·strata, …, k·strata + strata − 1 a run. The indices of a run visit all
-  // intervals once, in cyclic order. The first interval and the cyclic direction are random; lane
-  // kStrataLane gives these two random numbers.
+  // A run is the sequence of the indices k·strata, …, k·strata + strata − 1 for one k. The indices
+  // of a run visit each interval once, in cyclic order. The first interval and the cyclic direction
+  // are random; lane kStrataLane gives these two random numbers.
   constexpr std::uint32_t kStrataLane = 0x5A17;
   const RandomKey run{key.seed, key.index / strata, key.purpose, key.attempt};
   const auto [place, direction] = random_pair(run, kStrataLane);

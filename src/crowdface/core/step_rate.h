@@ -18,7 +18,8 @@ class StepRate {
   explicit StepRate(std::size_t simultaneous_steps = 1) : simultaneous_steps_(simultaneous_steps) {}
 
   /// Records the number of finished steps.
-  /// \param seconds  time of the call; must not be less than in the previous call.
+  /// \param seconds  time of the call in seconds, counted from any fixed time; must not be less
+  ///                 than in the previous call.
   void record(double seconds, std::size_t finished_steps);
   /// Returns the steps per second. Returns nothing until `simultaneous_steps` steps have ended
   /// since the first call of `record`.
@@ -27,11 +28,11 @@ class StepRate {
  private:
   /// The number of finished steps at one time.
   struct Sample {
-    double seconds = 0;
+    double seconds = 0;  ///< time at which `record` was called, see its parameter
     std::size_t finished_steps = 0;
   };
   std::size_t simultaneous_steps_;
-  double first_seconds_ = 0;  ///< time of the first call of `record`
+  double first_seconds_ = 0;  ///< `seconds` of the first call of `record`
   /// The samples in the second half of the time that has passed since the first step, and the last
   /// sample before that half.
   std::deque<Sample> samples_;

@@ -49,7 +49,7 @@ inline std::string quoted(const char* text) {
   return quoted(std::string_view(text));
 }
 
-inline constexpr std::size_t kMaxNameLength = 64;  ///< of names in configs, in bytes
+inline constexpr std::size_t kMaxNameLength = 64;  ///< longest name in a config, in bytes
 /// Longest id of a face, in bytes. An id is at most CROWD_FAMILY_NUMBER: two names and a number.
 inline constexpr std::size_t kMaxIdLength = 2 * kMaxNameLength + 22;
 /// Whether `text` can be a file name on any system. The text must have 1 to `max_length`

@@ -52,7 +52,7 @@ std::optional<double> parse_length_mm(std::string_view text);
 
 /// A signed coordinate axis, such as +Y.
 struct Axis {
-  int index = 1;  ///< 0 x, 1 y, 2 z
+  int index = 1;  ///< 0: x, 1: y, 2: z
   int sign = 1;   ///< +1 or −1
   bool operator==(const Axis&) const = default;
 };

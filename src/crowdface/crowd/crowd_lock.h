@@ -26,8 +26,10 @@ class CrowdLock {
 
  private:
   std::unique_ptr<DirectoryHandle> root_handle_;  ///< the crowd's folder
-  std::unique_ptr<FileLock> crowd_lock_;  ///< exclusive for the whole crowd, shared for a shard
-  std::unique_ptr<FileLock> shard_lock_;  ///< exclusive; null for the whole crowd
+  /// lock of the whole crowd: exclusive for a run over the whole crowd, shared for a run of a shard
+  std::unique_ptr<FileLock> crowd_lock_;
+  /// lock of the shard; null if the run makes the whole crowd
+  std::unique_ptr<FileLock> shard_lock_;
 };
 
 }  // namespace crowdface

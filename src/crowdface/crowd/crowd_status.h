@@ -20,8 +20,9 @@ struct ShardStatus {
   std::uint64_t face_count = 0;           ///< number of planned faces in the shard
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
   std::optional<double> faces_a_second;   ///< faces per second in the last run
-  std::optional<double> seconds_left;     ///< set while the shard is working and its speed is known
-  /// set while the shard is working: seconds since its last write
+  /// time until the shard finishes; nothing if the shard is not working or its speed is unknown
+  std::optional<double> seconds_left;
+  /// time since the shard's last write; nothing if the shard is not working
   std::optional<double> seconds_since_write;
   std::string machine;  ///< name of the machine of the last run
   std::string reason;   ///< why the last run ended early
@@ -39,17 +40,19 @@ struct CrowdStatus {
   bool is_report_written = false;
   std::uint64_t face_count = 0;           ///< number of faces in the plan
   std::uint64_t finished_face_count = 0;  ///< number of finished faces according to all ledgers
-  std::vector<ShardStatus> shards;  ///< empty if a single run makes the crowd or no run has begun
+  /// all shards; empty if a single run makes the crowd or no run has begun
+  std::vector<ShardStatus> shards;
   std::optional<double> faces_a_second;  ///< faces per second, summed over all working shards
-  std::optional<double> seconds_left;    ///< until the last working shard finishes
+  std::optional<double> seconds_left;    ///< time until the last working shard finishes
   std::vector<std::string> failures;     ///< last error of each failed task that is not a shard
 };
 
 /// How the last attempt to run a task ended, according to the task's log.
 struct TaskEnd {
-  std::optional<std::uint64_t> exit_code;  ///< nothing if the task has not ended
-  std::string reason;                      ///< last error in the log
-  bool is_requeued = false;                ///< whether the task has asked Slurm for another run
+  /// exit code of the task; nothing if the task has not ended
+  std::optional<std::uint64_t> exit_code;
+  std::string reason;        ///< last error in the log
+  bool is_requeued = false;  ///< whether the task has asked Slurm for another run
 };
 /// Finds the end of the last attempt in the text of a task's log.
 TaskEnd parse_task_end(std::string_view log);

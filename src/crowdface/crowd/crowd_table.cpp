@@ -72,7 +72,8 @@ void add_band(const std::string& start, std::size_t region, std::size_t band,
   add("extrapolation", [](const BandRecipe& own) { return format_number(own.extrapolation); });
 }
 
-/// Adds the column with the colour of the skin at the neck. \param colours see table_text
+/// Adds the columns with the colour of the skin at the neck.
+/// \param colours  the parameter `neck_colours` of table_text
 void add_neck_colours(const std::vector<FacePlan>& crowd,
                       const std::vector<Eigen::Array3d>& colours, TableColumns& columns) {
   if (colours.empty()) return;

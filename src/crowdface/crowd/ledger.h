@@ -27,9 +27,9 @@ struct LedgerEntry {
     FileDigest content;  ///< size and hash
     bool operator==(const File&) const = default;
   };
-  std::string item;         ///< such as "faces/market_0001" or "report.json"
+  std::string item;         ///< name of the item, such as "faces/market_0001"
   Digest key;               ///< hash of everything that determines the files
-  std::vector<File> files;  ///< may be empty
+  std::vector<File> files;  ///< files of the item; may be empty
   std::string note;  ///< further results as JSON, such as the defects of a face's skin; or empty
 };
 
@@ -123,8 +123,8 @@ class Ledger {
 
  private:
   /// The ledger lines of one item. At first, these are the lines that earlier runs wrote. Once this
-  /// run has recorded the item or verified its files, `is_finished` is true and only that entry is
-  /// left.
+  /// run has recorded the item or verified its files, `is_finished` is true and `lines` has only
+  /// one entry: the recorded or verified entry.
   struct Item {
     std::vector<LedgerEntry> lines;
     bool is_finished = false;
@@ -141,15 +141,15 @@ class Ledger {
   /// Passes the lines of the compacted ledger to `take`.
   void write_text(const TextSink& take) const;
 
-  std::filesystem::path root_, own_ledger_;           ///< the crowd's folder; the file to append to
+  std::filesystem::path root_, own_ledger_;           ///< the crowd's folder; this run's ledger
   std::vector<std::filesystem::path> other_ledgers_;  ///< the ledgers that are only read
-  std::map<std::string, Item> items_;                 ///< by the item's name
-  /// Files that an earlier line of an item lists and the item's finished entry does not list.
-  /// `compact` removes these files, unless another item lists them.
+  std::map<std::string, Item> items_;  ///< all items; the key is the name of the item
+  /// Files that an earlier line of a finished item lists, but that the item's finished entry does
+  /// not list. `compact` removes such a file unless the finished entry of another item lists it.
   std::vector<LedgerEntry::File> replaced_files_;
   bool has_appended_ = false;         ///< whether this run has appended lines
   std::mutex mutex_;                  ///< guards items_, replaced_files_ and has_appended_
-  std::unique_ptr<AppendFile> file_;  ///< own_ledger_, open
+  std::unique_ptr<AppendFile> file_;  ///< the open file at own_ledger_
 };
 
 }  // namespace crowdface

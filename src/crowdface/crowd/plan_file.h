@@ -20,7 +20,7 @@ std::string format_plan_line(const FacePlan& face, const PlanNames& names, const
 /// A face read from a plan, and the hash of the settings under which it was cast.
 struct PlanLine {
   FacePlan face;
-  std::string settings_hash;  ///< the text in the file, see Digest::hex
+  std::string settings_hash;  ///< the hash as in the file: the output of Digest::hex
 };
 
 /// Reads one line.

@@ -53,7 +53,7 @@ struct ShardNotes {
   std::uint64_t face_count = 0;           ///< number of faces in the shard
   std::uint64_t finished_face_count = 0;  ///< number of finished faces in the shard
   std::uint64_t made_face_count = 0;      ///< number of faces that this run has made in `seconds`
-  double seconds = 0;                     ///< from the start of the run to these notes
+  double seconds = 0;                     ///< time from the start of the run to these notes
   std::string machine;
   std::string reason;  ///< why the run was interrupted or failed
 };

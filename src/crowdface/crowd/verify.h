@@ -13,11 +13,12 @@ namespace crowdface {
 struct CrowdCheck {
   std::size_t file_count = 0;              ///< number of files in the ledger
   std::vector<std::string> missing_files;  ///< missing files, relative to the folder
-  std::vector<std::string> altered_files;  ///< files with other content
+  std::vector<std::string> altered_files;  ///< files whose content differs from the ledger
   /// items that no ledger lists: ids of planned faces, and the names of the plan file and the
   /// report file
   std::vector<std::string> unfinished_items;
-  std::vector<std::string> remarks;  ///< damaged or incomplete ledgers, and shards not gathered
+  /// messages about damaged or incomplete ledgers, and about shards that were not gathered
+  std::vector<std::string> remarks;
 
   bool is_intact() const {
     return missing_files.empty() && altered_files.empty() && unfinished_items.empty() &&

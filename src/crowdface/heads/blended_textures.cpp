@@ -136,8 +136,8 @@ class MapCache {
  public:
   explicit MapCache(const CacheFolder& cache) : cache_(cache), works_(!cache.path.empty()) {}
 
-  /// Finds a map.
-  /// \param blank  the map without its values
+  /// Finds a map in the cache; null if the cache does not have the map.
+  /// \param blank  a map of the right size and kind, into which the values are read
   std::shared_ptr<const TextureMap> find(const Digest& key, TextureMap blank) const {
     const auto is_sound = [&](const StoredMap& stored, const CacheEntry& entry) {
       blank.mapped_file = entry.file();

@@ -18,8 +18,9 @@ Positions area_vectors_around(const Topology& topology, const Positions& positio
 
 /// The body whose file the config names as `neck.body`.
 struct BodyBelowNeck {
-  Positions rim_positions;  ///< #rim by 3, in the order of the heads' rim
-  Positions area_vectors;   ///< result of area_vectors_around for the body
+  /// #rim by 3: positions of the body's rim, in the order of the heads' rim
+  Positions rim_positions;
+  Positions area_vectors;  ///< result of area_vectors_around for the body
   /// Whether the file contains a head with the heads' topology, instead of a body.
   bool file_contains_head = false;
   Positions head_positions = {};  ///< if the file contains a head: positions of its whole mesh

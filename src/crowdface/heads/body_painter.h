@@ -34,8 +34,8 @@ class BodyPainter {
 
  private:
   const HeadsOnBody& heads_on_body_;
-  Topology topology_;                      ///< see `topology`
-  TextureCoordinates uvs_;                 ///< see `uvs`
+  Topology topology_;                      ///< result of `topology()`
+  TextureCoordinates uvs_;                 ///< result of `uvs()`
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
   std::unique_ptr<const SurfaceTexels> texels_;  ///< for each texel: the triangle that covers it
   /// the body's colours at the ring of the neck, #rim by 3

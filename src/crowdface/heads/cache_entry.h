@@ -28,7 +28,7 @@ inline constexpr std::string_view kCacheExtension = ".cfcache";
 /// Identifies a cache entry. The file is called `kind-digest.cfcache`; its header holds a hash of
 /// both parts, so that a renamed entry is detected.
 struct CacheKey {
-  std::string_view kind;  ///< for example "mesh"; part of the file name
+  std::string_view kind;  ///< kind of the entry, for example "mesh"; part of the file name
   Digest digest;          ///< hash of everything that the arrays depend on
 };
 

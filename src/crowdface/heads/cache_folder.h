@@ -15,7 +15,7 @@ std::filesystem::path cache_directory();
 
 /// A cache folder, and whether unchanged files are accepted without being hashed again.
 struct CacheFolder {
-  std::filesystem::path path;  ///< empty: no cache
+  std::filesystem::path path;  ///< path of the folder; empty: no cache
   /// Whether a head file or cache entry is accepted without hashing if it was read completely
   /// before and has not been written to since (see FileFingerprint).
   bool skips_hash_of_unchanged_files = false;

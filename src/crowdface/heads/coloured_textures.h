@@ -11,7 +11,7 @@ namespace crowdface {
 /// A material file or a texture of an attachment, and whether it gets the attachment's colour.
 struct AttachmentFile {
   MaterialFile file;
-  /// whether `coloured_texture` tints the file, a texture in a neutral colour
+  /// whether the file is a texture in a neutral colour that `coloured_texture` must colour
   bool is_coloured = false;
 };
 /// Lists the material files and textures of an attachment. A coloured texture has the same file

@@ -19,7 +19,7 @@ namespace crowdface {
 /// An attachment placed on a face.
 struct PlacedAttachment {
   const Attachment* item;            ///< the placed attachment
-  std::optional<HairColour> colour;  ///< see ColouredAttachment
+  std::optional<HairColour> colour;  ///< nothing if the face does not colour the attachment
   Positions positions;               ///< the attachment's vertices on the face
   /// displacements of the attachment's vertices, one item for each shape (expression) of the face
   std::vector<Displacements> moves = {};
@@ -62,14 +62,14 @@ class FaceAttachments {
   struct BoundMesh {
     const Attachment* item;                            ///< the first attachment with this mesh
     std::unique_ptr<const AttachmentCarrier> carrier;  ///< places the mesh on faces
-    /// null unless the attachment bends with the skin and there are shapes (expressions)
+    /// bends the mesh in expressions; null for a rigid attachment, or if the inputs have no shapes
     std::unique_ptr<const ShapeBend> bend;
   };
 
   const Config& config_;
   const Inputs& inputs_;
-  std::unique_ptr<const FittedSkin> skin_;  ///< of the fitted head; null if nothing is bound
-  std::vector<BoundMesh> bound_meshes_;     ///< each mesh once
+  std::unique_ptr<const FittedSkin> skin_;  ///< skin of the fitted head; null if nothing is bound
+  std::vector<BoundMesh> bound_meshes_;     ///< all bound meshes, without duplicates
   /// for each attachment of the inputs: an index into `bound_meshes_`; nothing if it is not bound
   std::vector<std::optional<std::size_t>> mesh_of_item_;
 };

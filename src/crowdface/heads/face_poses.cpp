@@ -16,7 +16,7 @@ namespace {
 
 /// Returns the indices of at most 500 evenly spaced samples that the bend of the neck does not
 /// move. If the bend leaves fewer than 100 samples unmoved, chooses from all samples.
-std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
+std::vector<Index> indices_of_samples_above_bend(const Seam& seam, const FaceSamples& samples) {
   constexpr std::size_t kPoints = 500, kFewest = 100;
   std::vector<Index> all(samples.size()), above;
   std::iota(all.begin(), all.end(), Index{0});
@@ -31,7 +31,8 @@ std::vector<Index> columns_above(const Seam& seam, const FaceSamples& samples) {
 
 HeadsAtSamples heads_above(const Inputs& inputs, const PreparedHeads& prepared,
                            const RegionWeights& regions) {
-  const std::vector<Index> columns = columns_above(inputs.heads_on_body->seam, prepared.samples);
+  const std::vector<Index> columns =
+      indices_of_samples_above_bend(inputs.heads_on_body->seam, prepared.samples);
   FaceSamples samples;
   for (const Index s : columns) samples.push_back(prepared.samples[static_cast<std::size_t>(s)]);
   std::vector<Trajectory> own;

@@ -42,7 +42,8 @@ class FaceShapes {
   /// one per shape: the fraction of the shape's displacements that remains after one smoothing
   /// iteration
   std::vector<double> shape_fractions_kept_per_smoothing_iteration_;
-  std::unique_ptr<const ShapeTransfer> transfer_;  ///< null if there are no shapes
+  /// computes the shapes of a face; null if the inputs have no shapes
+  std::unique_ptr<const ShapeTransfer> transfer_;
 };
 
 }  // namespace crowdface

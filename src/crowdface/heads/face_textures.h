@@ -63,20 +63,22 @@ class FaceTextures {
   /// The weight of each head in the mean colour of the whole face.
   std::vector<double> head_weights_in_mean_colour(const Recipe& recipe) const;
 
-  std::vector<std::unique_ptr<TextureBlender>> blenders_;  ///< one per kind of blended textures
+  /// one blender for each kind of blended textures
+  std::vector<std::unique_ptr<TextureBlender>> blenders_;
   /// An image that is made for each face: image `index` of a blender.
   struct Picture {
     const TextureBlender* blender;  ///< makes the image
     std::size_t index;              ///< index among the blender's images
   };
-  std::vector<Picture> pictures_;  ///< in the order of face_picture_names
+  std::vector<Picture> pictures_;  ///< all images, in the order of face_picture_names
   const Inputs& inputs_;
   /// whether colours are blended; if not, a face has the colours of its target
   bool are_blended_;
   std::vector<double> region_area_fractions_;  ///< fraction of the face's area in each region
   /// for each vertex, whether it gets the target's colours without blending, as the eyes do
   std::vector<bool> uses_target_colours_only_;
-  /// nothing if the heads are not on a body or have no colours at the neck's ring
+  /// the colours at the neck's ring; nothing if the heads are not on a body or have no colours
+  /// there
   std::optional<SeamColours> seam_;
   std::unique_ptr<const BodyPainter> body_;  ///< paints the body's texture; null: see body_painter
 };

@@ -19,7 +19,7 @@ namespace crowdface {
 /// The smoothing levels of one head, approximated by fields. The fields may lie in a memory-mapped
 /// cache file, so that they use no memory of the process.
 struct StoredLevels {
-  LevelFields fields;  ///< empty with `levels: exact`
+  LevelFields fields;  ///< the fields; empty with `levels: exact`
   /// the file that holds the fields; null if they lie in memory
   std::shared_ptr<const MappedFile> mapped_file;
   /// For `levels: basis`: coefficients of the level functions φ_p(L), one row per node and one

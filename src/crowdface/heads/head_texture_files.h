@@ -22,7 +22,8 @@ struct HeadTextureFiles {
     std::filesystem::path path;  ///< an existing file
     std::filesystem::path name;  ///< path as in the material file; may contain <UDIM>
   };
-  std::vector<File> files;  ///< without duplicates, in the order in which polygons first use them
+  /// all files without duplicates, in the order in which polygons first use them
+  std::vector<File> files;
   /// for each polygon, an index into `files`, or kNoIndex; empty if no head has files of this kind
   std::vector<std::uint32_t> file_of_polygon;
 };
@@ -30,10 +31,11 @@ struct HeadTextureFiles {
 /// All heads' textures of one kind, and warnings about missing files.
 struct FoundTextureFiles {
   TextureKind kind = TextureKind::kColour;
-  std::vector<HeadTextureFiles> heads;  ///< one per head
+  std::vector<HeadTextureFiles> heads;  ///< the texture files of each head
   /// for each polygon: column and row of its UDIM tile
   std::vector<std::array<std::int32_t, 2>> tile_of_polygon;
-  std::vector<std::string> warnings;  ///< without duplicates; each warning names its heads
+  /// warnings without duplicates; each warning names the heads that it concerns
+  std::vector<std::string> warnings;
 
   /// Whether at least one head has a texture of this kind.
   bool has_files() const;

@@ -20,7 +20,8 @@ namespace crowdface {
 /// The parts of an image file's name that are the same for all faces. The full name also contains
 /// the face's id.
 struct PictureName {
-  /// the material's name, made unique; empty if all images have the same texture file
+  /// part of a material's name, with a number if the part alone is not unique; empty if all images
+  /// come from the same texture file
   std::string material;
   int tile = 0;  ///< UDIM tile number; 0: none
   TextureKind kind = TextureKind::kColour;
@@ -34,9 +35,10 @@ struct HeadTextures {
   /// The textures from which the faces' textures are blended; no images if faces have no textures
   /// of their own.
   CrowdTextures blended;
-  std::vector<PictureName> names;  ///< one per image of the layout
+  /// the name of each image of the layout; empty if faces have no blended textures
+  std::vector<PictureName> names;
 
-  /// #heads, for renders; empty if surfaces have plain colours
+  /// the textures of each head for renders; empty if surfaces have plain colours
   std::vector<TextureSet> texture_sets;
   /// hash of the files read, and of the texture that each polygon of each head uses
   Digest digest;
@@ -85,8 +87,9 @@ class FaceTextureSet {
     std::size_t index = 0;  ///< index among the images of its kind
   };
   TextureSet texture_set_;
-  std::vector<ImageIndex> image_indices_;  ///< for each value of `picture` in `add`
-  int max_px_;                             ///< maximum side length of textures, in texels
+  /// kind and index of each image; the parameter `picture` of `add` is an index into this list
+  std::vector<ImageIndex> image_indices_;
+  int max_px_;  ///< maximum side length of textures, in texels
 };
 
 /// Adds a head's own normal and roughness maps to its texture set.

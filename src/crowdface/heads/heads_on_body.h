@@ -29,7 +29,7 @@ struct HeadsOnBody {
     double max_bend_mm = 0;
   };
   Seam seam;                        ///< the neck ring in which all faces end
-  std::vector<Head> heads;          ///< #heads
+  std::vector<Head> heads;          ///< how each head was placed
   Eigen::Vector3d seam_centre;      ///< centre of the seam between heads and body
   Positions mean_before_placement;  ///< mean of the heads before they were placed on the body
   double mm_per_unit = 1;           ///< millimetres per file unit

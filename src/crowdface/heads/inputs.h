@@ -43,7 +43,7 @@ struct Attachment {
 /// An attachment, and the colour that a face gives to this attachment.
 struct ColouredAttachment {
   const Attachment* item;
-  std::optional<HairColour> colour = {};  ///< nothing if the attachment has no tint
+  std::optional<HairColour> colour = {};  ///< nothing if the face does not colour the attachment
 
   /// The colour as text, see colour_label; empty without a colour.
   std::string label() const { return colour ? colour_label(*colour) : std::string(); }
@@ -79,7 +79,7 @@ struct AttachmentSet {
 
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.
 struct Rig {
-  GlbSkin skin;     ///< in the heads' axes
+  GlbSkin skin;     ///< joints and skinning weights, in the axes of the heads
   PointSet points;  ///< position of each joint relative to the template
   Digest digest;
 
@@ -97,27 +97,29 @@ struct MeasuredLevel {
 
 /// All inputs of a job, checked: heads, their topology, masks, and data computed from these.
 struct Inputs {
-  std::filesystem::path cache;      ///< folder that caches the results; empty: no cache
-  HeadSet head_set;                 ///< the heads after alignment and placement on a body
-  Positions mean_head;              ///< vertex-wise mean of the heads
-  std::vector<ObjFile> head_files;  ///< #heads; topology and positions have moved to `head_set`
+  std::filesystem::path cache;  ///< folder that caches the results; empty: no cache
+  HeadSet head_set;             ///< the heads after alignment and placement on a body
+  Positions mean_head;          ///< vertex-wise mean of the heads
+  /// #heads: the files of the heads; their topology and positions have moved to `head_set`
+  std::vector<ObjFile> head_files;
   std::vector<Digest> head_file_digests;  ///< #heads, hashes of the head files' bytes
   /// #heads, vertex colours; no rows for heads without colours. Empty if no head has vertex
   /// colours.
   std::vector<ColourRows> vertex_colours;
   Digest colours_digest;       ///< hash of `vertex_colours`, if there are any
   PolygonMaterials materials;  ///< material of each polygon of the first head
-  Adjacency adjacency;         ///< of the heads' topology
-  Components components;       ///< of the heads' topology: skin, eyeballs, teeth, …
+  Adjacency adjacency;         ///< edge-neighbours of each vertex of the heads
+  Components components;       ///< connected components of the heads: skin, eyeballs, teeth, …
   PartList parts;              ///< eyeballs, teeth and other parts; empty for `parts: none`
   /// like `components`, but all components of skin are merged into the largest one
   Components skin_components;
-  std::shared_ptr<const MirrorMap> mirror_map;  ///< null unless the config asks for mirrored faces
+  /// mirror points of the vertices; null unless the config asks for mirrored faces
+  std::shared_ptr<const MirrorMap> mirror_map;
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body;
   ShapeSet shapes;                           ///< expressions (blend shapes)
   Digest shapes_digest;                      ///< hash of the shapes, if there are any
-  std::vector<MeasuredLevel> detail_levels;  ///< from the key `output.lods`
+  std::vector<MeasuredLevel> detail_levels;  ///< one for each entry of `output.lods`
   PointSet points;                           ///< named points that every face gets
   Digest points_digest;                      ///< hash of the points, if there are any
   Rig rig;                                   ///< joints and skinning weights; empty: none
@@ -136,7 +138,7 @@ struct Inputs {
   /// colour textures, if they are blended or rendered; otherwise empty
   HeadTextures textures;
   std::vector<HeadTextures> other_textures;  ///< blended textures of all kinds except colour
-  std::vector<std::string> warnings;         ///< in a fixed order; also logged
+  std::vector<std::string> warnings;         ///< all logged warnings, in a fixed order
 
   /// Adds and logs a warning.
   void warn(std::string text);

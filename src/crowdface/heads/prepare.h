@@ -26,12 +26,12 @@ struct PreparedHeads {
   /// The vertices whose smoothing trajectories are computed: the samples, then the other vertices
   /// on which the samples' mirror images depend.
   FaceSamples trajectory_samples;
-  std::vector<Trajectory> trajectories;  ///< #heads; of the `trajectory_samples`
-  std::vector<StoredLevels> levels;      ///< #heads; with `levels: exact`, all are empty
+  std::vector<Trajectory> trajectories;  ///< #heads: trajectories of `trajectory_samples`
+  std::vector<StoredLevels> levels;      ///< #heads; each is empty with `levels: exact`
   /// the nodes to which the rows of StoredLevels::function_coefficients belong, for all heads
   std::shared_ptr<const LevelNodes> nodes;
   CachedPatches patches;  ///< fields of all heads, grouped by patches; empty with `levels: exact`
-  std::optional<ChebyshevFilter> filter;  ///< only with `levels: exact`
+  std::optional<ChebyshevFilter> filter;  ///< the exact filter; nothing without `levels: exact`
   std::size_t cached_head_count = 0;      ///< number of heads found in the cache
 };
 

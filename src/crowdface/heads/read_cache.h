@@ -17,7 +17,7 @@ namespace crowdface {
 struct HeadMesh {
   Topology topology;
   TextureCoordinates uvs;                     ///< #T by 2
-  std::vector<std::uint32_t> corner_normals;  ///< see ObjFile
+  std::vector<std::uint32_t> corner_normals;  ///< see ObjFile::corner_normals
   Digest digest() const;                      ///< hash of all members
 };
 

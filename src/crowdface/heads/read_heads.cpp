@@ -162,10 +162,10 @@ bool read_from_cache(HeadFile& head, const CacheFolder& cache, SharedMeshes& sha
   return false;
 }
 
-/// A head that is being read. `summary` describes the text of an OBJ file.
+/// A head that is being read.
 struct HeadReading {
   HeadFile head;
-  ObjSummary summary;
+  ObjSummary summary;        ///< line counts and hash of the text; only for OBJ files
   fs::path unnamed_texture;  ///< see find_unnamed_texture; empty if there is none
 };
 

@@ -37,7 +37,8 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
                                  const CacheFolder& cache, Problems& problems);
 
 /// Reads the vertex positions of a mesh file.
-/// \param name_of_meshes  what messages call the meshes with `topology`, such as "the heads"
+/// \param topology        the topology that the mesh must have
+/// \param name_of_meshes  noun in error messages for the meshes that have `topology`: "the heads"
 /// \throws Error, InvalidInput if the mesh has another topology.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view name_of_meshes);

@@ -9,8 +9,8 @@ namespace crowdface {
 
 /// The similarity transform x ↦ scale · R · x + t.
 struct Similarity {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< R
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< t
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< the rotation R
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< the translation t
   double scale = 1;
 
   /// Rotation angle in degrees, in [0, 180].

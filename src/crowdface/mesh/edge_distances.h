@@ -62,7 +62,8 @@ class EdgeDistances {
   std::vector<std::uint32_t> reached_;  ///< indices of the settled vertices, nearest first
   std::vector<std::uint32_t> touched_;  ///< indices of the vertices whose distance is finite
   std::vector<bool> settled_;           ///< #V: whether the distance is final
-  std::vector<QueueEntry> queue_;       ///< a heap; the nearest vertex comes first
+  /// heap of the vertices to visit; the nearest vertex comes first
+  std::vector<QueueEntry> queue_;
 };
 
 /// For each vertex, the index in `sources` of the nearest source; kNoIndex if no source is

@@ -17,8 +17,8 @@
 namespace crowdface {
 namespace {
 
-constexpr int kRounds = 12;                  ///< rounds of colour refinement
-constexpr std::size_t kMaxCandidates = 256;  ///< start corners that are tried for each component
+constexpr int kRounds = 12;                  ///< number of rounds of colour refinement
+constexpr std::size_t kMaxCandidates = 256;  ///< most start corners tried for a component
 /// Largest total number of traversal steps, as a multiple of the number of corners.
 constexpr std::size_t kMaxSteps = 64;
 

@@ -7,8 +7,9 @@
 
 namespace crowdface {
 
-/// Finds the polygons of a body below a closed loop of edges: those connected with the lower side
-/// of the loop, and those of separate parts whose middle is below the middle of the loop.
+/// Finds the polygons of a body below a closed loop of edges. A polygon is below the loop if it is
+/// connected with the lower side of the loop. A part that does not touch the loop is below the loop
+/// if the mean height of its polygons is less than the mean height of the loop.
 /// \param up  unit vector
 /// \return  for each polygon, whether it is below the loop; all true if the loop is an open rim.
 /// \throws InvalidInput if the loop does not separate the polygons along the loop.

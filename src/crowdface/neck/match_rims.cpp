@@ -187,10 +187,10 @@ Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const V
 
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
                     double max_distance_mm, RimOrder order) {
-  // An order assigns the vertices of the body's rim to the vertices of the heads' rim. If the heads
-  // are rotated relative to the body, the order with the smallest distances may be wrong. The order
-  // with the best rigid fit replaces this order if the fit's RMS distance is less than kMuchBetter
-  // times the RMS distance of the rigid fit of this order.
+  // An order assigns the vertices of the body's rim to the vertices of the heads' rim. Order A has
+  // the smallest distances between the unmoved rims. A may be wrong if the heads are rotated
+  // relative to the body. Order B has the best rigid fit (see best_rigid_fit). Choose B if the RMS
+  // distance of its rigid fit is less than kMuchBetter times the RMS distance of A's rigid fit.
   constexpr double kMuchBetter = 0.85;
   std::vector<OrderedRim> orders;
   const bool is_free = order == RimOrder::kFree;

@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// The rim at the heads' neck: the lowest of the long open rims.
 /// \param up  unit vector
-/// \param mm  length of a unit of the positions
+/// \param mm  millimetres per unit of the positions
 /// \throws InvalidInput if there is no open rim, or if two long rims are equally low.
 Rim lowest_rim(const std::vector<Rim>& rims, const Positions& positions, const Eigen::Vector3d& up,
                double mm);

@@ -47,9 +47,9 @@ NeckBend::NeckBend(const Topology& topology, const Adjacency& adjacency, const P
   distances.search(rim, falloff);
   std::vector<std::uint32_t> moved = distances.reached();
   std::vector<Triangle> triangles = triangles_around(topology, adjacency, moved);
-  // `number` contains the local index of each vertex of the mesh; kUnnumbered if the vertex has no
-  // local index. The moved vertices come first, in ascending order, then the rim, then the fixed
-  // vertices.
+  // Give local indices to the vertices that take part: first to the moved vertices in ascending
+  // order, then to the rim, then to the fixed vertices. number[v] is the local index of vertex v of
+  // the mesh, or kUnnumbered.
   constexpr std::uint32_t kUnnumbered = kNoIndex;
   std::vector<std::uint32_t> number(static_cast<std::size_t>(positions.rows()), kUnnumbered);
   std::vector<std::uint32_t> local;

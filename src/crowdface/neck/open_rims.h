@@ -10,7 +10,8 @@
 
 namespace crowdface {
 
-/// A closed loop of edges, as vertex indices in the order of the loop, each once.
+/// A closed loop of edges: the indices of its vertices in the order of the loop, without repeating
+/// the first vertex at the end.
 using Rim = std::vector<std::uint32_t>;
 
 /// The open rims of a mesh: closed loops of edges that belong to exactly one polygon. The rims are

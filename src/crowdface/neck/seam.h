@@ -10,7 +10,7 @@ namespace crowdface {
 /// bending of the skin above the ring. Thread-safe.
 struct Seam {
   Rim rim;                       ///< the ring, as vertex indices of the heads
-  Positions positions, normals;  ///< #rim by 3; unit normals
+  Positions positions, normals;  ///< #rim by 3: positions and unit normals of the ring
   NeckBend neck_bend;            ///< bends the skin above the ring
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.

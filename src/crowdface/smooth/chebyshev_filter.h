@@ -63,7 +63,7 @@ class ChebyshevFilter {
 
  private:
   OperatorKind kind_;
-  Tiling tiling_;  ///< determines the order of the rows
+  Tiling tiling_;  ///< the tiles of the mesh, which determine the order of the rows
 };
 
 /// Evaluates several polynomials of one vector field in one pass, in double precision:

@@ -15,8 +15,8 @@ namespace crowdface {
 /// comparisons.
 struct CubicFit {
   static constexpr int kRank = 4;  ///< number of fields c_p
-  std::uint64_t max_level = 1;     ///< L_max
-  LevelFields fields;              ///< c_0 … c_3
+  std::uint64_t max_level = 1;     ///< L_max, the highest fitted level
+  LevelFields fields;              ///< the fields c_0 … c_3
 };
 
 /// The fit uses the levels that levels_dense_at_start returns for this number of steps, as in the

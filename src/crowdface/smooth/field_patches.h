@@ -33,7 +33,8 @@ struct FieldPatch {
   std::size_t field_count = 0;
   /// number of vertices at which fields are stored (the skeleton, see FieldPatches)
   std::size_t stored_vertex_count = 0;
-  const float* quantization_steps = nullptr;  ///< one per field: a power of two, or zero
+  /// quantization step of each stored field: a power of two, or zero
+  const float* quantization_steps = nullptr;
   /// #fields by values_per_field(), in multiples of the quantization step. For each field: x of all
   /// skeleton vertices, then all y, then all z, then zeros as padding.
   const std::int16_t* quantized_values = nullptr;
@@ -66,9 +67,11 @@ struct PatchArrays {
   std::span<const std::uint32_t> stored_vertex_counts;
   /// #patches by #heads: see FieldPatch::field_counts
   std::span<const std::uint32_t> field_counts;
-  std::span<const float> quantization_steps, weights;  ///< see FieldPatch
-  std::span<const std::int16_t> quantized_values;      ///< see FieldPatch
-  std::shared_ptr<const void> memory_owner;            ///< keeps all lists alive
+  /// the arrays of the same names in FieldPatch, one patch after the other
+  std::span<const float> quantization_steps, weights;
+  /// FieldPatch::quantized_values of all patches, one patch after the other
+  std::span<const std::int16_t> quantized_values;
+  std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
 };
 
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all

@@ -15,7 +15,7 @@ namespace crowdface {
 /// The fields of one head at one tile of vertices.
 struct TileFields {
   std::size_t count = 0;                           ///< number of fields
-  const float* quantization_steps = nullptr;       ///< step of each field
+  const float* quantization_steps = nullptr;       ///< quantization step of each field
   const std::int16_t* quantized_values = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
@@ -53,8 +53,8 @@ struct LevelFields {
 
 /// The quantized fields of a sequence of tiles, stored one tile after another.
 struct QuantizedTiles {
-  std::vector<std::uint32_t> field_counts;     ///< number of fields of each tile
-  std::vector<float> quantization_steps;       ///< one for each stored field of a tile
+  std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
+  std::vector<float> quantization_steps;    ///< quantization step of each stored field of each tile
   std::vector<std::int16_t> quantized_values;  ///< for each stored field, kTileValues integers
 
   /// Quantizes and appends the fields of one tile.

@@ -13,7 +13,8 @@ namespace crowdface {
 /// levels occur), and the nodes.
 struct TestedLevels {
   std::vector<std::uint64_t> levels;  ///< the tested levels, ascending
-  Eigen::MatrixXd node_weights;       ///< #levels by #nodes: LevelNodes::interpolation_weights
+  /// #levels by #nodes: LevelNodes::interpolation_weights of each tested level
+  Eigen::MatrixXd node_weights;
 };
 /// Makes the list of the tested levels for these nodes.
 TestedLevels make_tested_levels(const LevelNodes& nodes);

@@ -37,8 +37,8 @@ struct FittedMesh {
   Topology topology;                                  ///< #V vertices
   TextureCoordinates uvs;                             ///< #T by 2
   std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V: three vertices of the base mesh
-  Positions weights;              ///< #V by 3: weights of the three anchors in the mean
-  Positions offsets;              ///< #V by 3, decimetres: added to the mean of the anchors
+  Positions weights;  ///< #V by 3: for each vertex, the weights of its three anchors
+  Positions offsets;  ///< #V by 3, decimetres: added to the weighted means of the anchors
   std::vector<Picture> pictures;  ///< one for each alternative material
   AssetLicence licence;           ///< licence and author of the asset
 
