@@ -92,7 +92,7 @@ class PartWeights {
     /// weight of the part's motion at the vertex; the weights of a vertex sum to at most one
     double weight;
   };
-  std::vector<PartWeight> weights_;  ///< the entries of each vertex are consecutive
+  std::vector<PartWeight> weights_;  ///< all weights; the weights of one vertex are consecutive
 };
 
 }  // namespace crowdface

@@ -31,8 +31,8 @@ constexpr double kOverlap = 0.0005;
 constexpr double kMinSidewaysGap =
     0.0035;  // the test of kSideways replaces smaller gaps by this gap
 constexpr double kMinSurfaceDistance = 0.02;  // smallest distance along the surface
-// pairs whose midpoints are at most this far apart belong to the same group;
-// kGroupDistanceInEdges is the limit for a coarse mesh
+// Pairs whose midpoints are at most this fraction of the skin's extent apart belong to the same
+// group; kGroupDistanceInEdges is the limit for a coarse mesh.
 constexpr double kGroupDistance = 0.015;
 // smallest distance of a pair's vertices along the surface, as a multiple of their distance in
 // space

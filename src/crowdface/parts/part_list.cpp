@@ -24,7 +24,8 @@ namespace {
 constexpr double kSkinExtent = 0.5;
 constexpr double kMinOpenRatio = 0.7;    // isoperimetric ratio: a hemisphere has 0.5, a disc 1
 constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
-// largest distance of components that nearly touch, such as teeth
+// largest distance of components that nearly touch, such as teeth, as a fraction of the skin's
+// extent
 constexpr double kTouchDistance = 0.006;
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
 /// Smallest diagonal (kMinBallDiagonal) and thickness (kMinBallThickness) of an eyeball's bounding

@@ -63,7 +63,8 @@ class LidClosure {
   struct Gap {
     /// gap between the section's two rim points, which lie above each other on the template
     double section_gap;
-    double vertical_gap;  ///< vertical distance from the point of the upper rim to the lower rim
+    /// vertical distance from the section's point on the upper rim down to the lower rim
+    double vertical_gap;
   };
   /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
   /// are known, and divided by the mesh's scale relative to the template.
@@ -168,9 +169,10 @@ class LidClosure {
   /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
                            const LidTargets& targets) const;
-  /// Moves each of the first `count` lid vertices along the eyeball's normal, by `eyeball_weight`
-  /// times the way to a wanted distance from the eyeball. The wanted distance is the larger of two
-  /// distances: the distance at rest plus its target change, and min_ball_distance.
+  /// Moves each of the first `count` lid vertices along the eyeball's normal, towards a wanted
+  /// distance from the eyeball. The vertex moves by the wanted distance minus the current distance,
+  /// times `eyeball_weight`. The wanted distance is the larger of two distances: the distance at
+  /// rest plus its target change, and min_ball_distance.
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
   /// Returns the eye's axes on a face.

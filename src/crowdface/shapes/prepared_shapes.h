@@ -145,7 +145,7 @@ struct PreparedShapes {
   void find_inner_vertices(const PartList& parts);
   /// Appends a rigid part to `rigid_parts`. \param mean  The mean head.
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
-  /// Appends the eye to `eyes` whose eyeball is the last of `rigid_parts`.
+  /// Appends an eye to `eyes`. The eye's eyeball is the last entry of `rigid_parts`.
   /// \param ball  Shape of the eyeball on the mean head.
   /// \param mean  The mean head.
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);
