@@ -39,7 +39,7 @@ struct KeyRow {
 
 template <class Section>
 struct Key;
-/// Returns the documentation rows of these keys (defined below).
+/// Returns the documentation rows of `keys`.
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);

@@ -19,8 +19,9 @@ namespace {
 // skin closer than kFullMotionRadius moves fully with the lid; skin farther than kNoMotionRadius
 // does not move.
 constexpr double kFullMotionRadius = 1.8, kNoMotionRadius = 3;
-// Distances from the eyeball's surface. Skin closer than kFullCorrectionGap is kept outside the
-// eyeball. Farther away, this correction fades, and ends at kNoCorrectionGap.
+// Distances from the eyeball's surface, as fractions of the eyeball's radius. Skin closer than
+// kFullCorrectionGap is kept outside the eyeball. Farther away, this correction fades, and ends at
+// kNoCorrectionGap.
 constexpr double kFullCorrectionGap = 0.27, kNoCorrectionGap = 0.6;
 constexpr std::size_t kSections = 52;  // number of sections along the opening
 constexpr double kProfile = 0.35;      // radius of the profile around each section

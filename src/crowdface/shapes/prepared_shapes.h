@@ -51,7 +51,8 @@ struct LidFollower {
   /// for each corner of the skin triangle to which the vertex is bound: the corner's row in the
   /// shape's displacements, or kNoIndex if LidClosure never moves the corner
   std::array<std::uint32_t, 3> corner_rows;
-  std::array<double, 3> barycentric;  ///< barycentric coordinates in this triangle
+  /// barycentric coordinates in the skin triangle to which the vertex is bound
+  std::array<double, 3> barycentric;
 };
 
 /// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's

@@ -20,8 +20,9 @@ namespace {
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
-// Distances from intersections, measured at rest. Skin closer than kAveragedRadius gets the average
-// of the neighbouring displacements; skin farther than kUnchangedRadius keeps its displacements.
+// Distances from intersections, measured at rest, as fractions of the skin's extent. Skin closer
+// than kAveragedRadius gets the average of the neighbouring displacements; skin farther than
+// kUnchangedRadius keeps its displacements.
 constexpr double kAveragedRadius = 0.002, kUnchangedRadius = 0.005;
 // size of the cells over which displacements are averaged, as a fraction of the skin's extent
 constexpr double kCell = 0.003;

@@ -73,7 +73,7 @@ class SkinCheck {
   /// the skin's triangles, oriented so that their normals point outwards
   std::vector<Triangle> triangles_;
   TriangleTree tree_;                ///< tree of `triangles_`
-  VertexFaces triangles_at_vertex_;  ///< for each vertex, indices into `triangles_`
+  VertexFaces triangles_at_vertex_;  ///< triangles at each vertex: indices into `triangles_`
   ViewSetup view_setup_;             ///< viewers that may see the skin's back side
   std::map<Index, Target> targets_;  ///< the data of each target; the key is the head's index
 };
