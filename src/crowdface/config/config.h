@@ -211,8 +211,8 @@ struct Config {
     /// file that lists the vertices of the neck ring on the body; empty: the neck ring is an open
     /// border of the body's mesh
     std::filesystem::path body_rim;
-    /// Each face is bent near the neck ring, so that the face fits the ring. The bend fades out over
-    /// this distance from the ring, measured along the skin.
+    /// Each face is bent near the neck ring, so that the face fits the ring. The bend fades out
+    /// over this distance from the ring, measured along the skin.
     double falloff_mm = 60;
     /// the body's colour texture, which is tinted for each face; empty: none
     std::filesystem::path body_texture;

@@ -26,7 +26,7 @@ namespace crowdface {
 struct PreparedEye {
   std::size_t part;  ///< index into the rigid parts
   TemplateEye template_eye;
-  std::vector<BallRadii> balls;  ///< for each head: the radii of its eyeball
+  std::vector<BallRadii> balls;  ///< for each head: the radii of this eyeball in the head
 };
 
 /// How a shape moves one rigid part.
