@@ -168,7 +168,7 @@ void read_none_of_group(const YamlNode& node, Group& group, ConfigDraft& draft) 
 }
 
 /// Returns the first item whose kind, name or colour is this word; null if there is no such item.
-/// The kind of this item is the kind to which a quota for the word applies.
+/// A quota for the word applies to this item's kind.
 const Attachment* first_item_matching(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(attachments.items, [&](const Attachment& item) {
     return matches_kind_name_or_colour(item, word);

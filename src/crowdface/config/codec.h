@@ -58,7 +58,8 @@ Codec<double> positive_length(double high_mm);
 Codec<double> nonzero(const Codec<double>& codec, const std::string& expected);
 /// Codec for a range, given as `[low, high]` or as one value, which is then both ends.
 Codec<Range> range(const Codec<double>& value_codec);
-/// Codec for a range of the factor on a face's left-right differences, from 0 to kMaxAsymmetry.
+/// Codec for a range of the asymmetry: the factor that multiplies a face's left-right differences,
+/// from 0 to kMaxAsymmetry.
 Codec<Range> asymmetry();
 /// Codec for an age from −1 (young) to 1 (old), for an age in years ("70 years"), or for a range.
 /// Refuses ages below 0 if no head has the tag `young`, and ages above 0 if no head has the tag

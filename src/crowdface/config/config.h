@@ -121,8 +121,8 @@ struct Config {
     std::string name;
     std::uint64_t count = 0;  ///< number of sampled faces; recipes and families add further faces
     std::uint64_t seed = 1;
-    /// The number of sampled faces of the crowd in the output folder, if that crowd has this
-    /// config. (This is not a config key.)
+    /// The number of sampled faces that the output folder already contains. Empty if the folder
+    /// contains no crowd, or a crowd of another config. (This is not a config key.)
     std::optional<std::uint64_t> existing_face_count;
   } crowd;
 
@@ -211,8 +211,8 @@ struct Config {
     /// file that lists the vertices of the neck ring on the body; empty: the neck ring is an open
     /// border of the body's mesh
     std::filesystem::path body_rim;
-    /// Distance from the neck ring, along the skin, over which the bend that fits a face to the
-    /// ring fades out.
+    /// Each face is bent near the neck ring, so that the face fits the ring. The bend fades out
+    /// over this distance from the ring, measured along the skin.
     double falloff_mm = 60;
     /// the body's colour texture, which is tinted for each face; empty: none
     std::filesystem::path body_texture;
@@ -231,9 +231,9 @@ struct Config {
     AttachmentMove moves = AttachmentMove::kBend;  ///< how the attachment follows the skin
   };
   struct Attachments {
-    /// The head to which all items were fitted, from the key `fitted_to`. If there is no head, the
-    /// items were fitted to the mesh `file` (with the heads' topology) or, without `file`, to the
-    /// mean of the heads.
+    /// The head to which all items were fitted, if the key `fitted_to` names a head. Otherwise, the
+    /// items were fitted to the mesh `file` (with the heads' topology) or, if `file` is empty, to
+    /// the mean of the heads.
     std::optional<Eigen::Index> fitted_head;
     /// mesh to which all items were fitted, see `fitted_head`; empty: none
     std::filesystem::path file;
@@ -253,8 +253,10 @@ struct Config {
     std::optional<std::uint64_t> size;
     std::vector<TextureFormat> formats = {TextureFormat::kPng};
     ColourWeights colours = ColourWeights::kRecipe;
-    /// Key `alike`, used for ColourWeights::kSampled: tags in which the heads that lend textures
-    /// must agree with the face's target. nullopt: all tags.
+    /// Key `alike`, used for ColourWeights::kSampled. A head may lend textures to a face only if
+    /// the head and the face's typical head (see typical_head) agree in each of these tags: both
+    /// heads have the tag, or neither head has the tag. nullopt: the two heads must agree in all
+    /// tags.
     std::optional<std::vector<std::string>> matching_tags;
   } textures;
 
@@ -321,7 +323,7 @@ struct Config {
     std::vector<View> views = {View::kFront};
     std::vector<SheetLabel> labels = {SheetLabel::kId};
     SheetOrder order = SheetOrder::kPlan;
-    MeshComparison compare;  ///< mesh from which the sheet shows each face's distances
+    MeshComparison compare;  ///< the sheet shows the distance of each face from this mesh
     std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
     /// number of faces whose expressions (blend shapes) are shown on separate pages
     int face_count_on_shape_pages = 0;
@@ -375,8 +377,8 @@ std::string effective_config(const Config& config, const std::filesystem::path& 
 /// program adds a key.
 std::string face_settings_yaml(const Config& config);
 
-/// Returns every key of the effective config that is not marked with Key::not_affecting_recipes,
-/// and `changes`. Apart from reviews, a plan depends only on these keys.
+/// Returns every key of the effective config that is not marked with Key::not_affecting_recipes.
+/// Also returns the key `changes`. Apart from reviews, a plan depends only on the returned keys.
 ///
 /// \param directory  the folder to which the paths are relative.
 std::string plan_settings_yaml(const Config& config, const std::filesystem::path& directory);

@@ -29,7 +29,7 @@ std::optional<std::uint64_t> number_in_config(const std::string& text, std::stri
 
 /// The smallest distances that a config requires between the faces of a crowd.
 struct RequiredDistances {
-  double min_distance_mm = 0;  ///< distance that any two faces must have at least
+  double min_distance_mm = 0;  ///< smallest allowed distance between two faces
   /// Values that replace `min_distance_mm` for the first faces of the crowd. Each key is the number
   /// of the last face to which the value applies; see
   /// DiversityOptions::min_distance_mm_up_to_face.

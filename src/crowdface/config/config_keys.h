@@ -31,7 +31,7 @@ using Starter = std::function<std::optional<StarterLines>(const StarterFacts&)>;
 
 /// A row of a table in docs/config.md. The row describes one key.
 struct KeyRow {
-  std::string section, key;     ///< path of the section that contains the key, name of the key
+  std::string section, key;     ///< `section`: path of the key's section; `key`: name of the key
   std::string accepted_values;  ///< the values that the key accepts
   std::string default_value;    ///< the default value, or "required"; empty if the key has neither
   bool affects_recipes = true;  ///< see Key::affects_recipes
@@ -39,7 +39,7 @@ struct KeyRow {
 
 template <class Section>
 struct Key;
-/// Returns the documentation rows of these keys (defined below).
+/// Returns the documentation rows of `keys`.
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);
@@ -68,7 +68,7 @@ struct Key {
   /// false: no recipe depends on the value or on the files that the value names
   bool affects_recipes = true;
 
-  /// Returns a copy of this key with this function `make_starter_lines`.
+  /// Returns a copy of this key in which `make_lines` replaces the function `make_starter_lines`.
   Key with_starter_lines(const Starter& make_lines) const {
     Key key = *this;
     key.make_starter_lines = make_lines;
@@ -78,7 +78,7 @@ struct Key {
   Key with_starter_lines(const StarterLines& lines) const {
     return with_starter_lines([=](const StarterFacts&) { return lines; });
   }
-  /// Returns a copy of this key with this text in docs/config.md.
+  /// Returns a copy of this key. For the copy, docs/config.md shows `values` as accepted values.
   Key with_accepted_values(const std::string& values) const {
     Key key = *this;
     key.accepted_values = values;
@@ -171,8 +171,8 @@ std::vector<std::string> write_keys(const Keys<Section>& keys, const Section& se
   return entries;
 }
 
-/// Returns a value as docs/config.md shows it, in one line. The text of a value that may differ
-/// between regions begins with a line break and "default: "; the function removes both.
+/// Returns a value as docs/config.md shows it, in one line. If the value may differ between
+/// regions, its text begins with a line break and "default: ". The function removes this beginning.
 std::string one_line_text(std::string_view value);
 
 /// Returns the documentation rows of a section's keys and of all keys nested in them.
@@ -224,9 +224,9 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   return text;
 }
 
-/// Returns the Starter of a section: of a key whose value is a mapping with these keys. The value
-/// that the Starter gives to the section consists of the starter lines of `keys`. If no key has
-/// starter lines, the starter config does not contain the section.
+/// Returns the Starter for a section. (A section is a key whose value is a mapping; the mapping has
+/// the keys `keys`.) The Starter returns the starter lines of all `keys` as the section's value. If
+/// none of the `keys` has starter lines, the starter config does not contain the section.
 ///
 /// \param keys           must outlive the returned function.
 /// \param comment_above  comment on the lines before the section; empty: none.
@@ -269,7 +269,7 @@ using SectionCheck = void (*)(const YamlNode& node, bool is_valid, ConfigDraft& 
 
 /// Makes a key whose value is a mapping with the given keys.
 ///
-/// \param member  the mapping's value, or an Indirect that holds the value.
+/// \param member  the member that stores the value, directly or in an Indirect.
 template <class Section, class Member, class Value>
 Key<Section> section_key(std::string_view name, Member Section::*member, const Keys<Value>& keys,
                          std::string_view required_example = {}, SectionCheck check = nullptr) {

@@ -15,8 +15,8 @@ namespace {
 /// equally.
 constexpr double kUnsetShare = -1;
 
-/// Removes the heads for which `wanted` is false from the list of old heads. Leaves the list
-/// unchanged if no head would remain. Treats the list of young heads in the same way.
+/// Removes from the list of old heads, and from the list of young heads, the heads for which
+/// `wanted` is false. Leaves a list unchanged if no head would remain in it.
 template <class Wanted>
 void restrict_old_and_young_heads(SamplingOptions& sampling, const Wanted& wanted) {
   for (auto* heads : {&sampling.heads_tagged_old, &sampling.heads_tagged_young}) {

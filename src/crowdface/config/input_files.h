@@ -53,8 +53,8 @@ std::string objection_to_head_name(const std::string& name, const std::filesyste
 std::vector<std::filesystem::path> files_matching(const std::filesystem::path& pattern);
 
 /// Returns the files that match a pattern and may be heads.
-/// \param left_out  receives a message about matching files that may contain a mesh, but no head;
-///                  empty if there are none.
+/// \param left_out  receives a message about the matching files that may contain a mesh but cannot
+///                  be heads; empty if there are no such files.
 std::vector<std::filesystem::path> heads_matching(const std::filesystem::path& pattern,
                                                   std::string& left_out);
 

@@ -41,7 +41,8 @@ class DepthMap {
     Index containing_cell = -1;  ///< the cell that contains the coordinate; −1: none
     /// largest index of a cell whose centre is below the coordinate; −1: none
     Index previous_cell = -1;
-    /// interpolation weight of the cell after `previous_cell`, which has the remaining weight
+    /// Interpolation weight of the cell after `previous_cell`. The weight of `previous_cell` is 1
+    /// minus this weight.
     double next_cell_weight = 0;
   };
   /// \param offset  distance of the coordinate from the start of the axis

@@ -207,8 +207,8 @@ class LandmarkSearch {
       keep("mouth_middle", rim, reason);
     }
     if (front) {
-      // The lower border of the chin: the extreme point of the profile in the direction 30° in
-      // front of straight down.
+      // The lower border of the chin: the point of the profile that is farthest in one direction.
+      // This direction points down, tilted forwards by 30°.
       keep("chin_lowest",
            best(skin_between(chin - kChinBelow, front->at.up),
                 [](const HeadPoint& p) { return 0.5 * p.front - 0.8660254037844386 * p.up; }),

@@ -14,9 +14,10 @@ namespace crowdface {
 
 /// Landmarks of a face by name: points on the skin, and the reasons why landmarks are missing.
 struct FaceLandmarks {
-  std::map<std::string, SurfacePoint> points;  ///< by name of the landmark
-  /// by name of the landmark: a clause such as "the nose has no wings that stand out from the
-  /// cheeks"
+  /// point on the skin of each landmark; the key is the landmark's name
+  std::map<std::string, SurfacePoint> points;
+  /// reason why each missing landmark was not found; the key is the landmark's name. A reason is a
+  /// clause such as "the nose has no wings that stand out from the cheeks".
   std::map<std::string, std::string> missing_reasons;
 };
 

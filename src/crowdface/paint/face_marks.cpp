@@ -23,7 +23,8 @@ constexpr Index kHeights = 720;  // number of samples of a profile
 /// of kHeights heights.
 class Profile {
  public:
-  /// \param mm  a millimetre on a face of average size, in the unit of the positions
+  /// \param mm  length, in the unit of the positions, that stands for a millimetre of a face of
+  ///            average size
   Profile(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
           const HeadAxes& axes, double middle, double mm) {
     low_ = std::numeric_limits<double>::infinity();
@@ -177,15 +178,16 @@ constexpr double kMaxSlitMm = 11;
 /// is below the eyes.
 constexpr double kBridgeMm = 5, kTipMm = -34;
 /// The bridge of the nose is searched from kBridgeSearchMm below to kBridgeSearchMm above its
-/// height on the mean face; kTipSearchMm is the same for the tip of the nose. kMouthSpreadMm: unit
-/// of the distance in the mouth's height penalty, see mouth_and_chin.
+/// height on the mean face; kTipSearchMm is the same for the tip of the nose. kMouthSpreadMm: see
+/// the height penalty of the mouth in mouth_and_chin.
 constexpr double kBridgeSearchMm = 10, kTipSearchMm = 14, kMouthSpreadMm = 12;
 /// Half widths, along the profile, of the hollow at the bridge of the nose, of the hollow between
 /// the lips and of the chin.
 constexpr double kBridgeHalfWidthMm = 15, kLipHalfWidthMm = 5, kChinHalfWidthMm = 10;
 /// The search for the bridge and the tip of the nose prefers heights near the feature's height on
-/// the mean face: it subtracts this penalty from the depth measured at the highest and lowest
-/// searched heights, and less between them. On a mesh with long edges, the penalty is larger.
+/// the mean face: the search subtracts a penalty from each measured depth. The penalty is this
+/// length at the highest and the lowest searched height, and smaller between these two heights. On
+/// a mesh with long edges, the penalty is larger.
 constexpr double kMaxHeightPenaltyMm = 3;
 /// kMaxMiddleOffsetMm: if the middle of the skin is farther than this length from the symmetry
 /// plane of the relief, the symmetry plane of the relief is used. kMaxEyeOffsetMm: if the heights

@@ -39,7 +39,7 @@ HeadAxes turned(const HeadAxes& axes, const Eigen::Vector3d& about, double degre
   return {turn * axes.front, turn * axes.up};
 }
 
-/// Angle in degrees of the rotation from one frame to the other.
+/// Angle in degrees of the rotation that turns the axes `a` into the axes `b`.
 double angle_between(const HeadAxes& a, const HeadAxes& b) {
   const double trace = a.front.dot(b.front) + a.up.dot(b.up) + a.side().dot(b.side());
   return std::acos(std::clamp((trace - 1) / 2, -1.0, 1.0)) / kRadians;
@@ -175,8 +175,9 @@ class Refinement {
   static constexpr int kRounds = 6;
   static constexpr double kSteadyDegrees = 0.3;
 
-  /// Finds starts for the pattern search. The score has several maxima, and the start determines
-  /// which maximum a pattern search reaches. Tries a grid of pitches, heights, sizes and stretches.
+  /// Finds matches from which to start the pattern search. The score has several maxima, and the
+  /// start match determines which maximum a pattern search reaches. Tries a grid of pitches,
+  /// heights, sizes and stretches.
   /// \return the matches with the highest scores that differ from each other in size or height
   std::vector<ReliefMatch> starts_in_symmetry_plane() {
     constexpr std::size_t kStarts = 4;
@@ -438,10 +439,11 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   // rotated axes.
   constexpr double kCoarser = 1.5;
   constexpr double kTurn = 25;  // angle of the rotated axes, in degrees
-  // A face whose axes differ by less than this angle (in degrees) counts as aligned with the axes.
+  // A face counts as aligned with the requested axes if the axes of the face differ from the
+  // requested axes by less than this angle, in degrees.
   constexpr double kAlignedDegrees = 5;
-  // A pitch below this angle (in degrees) is due to the posture of the head or the form of the
-  // face.
+  // A pitch below this angle, in degrees, is attributed to the posture of the head or the form of
+  // the face.
   constexpr double kMinPitch = 10;
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
   const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {

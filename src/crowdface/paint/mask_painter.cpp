@@ -67,7 +67,8 @@ Index receiver_of(const Alpha& alpha, const std::vector<BrushedVertex>& touched,
   return receiver;
 }
 
-/// The vertices that share an edge with each vertex under the brush; one row per `touched`.
+/// The vertices that share an edge with each vertex under the brush; one row for each entry of
+/// `touched`.
 CompressedRows<std::uint32_t> neighbours_of(const SurfaceDistance& surface,
                                             const std::vector<BrushedVertex>& touched) {
   CompressedRows<std::uint32_t> neighbours;
@@ -86,7 +87,8 @@ double edge_length(const Positions& positions, const std::vector<BrushedVertex>&
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
 }
 
-/// Returns how often to smooth or grow: `edges`, rounded up and limited to 1 … kMaxRounds.
+/// Returns the number of rounds of smoothing or growing: `edges`, rounded up and limited to
+/// 1 … kMaxRounds.
 int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }
@@ -181,8 +183,8 @@ std::vector<std::uint32_t> MaskPainter::paint(Index region, const std::vector<Su
       const double smooth = kSmoothDistance * brush.radius / std::max(edge, 1e-300);
       const double grow = kGrowDistance * brush.radius / std::max(edge, 1e-300);
       const bool smooths = brush.mode == BrushMode::kSmooth;
-      // Each round grows the region by one edge. Smoothing acts like diffusion: its distance is the
-      // square root of the number of rounds.
+      // Each round grows the region by one edge. Smoothing acts like diffusion: n rounds smooth
+      // over a distance of √n edges.
       for (int i = rounds(smooths ? smooth * smooth : grow); i > 0; --i) {
         if (smooths) {
           smooth_once(touched, neighbours, alpha_);

@@ -24,7 +24,7 @@ struct Brush {
   BrushMode mode = BrushMode::kAdd;
   /// radius of the brush along the surface, in the unit of the positions, above 0
   double radius = 1;
-  double strength = 1;  ///< change at the centre of the brush, 0 to 1
+  double strength = 1;  ///< strength at the brush's centre, from 0 (no change) to 1
   /// 0: constant strength from the centre to the rim; 1: the strength decreases all the way from
   /// the centre to the rim
   double falloff = 1;

@@ -64,8 +64,8 @@ const Terms& terms() {
 using UsedCells = std::bitset<kReliefCells>;
 
 /// A least-squares fit of the model to the used cells. The mean face is the last term of the model.
-/// The square of the last entry of `explained` is therefore the part of the sum of squared depths
-/// that the mean face explains and the other terms do not explain.
+/// The other terms explain a part of the sum of squared depths. The square of the last entry of
+/// `explained` is the additional part that the mean face explains.
 struct CellFit {
   ReliefFit fit;
   Products factor = Products::Zero();  ///< Cholesky factor of the normal matrix, lower triangle

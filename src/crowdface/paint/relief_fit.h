@@ -17,7 +17,7 @@ inline constexpr int kReliefColumns = 2 * kHalfReliefColumns - 1;
 inline constexpr int kReliefCells = kReliefRows * kReliefColumns;
 /// Distance between neighbouring rows and columns of the grid.
 inline constexpr double kReliefSpacingMm = 8;
-/// Height of the top row of the grid above the eyes.
+/// How far the grid's top row lies above the eyes.
 inline constexpr double kReliefTopRowHeightMm = 32;
 /// Index of the cell that lies between the eyes.
 inline constexpr int kCellBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns - 1;
@@ -26,7 +26,7 @@ inline constexpr int kCellBetweenEyes = 4 * kReliefColumns + kHalfReliefColumns 
 constexpr double cell_lateral_offset_mm(int cell) {
   return kReliefSpacingMm * (cell % kReliefColumns - (kHalfReliefColumns - 1));
 }
-/// Height of a cell above the eyes of the mean face, in mm.
+/// How far a cell lies above the eyes of the mean face, in mm; negative below the eyes.
 constexpr double cell_height_mm(int cell) {
   const int row = cell / kReliefColumns;
   return kReliefTopRowHeightMm - kReliefSpacingMm * row;

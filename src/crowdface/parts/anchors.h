@@ -55,8 +55,9 @@ class Anchors {
   bool is_unmoved(std::size_t triangle_index, const Positions& before,
                   const Positions& after) const;
 
-  std::vector<std::uint32_t> bound_vertices_;    ///< vertex indices, ascending
-  std::vector<std::uint32_t> triangle_indices_;  ///< per bound vertex: index into `skin_triangles_`
+  std::vector<std::uint32_t> bound_vertices_;  ///< vertex indices, ascending
+  /// per bound vertex: the skin triangle of its anchor, as an index into `skin_triangles_`
+  std::vector<std::uint32_t> triangle_indices_;
   /// per bound vertex: barycentric coordinates of its anchor
   std::vector<std::array<double, 3>> barycentric_;
   std::vector<Triangle> skin_triangles_;  ///< triangles of the skin, as vertex indices
@@ -92,7 +93,7 @@ class PartWeights {
     /// weight of the part's motion at the vertex; the weights of a vertex sum to at most one
     double weight;
   };
-  std::vector<PartWeight> weights_;  ///< the entries of each vertex are consecutive
+  std::vector<PartWeight> weights_;  ///< all weights; the weights of one vertex are consecutive
 };
 
 }  // namespace crowdface

@@ -76,7 +76,8 @@ BallRadii::Gap BallRadii::gap_at(const Eigen::Vector3d& centre_to_point) const {
   const double radius = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * c + u * d);
   const double by_p = ((1 - v) * (b - a) + v * (d - c)) * kPerWidth;
   const double by_q = ((1 - u) * (c - a) + u * (d - b)) * kPerWidth;
-  // To first order, the gap is F / |∇F| for F(x) = |x| − radius(x / |x|), with x from the centre.
+  // To first order, the gap is F / |∇F| for F(x) = |x| − radius(x / |x|). Here x is the vector from
+  // the eyeball's centre to the point.
   const Eigen::Vector3d slope =
       down * (by_p * (side_ - p * axes_.front) + by_q * (axes_.up - q * axes_.front));
   const Eigen::Vector3d gradient =

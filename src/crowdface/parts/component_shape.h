@@ -30,8 +30,8 @@ struct ComponentShape {
   double skin_distance = 0;
   /// centre of the least-squares sphere through the vertices
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  double radius = 0;  ///< radius of this sphere
-  /// root mean square distance of the vertices and polygon centres from this sphere
+  double radius = 0;  ///< radius of the least-squares sphere
+  /// root mean square distance of the vertices and polygon centres from the least-squares sphere
   double roughness = 0;
 };
 

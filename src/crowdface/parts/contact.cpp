@@ -26,9 +26,9 @@ constexpr double kHeightMarginFactor = 1.5;
 /// kMaxNearHeight: the exact height is measured only for vertices whose approximate height is less
 /// than kMaxNearHeight. kMinOutsideHeight: vertices above this height count as outside the skin.
 constexpr double kMaxNearHeight = 0.5, kMinOutsideHeight = -0.005;
-/// Fractions of the reach. kMaxLaterHeight: a step ignores vertices above this height, and all
-/// later steps ignore them too. kMaxViolation: the iteration ends when no height is below its lower
-/// bound by more than this.
+/// Fractions of the reach. kMaxLaterHeight: if a step finds a vertex above this height, this step
+/// and all later steps ignore the vertex. kMaxViolation: the iteration ends when every height is at
+/// least its lower bound minus kMaxViolation.
 constexpr double kMaxLaterHeight = 0.15, kMaxViolation = 0.002;
 /// Costs of a rotation (kRotationCost) and of a change of size (kSizeCost), relative to a
 /// translation that moves the vertices by the same distance.

@@ -100,7 +100,7 @@ class PartContact {
   const VertexFaces* faces_ = nullptr;
   double reach_ = 0;        ///< the constructor's parameter `reach`
   double normal_sign_ = 1;  ///< −1 if the skin's normals point away from the part, else 1
-  double radius_ = 0;       ///< root mean square distance of the part's vertices from its middle
+  double radius_ = 0;       ///< root mean square distance of the part's vertices from `middle_`
   /// middle of the part on the head where the pairs were found
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::vector<Pair> pairs_;  ///< ordered by cluster

@@ -80,7 +80,7 @@ class EyeSocket {
                             SizeMode size_mode, const Positions& face) const;
 
   Lids lids_;
-  std::vector<BallRadii> ball_radii_;      ///< for each head: the radii of its eyeball
+  std::vector<BallRadii> ball_radii_;      ///< for each head: the radii of the eyeball in the head
   std::vector<std::vector<double>> gaps_;  ///< for each head: see gaps()
   std::vector<double> smallest_gaps_;      ///< for each lid vertex: its smallest gap in all heads
   /// for each lid vertex: its index in Lids::rim; kNoIndex if the vertex is not on the rim

@@ -25,14 +25,15 @@ namespace {
 // Lengths are fractions of the skin's extent, about 43 cm.
 constexpr double kReach = 0.008;    // largest distance of skin that nearly touches
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
-// Largest overlap of facing skin. An overlap is allowed because touching lips overlap a little on
-// the mean head. The limit is less than the thickness of an eyelid.
+// Largest overlap of facing skin, as a fraction of the skin's extent. An overlap is allowed because
+// touching lips overlap a little on the mean head. The limit is less than the thickness of an
+// eyelid.
 constexpr double kOverlap = 0.0005;
 constexpr double kMinSidewaysGap =
     0.0035;  // the test of kSideways replaces smaller gaps by this gap
 constexpr double kMinSurfaceDistance = 0.02;  // smallest distance along the surface
-// pairs whose midpoints are at most this far apart belong to the same group;
-// kGroupDistanceInEdges is the limit for a coarse mesh
+// Pairs whose midpoints are at most this fraction of the skin's extent apart belong to the same
+// group; kGroupDistanceInEdges is the limit for a coarse mesh.
 constexpr double kGroupDistance = 0.015;
 // smallest distance of a pair's vertices along the surface, as a multiple of their distance in
 // space

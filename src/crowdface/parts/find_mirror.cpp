@@ -29,13 +29,15 @@ constexpr std::size_t kMaxMirrorSeeds = 24;
 constexpr double kAcceptedError = 0.01;
 // Lengths are fractions of the skin's extent, about 43 cm.
 
-// largest distance of a vertex's partner from the mirror image of the vertex
+// largest distance of a vertex's partner from the mirror image of the vertex, as a fraction of the
+// skin's extent
 constexpr double kMatchReach = 0.01;
 /// A walk (see MirroredWalk) pairs the vertices of two components. Its error is the root mean
 /// square distance of the pairs after mirroring. The error may be at most the larger of two limits:
 /// kWalkShare of the component's extent, and kWalkReach of the skin's extent.
 constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
-// largest difference between the bounding boxes of two matched components
+// largest difference between the bounding boxes of two matched components, as a fraction of the
+// skin's extent
 constexpr double kBoxReach = 0.03;
 /// Largest distance of a partner that is matched by nearness, as a fraction of the local edge
 /// length.

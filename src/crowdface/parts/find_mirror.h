@@ -9,7 +9,8 @@ namespace crowdface {
 /// The mirror partner of each vertex, and the quality of the match.
 struct FoundMirror {
   MirrorMap map;
-  /// number of vertices in pairs, in which each vertex is the partner of the other
+  /// number of vertices that have a mutual partner: a vertex v counts if its partner is a vertex
+  /// whose partner is v
   Index paired_vertex_count = 0;
   /// number of vertices whose partner is a point inside a polygon or on an edge, not a vertex.
   /// Vertices that belong to neither this count nor paired_vertex_count have no partner.

@@ -127,7 +127,7 @@ struct PartFollower::State {
   PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
 
   struct PartMotion {
-    bool still = true;  ///< whether the skin around the part is unmoved
+    bool still = true;  ///< whether the skin around the part has kept its positions
     RigidMotion skin;   ///< motion of the skin around the part
     RigidMotion part;   ///< motion of the part itself
   };

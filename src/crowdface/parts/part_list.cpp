@@ -20,11 +20,13 @@ namespace {
 // Lengths are fractions of the skin's extent, the diagonal of its bounding box: about 43 cm for a
 // head with its neck.
 
-// smallest extent of a component that counts as skin; the largest component always counts as skin
+// Smallest extent of a component that counts as skin, as a fraction of the extent of the largest
+// component. The largest component always counts as skin.
 constexpr double kSkinExtent = 0.5;
 constexpr double kMinOpenRatio = 0.7;    // isoperimetric ratio: a hemisphere has 0.5, a disc 1
 constexpr double kBoundDistance = 0.04;  // lashes are a few per cent away from the lids
-// largest distance of components that nearly touch, such as teeth
+// largest distance of components that nearly touch, such as teeth, as a fraction of the skin's
+// extent
 constexpr double kTouchDistance = 0.006;
 constexpr std::array<double, 2> kEyeRadius = {0.014, 0.08};
 /// Smallest diagonal (kMinBallDiagonal) and thickness (kMinBallThickness) of an eyeball's bounding

@@ -5,8 +5,8 @@ namespace crowdface {
 
 /// How the shape of a rigid part in a new face is determined.
 enum class PartShape {
-  kTarget,  ///< the target's shape
-  kBlend,   ///< blended like skin (Eq. 7)
+  kTarget,  ///< the part keeps the shape that it has in the target head
+  kBlend,   ///< the part's shape is blended from target and sources, like skin (Eq. 7)
 };
 
 /// How a generated face treats lips and other skin that nearly touches skin.

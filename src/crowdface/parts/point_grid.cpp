@@ -76,8 +76,8 @@ PointGrid::NearestVertex PointGrid::nearest(const Eigen::Vector3d& point, double
     return std::max({low - point(axis), point(axis) - (low + cell_width_), 0.0}) -
            kRounding * cell_width_;
   };
-  // Search row after row of cells, nearest rows first, so that `best.distance` soon bounds the rows
-  // and the cells of a row.
+  // Search row after row of cells, nearest rows first. `best.distance` then decreases soon, and
+  // limits the rows, and the cells of a row, that remain to be searched.
   const auto search_row = [&](Index z, Index y) {
     const double width = best.distance + cell_width_;  // one cell more than rounding may need
     const Index low = layer_at(point.x() - width, 0), high = layer_at(point.x() + width, 0);

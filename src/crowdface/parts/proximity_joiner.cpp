@@ -39,8 +39,8 @@ void ProximityJoiner::join_near(const Eigen::Vector3d& place, double reach,
 
 void ProximityJoiner::join_near(std::size_t n, const Eigen::Vector3d& place, double reach,
                                 std::uint32_t component) {
-  // The distance of a box uses the same arithmetic as the distances of points below. So rounding
-  // cannot make a box farther away than the points in it.
+  // The distance to the box is computed with the same arithmetic as the distances to its points
+  // below. So rounding cannot make the box farther away than one of its points.
   if (boxes_[n].exteriorDistance(place) > reach) return;
   std::uint32_t& only = groups_of_nodes_[n];
   if (only != kNoIndex && groups_.root(only) == groups_.root(component)) return;

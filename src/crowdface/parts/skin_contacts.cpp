@@ -17,8 +17,9 @@ namespace {
 constexpr double kSectionSpacing = 0.008;     // spacing of the sections
 constexpr double kProfileHalfLength = 0.015;  // length of a profile to either side of a section
 constexpr double kMotionReach = 0.07;         // radius of the skin that moves around a section
-// vertices within this distance of the contact, measured along the surface, are assigned to one of
-// the contact's two sides (such as upper and lower lip)
+// Vertices within this distance of the contact are assigned to one of the contact's two sides (such
+// as upper and lower lip). The distance is measured along the surface, as a fraction of the skin's
+// extent.
 constexpr double kSideReach = 0.09;
 constexpr double kSideSmoothing = 0.006;  // width of the smoothing of the sides' borders
 constexpr double kTolerance = 1e-5;       // tolerance of a gap

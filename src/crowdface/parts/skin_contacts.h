@@ -109,7 +109,7 @@ class SkinContacts {
   /// A change of a section's amplitude. Each section displaces the skin by its amplitude times its
   /// kernel.
   struct AmplitudeChange {
-    std::size_t section;  ///< index within the group
+    std::size_t section;  ///< index of the section within its group
     double amount;        ///< number to add to the amplitude
   };
   /// Finds the amplitude of each section's kernel (see KernelValue) such that the gaps of the

@@ -21,8 +21,8 @@ struct VertexWeights {
 bool holds_vertex_weights(const std::filesystem::path& path);
 
 /// Reads a NumPy array, or lines of numbers separated by blanks, commas or semicolons, with an
-/// optional header line; `#` starts a comment. Quotes around words are ignored, and a first column
-/// without a name that numbers the rows. Values from kMinMaskValue to 0 count as 0.
+/// optional header line; `#` starts a comment. Ignores quotes around words. Also ignores the first
+/// column if it has no name and numbers the rows. Values from kMinMaskValue to 0 count as 0.
 /// \throws MissingInput if there is no such file.
 /// \throws InvalidInput if a number is below kMinMaskValue or not finite, or if rows differ in
 ///         length.

@@ -124,9 +124,9 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
   std::vector<std::uint32_t> place(numbered.size(), kNoIndex);
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(numbered, points.rows());
-  // Two bit masks for each leaf of the tree, about pairs with leaf `one`. A bit stands for a pair
-  // of triangles, one from each leaf. The first mask marks triangles that are a few edges apart;
-  // the second mask marks triangles with a common vertex.
+  // Two bit masks for each leaf of the tree. A bit stands for a pair of triangles: one triangle of
+  // leaf `one` and one triangle of the mask's leaf. The first mask marks the pairs that are a few
+  // edges apart; the second mask marks the pairs with a common vertex.
   std::vector<std::array<std::uint64_t, 2>> masks_of_leaf(tree_.leaf_count());
   for (std::uint32_t one = 0; one < tree_.leaf_count(); ++one) {
     const std::vector<std::uint32_t> others = scene.leaves_near(one);

@@ -42,7 +42,7 @@ class FrameField {
   /// A vertex of the skin around a node.
   struct Sample {
     std::uint32_t vertex;
-    Eigen::Vector3d weight_vector;  ///< w of the sum Σ d·wᵀ, see Node
+    Eigen::Vector3d weight_vector;  ///< the vector w in the sum Σ d·wᵀ, see Node
   };
   /// The map of a node is the matrix Σ d·wᵀ + R·W:
   ///
@@ -54,7 +54,7 @@ class FrameField {
     Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
     std::vector<Sample> samples;
-    /// W of the term R·W
+    /// the matrix W in the term R·W
     Eigen::Matrix3d similarity_weight_matrix;
   };
   /// The weight of a node's map at a vertex.

@@ -9,8 +9,8 @@
 namespace crowdface {
 namespace {
 
-/// A gap counts as nearly unchanged by a shape (GapSelection::kNearlyUnchanged) up to this change
-/// of width: a fraction of the skin's extent, 0.4 mm on a head.
+/// A gap counts as nearly unchanged by a shape (GapSelection::kNearlyUnchanged) if the shape
+/// changes the gap's width by at most this fraction of the skin's extent (0.4 mm on a head).
 constexpr double kMaxChange = 1e-3;
 
 }  // namespace

@@ -19,26 +19,28 @@ namespace {
 // skin closer than kFullMotionRadius moves fully with the lid; skin farther than kNoMotionRadius
 // does not move.
 constexpr double kFullMotionRadius = 1.8, kNoMotionRadius = 3;
-// Distances from the eyeball's surface. Skin closer than kFullCorrectionGap is kept outside the
-// eyeball. Farther away, this correction fades, and ends at kNoCorrectionGap.
+// Distances from the eyeball's surface, as fractions of the eyeball's radius. Skin closer than
+// kFullCorrectionGap is kept outside the eyeball. Farther away, this correction fades, and ends at
+// kNoCorrectionGap.
 constexpr double kFullCorrectionGap = 0.27, kNoCorrectionGap = 0.6;
 constexpr std::size_t kSections = 52;  // number of sections along the opening
 constexpr double kProfile = 0.35;      // radius of the profile around each section
 constexpr double kBlur = .12;          // width of the kernel that blends sections
 // A blend shape closes the lids at a section of the eye's opening if the shape narrows the gap
-// between the lids there by at least this length.
+// between the lids there by at least this fraction of the eyeball's radius.
 constexpr double kMinClosed = 0.05;
 /// A shape closes the lids only if at most this fraction of the template's gap at rest remains.
 constexpr double kMaxRemaining = 0.4;
-// Smallest allowed distance between a lid and the eyeball. A lid may be nearer to the eyeball if
-// the lid is nearer on the template with the blend shape applied, or on the face at rest.
+// Smallest allowed distance between a lid and the eyeball, as a fraction of the eyeball's radius. A
+// lid may be nearer to the eyeball if the lid is nearer on the template with the blend shape
+// applied, or on the face at rest.
 constexpr double kMargin = 0.004;
 /// Largest allowed depth of skin in the eyeball, as a fraction of the eyeball's radius. Skin that
 /// is deeper at rest may stay that deep.
 constexpr double kDeepest = 0.0125;
 constexpr double kSomeDeeper = 0.002;  // depth beyond the limit that is tolerated
-/// Corrected lids may close farther than the template's lids, by at most this length, so that the
-/// skin between two sections closes too.
+/// Corrected lids may close farther than the template's lids, by at most this fraction of the
+/// eyeball's radius, so that the skin between two sections closes too.
 constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed

@@ -63,7 +63,8 @@ class LidClosure {
   struct Gap {
     /// gap between the section's two rim points, which lie above each other on the template
     double section_gap;
-    double vertical_gap;  ///< vertical distance from the point of the upper rim to the lower rim
+    /// vertical distance from the section's point on the upper rim down to the lower rim
+    double vertical_gap;
   };
   /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
   /// are known, and divided by the mesh's scale relative to the template.
@@ -163,14 +164,16 @@ class LidClosure {
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball; negative inside. This
   /// is the smallest of three distances: the vertex's distance at rest, the vertex's target
-  /// distance (at a limited depth), and a small margin.
+  /// distance, and a small margin. A target distance deep inside the eyeball is replaced by the
+  /// distance at the largest allowed depth.
   /// \param rest_distance  the vertex's distance on the face at rest.
   /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
                            const LidTargets& targets) const;
-  /// Moves each of the first `count` lid vertices along the eyeball's normal, by `eyeball_weight`
-  /// times the way to a wanted distance from the eyeball. The wanted distance is the larger of two
-  /// distances: the distance at rest plus its target change, and min_ball_distance.
+  /// Moves each of the first `count` lid vertices along the eyeball's normal, towards a wanted
+  /// distance from the eyeball. The vertex moves by the wanted distance minus the current distance,
+  /// times `eyeball_weight`. The wanted distance is the larger of two distances: the distance at
+  /// rest plus its target change, and min_ball_distance.
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
   /// Returns the eye's axes on a face.
@@ -179,8 +182,9 @@ class LidClosure {
   /// upper lid's profile (`sign` = −1), after the displacements `moves`.
   static RimPoint rim_point(const std::vector<ProfilePoint>& points, double sign,
                             const EyeAxes& axes, const Positions& face, const Positions& moves);
-  /// Returns, for each section, the larger of two excesses over the target: of section_gap and of
-  /// vertical_gap. A negative target of vertical_gap counts as 0.
+  /// Returns, for each section, the larger of two lengths: the length by which section_gap exceeds
+  /// its target, and the length by which vertical_gap exceeds its target. A negative target of
+  /// vertical_gap counts as 0.
   static std::vector<double> gap_excesses(const std::vector<Gap>& now, const LidTargets& targets,
                                           double scale);
   /// Returns the gap at each section of a face with the displacements `moves` of the shape.

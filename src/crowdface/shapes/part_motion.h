@@ -23,9 +23,9 @@ struct RigidPart {
   Eigen::Vector3d centre;
 };
 
-/// The motion of a rigid part in a shape, relative to the template: find_part_motion removes the
-/// local rotation and stretch of the mesh on which it measures the motion, and transfer_part_motion
-/// applies those of another face.
+/// The motion of a rigid part in a shape, relative to the template. find_part_motion measures the
+/// motion on a mesh, and removes the local rotation and stretch of this mesh. transfer_part_motion
+/// applies the local rotation and stretch of another face.
 struct PartMotion {
   /// unit quaternion (w, x, y, z) of the rotation about the centre
   std::array<double, 4> quaternion = {1, 0, 0, 0};

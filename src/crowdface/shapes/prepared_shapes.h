@@ -26,7 +26,7 @@ namespace crowdface {
 struct PreparedEye {
   std::size_t part;  ///< index into the rigid parts
   TemplateEye template_eye;
-  std::vector<BallRadii> balls;  ///< for each head: the radii of its eyeball
+  std::vector<BallRadii> balls;  ///< for each head: the radii of this eyeball in the head
 };
 
 /// How a shape moves one rigid part.
@@ -51,7 +51,8 @@ struct LidFollower {
   /// for each corner of the skin triangle to which the vertex is bound: the corner's row in the
   /// shape's displacements, or kNoIndex if LidClosure never moves the corner
   std::array<std::uint32_t, 3> corner_rows;
-  std::array<double, 3> barycentric;  ///< barycentric coordinates in this triangle
+  /// barycentric coordinates in the skin triangle to which the vertex is bound
+  std::array<double, 3> barycentric;
 };
 
 /// Finds corrective shapes, which are meant to be applied together with another shape: ARKit's
@@ -145,7 +146,7 @@ struct PreparedShapes {
   void find_inner_vertices(const PartList& parts);
   /// Appends a rigid part to `rigid_parts`. \param mean  The mean head.
   void add_part(const Part& part, const PartList& parts, const Positions& mean);
-  /// Appends the eye to `eyes` whose eyeball is the last of `rigid_parts`.
+  /// Appends an eye to `eyes`. The eye's eyeball is the last entry of `rigid_parts`.
   /// \param ball  Shape of the eyeball on the mean head.
   /// \param mean  The mean head.
   void add_eye(const Part& part, const ComponentShape& ball, const Positions& mean);

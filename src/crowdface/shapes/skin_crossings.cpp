@@ -20,10 +20,11 @@ namespace {
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
-// Distances from intersections, measured at rest. Skin closer than kAveragedRadius gets the average
-// of the neighbouring displacements; skin farther than kUnchangedRadius keeps its displacements.
+// Distances from intersections, measured at rest, as fractions of the skin's extent. Skin closer
+// than kAveragedRadius gets the average of the neighbouring displacements; skin farther than
+// kUnchangedRadius keeps its displacements.
 constexpr double kAveragedRadius = 0.002, kUnchangedRadius = 0.005;
-// size of the cells over which displacements are averaged
+// size of the cells over which displacements are averaged, as a fraction of the skin's extent
 constexpr double kCell = 0.003;
 // growth of kAveragedRadius, kUnchangedRadius, kCell and kPushLength in each round, as a fraction
 // of their values in the first round
@@ -34,8 +35,8 @@ constexpr double kArrangeFactor = 0.7;
 /// Averaging the displacements also changes the displacements of the lids. The vertical component
 /// of this change is multiplied by kLidHeightFactor, so that the eye stays closed.
 constexpr double kLidHeightFactor = 0.3;
-// kPushLength: length of the push in each round. kPushRadius: skin is pushed up to this distance
-// from intersections, measured at rest.
+// Fractions of the skin's extent. kPushLength: length of the push in each round. kPushRadius: skin
+// is pushed up to this distance from intersections, measured at rest.
 constexpr double kPushLength = 0.00015, kPushRadius = 0.004;
 constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds without improvement after which the repair of lids ends

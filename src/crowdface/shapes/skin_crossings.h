@@ -41,7 +41,8 @@ class SkinCrossings {
     std::vector<signed char> lid_sides;
     /// the rows of the shape's displacements whose vertices are skin
     std::vector<DisplacementRow> skin_displacements;
-    /// #skin_displacements by 3: positions of these vertices on the template with the shape applied
+    /// #skin_displacements by 3: positions of the vertices of `skin_displacements` on the template
+    /// with the shape applied
     Positions shaped_positions;
     /// Whether the shape brings skin together that is far apart at rest. If so, intersecting skin
     /// gets the same front-to-back order as on the template.
@@ -78,7 +79,8 @@ class SkinCrossings {
   Index count_intersecting(const Face& face, const SearchedSkin& searched_skin,
                            const Displacements& shape, Positions& mesh) const;
 
-  /// Returns a cost of the displacements `moves` of a shape that does not depend on intersections.
+  /// A function that returns a cost of a shape's displacements, `moves`. This cost does not depend
+  /// on intersections.
   using ExtraCost = std::function<double(const Positions& moves)>;
   /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
   /// over skin that is close together at rest, so that the skin keeps its front-to-back order.

@@ -24,10 +24,11 @@ namespace {
 // the target.
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
-// largest distance of a vertex behind the skin; vertices farther behind need no check
+// Largest distance of a vertex behind the skin, as a fraction of the skin's extent. Vertices
+// farther behind the skin need no check.
 constexpr double kNear = 0.008;
 constexpr double kPushedAround = 0.02;  // radius of the skin that a push moves
-// Only one vertex in each cell of this size is checked.
+// Only one vertex in each grid cell is checked. Size of a cell, as a fraction of the skin's extent.
 constexpr double kFrontCell = 0.0025;
 // skin is pushed only if its distance from the vertex is less than this fraction of the wanted
 // depth
@@ -86,7 +87,7 @@ class FrontView {
 
   struct Hit {
     std::uint32_t triangle;
-    double ahead;  ///< distance in front of the point
+    double ahead;  ///< distance by which the triangle is in front of the point
   };
   /// Returns the foremost of the triangles that overlap a point, seen from the front. The triangle
   /// may lie behind the point.

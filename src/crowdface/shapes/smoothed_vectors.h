@@ -28,7 +28,7 @@ class SmoothedVectors {
 
   /// A vector at a position.
   struct Sample {
-    std::uint32_t index;  ///< identifies the sample in the result
+    std::uint32_t index;  ///< number that identifies the sample in the result of `changes`
     Eigen::Vector3d position, value;
   };
   /// The vector to add to a sample's value.

@@ -24,7 +24,8 @@ constexpr double kMoveFactor = 4, kDifferenceFactor = 10;
 // the skin folds at an edge if the displacements of the edge's ends differ by more than this
 // fraction of the edge's length
 constexpr double kFoldStrain = 0.5;
-// Size of a grid cell. If vertices in one cell have similar normals, only one of them is checked.
+// Size of a grid cell, as a fraction of the skin's extent. If vertices in one cell have similar
+// normals, only one of them is checked.
 constexpr double kContactCell = 0.003;
 
 /// Returns, for each vertex of the skin, one vertex that represents all vertices with similar

@@ -27,7 +27,7 @@ class ProtrudingPartsCheck {
   /// first the triangles of the skin, then the triangles of the parts
   std::vector<Triangle> triangles_;
   std::uint32_t skin_count_ = 0;  ///< number of triangles of the skin
-  TriangleTree tree_;             ///< of `triangles_`
+  TriangleTree tree_;             ///< tree of `triangles_`
   ViewSetup view_setup_;          ///< viewers that may see the parts
 };
 

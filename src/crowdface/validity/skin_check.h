@@ -59,8 +59,9 @@ class SkinCheck {
  private:
   /// The data of a target with which faces are compared.
   struct Target {
-    TargetTriangles triangles;       ///< the target's triangles, to measure local defects of faces
-    NewIntersections intersections;  ///< knows the target's own intersections
+    TargetTriangles triangles;  ///< the target's triangles, to measure local defects of faces
+    /// counts the intersections of a face that the target does not have
+    NewIntersections intersections;
     /// visible area of the back side of the target's skin, in the square of the positions' unit
     double exposed_back_area;
   };
@@ -71,10 +72,10 @@ class SkinCheck {
 
   /// the skin's triangles, oriented so that their normals point outwards
   std::vector<Triangle> triangles_;
-  TriangleTree tree_;                ///< of `triangles_`
-  VertexFaces triangles_at_vertex_;  ///< for each vertex, indices into `triangles_`
+  TriangleTree tree_;                ///< tree of `triangles_`
+  VertexFaces triangles_at_vertex_;  ///< triangles at each vertex: indices into `triangles_`
   ViewSetup view_setup_;             ///< viewers that may see the skin's back side
-  std::map<Index, Target> targets_;  ///< by index of the target head
+  std::map<Index, Target> targets_;  ///< the data of each target; the key is the head's index
 };
 
 }  // namespace crowdface

@@ -57,12 +57,14 @@ class TriangleScene {
   bool are_leaves(const NodePair& pair) const {
     return tree_.nodes[pair.a].is_leaf() && tree_.nodes[pair.b].is_leaf();
   }
-  /// Adds to `into` the pairs of children of the two nodes whose boxes overlap.
+  /// Divides a pair of nodes into pairs of smaller nodes. Adds to `into` each of these pairs in
+  /// which the boxes of the two nodes overlap.
   void split(const NodePair& pair, std::vector<NodePair>& into) const;
   /// Returns pairs of nodes, one for each parallel task. Together, the subtrees of the pairs
   /// contain all pairs of leaves that overlap.
   std::vector<NodePair> initial_node_pairs() const;
-  /// Calls use(one, other) for each pair of leaves below the nodes `from` whose boxes overlap.
+  /// Calls use(one, other) for each pair of leaves with overlapping boxes. One leaf is below the
+  /// first node of `from`, and the other leaf is below the second node.
   template <class Use>
   void visit_leaves(const NodePair& from, const Use& use) const;
   /// Returns the pairs of near_pairs() for which keep(pair) is true, ascending.
