@@ -21,8 +21,8 @@ namespace {
 constexpr double kCutBelow = 0.22;
 
 /// Estimates the extreme points of the attachments on all heads, so that images can leave room for
-/// these points. Maps the extreme vertices of each attachment from the bounding box of the head for
-/// which the attachment was made to the bounding box of every head.
+/// these points. Each attachment was made for one head, the `fitted_to` head. The extreme vertices
+/// of the attachment are mapped from this head's bounding box to the bounding box of every head.
 std::vector<Eigen::Vector3d> extent_of(const AttachmentSet& attachments, const HeadSet& head_set) {
   std::vector<Eigen::Vector3d> farthest;
   for (const Attachment& item : attachments.items) {

@@ -26,7 +26,7 @@ class CrowdRenders;
 /// The inputs for pictures of a crowd whose faces are already rendered. All referenced objects must
 /// outlive this object.
 struct PicturedCrowd {
-  const Config& config;  ///< must have contact sheets
+  const Config& config;  ///< the config of the crowd, which must ask for contact sheets
   const Inputs& inputs;
   const CrowdDirectory& directory;
   const CrowdRenders& renders;
@@ -38,7 +38,7 @@ struct PicturedCrowd {
 /// The files made for the pictures of one face, as bytes.
 struct FacePictures {
   std::string png;                            ///< PNG file of all views, side by side
-  std::optional<std::string> gallery_script;  ///< see GalleryMeshes; empty without a gallery
+  std::optional<std::string> gallery_script;  ///< from GalleryMeshes; empty without a gallery
 };
 
 /// Renders the faces of a crowd. Each view has one camera for all faces, fitted to the input heads,

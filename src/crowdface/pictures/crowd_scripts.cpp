@@ -174,8 +174,8 @@ std::string page_script(const std::vector<FacePlan>& crowd, std::size_t begin, s
                 ");\n");
 }
 
-/// Returns the regions of every k-th face of the crowd, for the gallery's view "Plane". Uses the
-/// smallest k that gives at most kMaxOnPlane faces.
+/// Returns the data for the gallery's view "Plane": the key `regions` of the recipe of every k-th
+/// face of the crowd, with the smallest k that gives at most kMaxOnPlane faces.
 Json on_plane(const std::vector<FacePlan>& crowd, const PlanNames& names, const Digest& settings) {
   Json json = Json::object();
   const std::size_t step = (crowd.size() + kMaxOnPlane - 1) / kMaxOnPlane;

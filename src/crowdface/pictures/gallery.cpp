@@ -117,8 +117,9 @@ std::string call(const char* function, const Json& value) {
   return concat("crowdface.", function, "(", value.dump(), ");\n");
 }
 
-/// Adds each eyeball vertex's position relative to its eyeball (EyeCoordinates). The page paints
-/// irises from these positions in each pixel, more finely than vertex colours could.
+/// Adds the EyeCoordinates of the vertices of `mesh` to `json`: the position of each vertex
+/// relative to its eyeball. The page computes the colours of the irises from these coordinates in
+/// each pixel, and so shows finer detail than vertex colours could.
 void add_eyes(const Config& config, const Inputs& inputs, const PicturedMesh& whole,
               const PreviewMesh& mesh, Json& json) {
   const PicturedFace mean(whole, inputs.mean_head);

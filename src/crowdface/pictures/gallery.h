@@ -83,8 +83,9 @@ class GalleryMeshes {
 
   /// The vertices of the gallery's reduced mesh that a blend shape visibly moves.
   struct ShownShape {
-    std::vector<std::uint32_t> rows;      ///< rows of the vertices in the shape's displacements
-    std::vector<std::uint32_t> vertices;  ///< the moved vertices of the reduced mesh
+    /// for each moved vertex: its row in the matrix of the shape's displacements
+    std::vector<std::uint32_t> rows;
+    std::vector<std::uint32_t> vertices;  ///< indices of the moved vertices in the reduced mesh
   };
   std::vector<ShownShape> shown_shapes_;  ///< one entry per blend shape
   /// index of the shape that moves most, such as an open jaw

@@ -190,7 +190,7 @@ class CrowdSheets {
                    counted(members.size(), "member", "members"), cells.size(), cell);
   }
 
-  /// A cell of a family's sheet; blank if `picture` is empty.
+  /// The content of one cell of a family's sheet. If `picture` is empty, the cell is blank.
   struct Relative {
     std::filesystem::path picture;
     std::string label;

@@ -19,7 +19,7 @@ struct PreviewMesh {
   std::vector<std::uint32_t> first_copy_of_vertex;
   /// Indices into `vertices`, three per triangle, grouped by material.
   std::vector<std::uint32_t> triangles;
-  std::vector<float> uvs;  ///< two per vertex; empty if there are no texture coordinates
+  std::vector<float> uvs;  ///< u and v of each preview vertex; empty without texture coordinates
   /// for each preview vertex: a polygon of the whole mesh that uses this vertex
   std::vector<std::uint32_t> face_of_vertex;
   /// for each material that has triangles: the index of its first triangle

@@ -26,8 +26,9 @@ std::vector<Triangle> reduce_triangles(const std::vector<Triangle>& triangles,
 /// A reduced mesh. Its vertices are a subset of the vertices of the whole mesh, numbered in the
 /// order in which the triangles first use them.
 struct ReducedMesh {
-  std::vector<std::uint32_t> vertices;  ///< vertices of the whole mesh, each once
-  std::vector<Triangle> triangles;      ///< indices into `vertices`
+  /// indices, in the whole mesh, of the vertices that the reduced mesh keeps; no index occurs twice
+  std::vector<std::uint32_t> vertices;
+  std::vector<Triangle> triangles;  ///< indices into `vertices`
 };
 
 /// Like reduce_triangles, but also drops unused vertices and renumbers the other vertices.

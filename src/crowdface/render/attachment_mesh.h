@@ -15,8 +15,8 @@ namespace crowdface {
 
 /// Material of an attachment.
 struct AttachmentMaterial {
-  LinearRgb colour = LinearRgb::Constant(0.5F);  ///< linear; used without a texture
-  std::shared_ptr<const Texture> texture = {};   ///< colours, or null
+  LinearRgb colour = LinearRgb::Constant(0.5F);  ///< linear colour, used if `texture` is null
+  std::shared_ptr<const Texture> texture = {};   ///< texture with the colours, or null
   std::shared_ptr<const MipMap> opacity = {};    ///< opacity in the first channel, or null: opaque
   float opacity_factor = 1;                      ///< factor on the opacity, 0 … 1
 };
@@ -66,8 +66,8 @@ class AttachmentSurface {
 /// An attachment placed on a face.
 struct AttachmentMesh {
   const AttachmentSurface* surface;         ///< topology and materials
-  const Positions* positions;               ///< #V by 3, on the face
-  LinearRgb tint = LinearRgb::Constant(1);  ///< factors on the colour
+  const Positions* positions;               ///< vertex positions on the face, #V by 3
+  LinearRgb tint = LinearRgb::Constant(1);  ///< a factor for each channel of the colour
 };
 
 /// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.

@@ -42,7 +42,7 @@ class AttachmentScene {
   struct Part {
     const AttachmentSurface* surface;  ///< mesh and materials of the attachment
     std::uint32_t first_quad;          ///< index of the attachment's first quad in `quads_`
-    LinearRgb tint;                    ///< factors on the colour
+    LinearRgb tint;                    ///< a factor for each channel of the colour
   };
   /// Returns the attachment to which a quad of the scene belongs.
   const Part& part_of(std::uint32_t quad) const;
@@ -55,7 +55,7 @@ class AttachmentScene {
   std::vector<bool> may_cover_;  ///< one per pixel
   std::vector<Part> parts_;      ///< one per attachment
   std::vector<Quad> quads_;      ///< the quads of all attachments, one attachment after another
-  std::vector<std::uint8_t> mip_levels_;  ///< #quads; see AttachmentSurface::mip_level
+  std::vector<std::uint8_t> mip_levels_;  ///< for each quad: level for AttachmentSurface::opacity
   std::vector<Eigen::Vector3f> normals_;  ///< vertex normals of all attachments
   std::unique_ptr<const RayScene> scene_;
 };

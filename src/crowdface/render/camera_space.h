@@ -35,7 +35,7 @@ std::vector<Eigen::Vector3f> camera_normals(const Topology& topology, const Norm
 struct CameraNormals {
   /// for each polygon: its normal times twice its area
   std::vector<Eigen::Vector3f> area_vectors;
-  std::vector<Eigen::Vector3f> normals;  ///< #V
+  std::vector<Eigen::Vector3f> normals;  ///< the vertex normals, #V
 
   /// Sets `normals` to the result of camera_normals.
   void compute(const Topology& topology, const NormalFans& fans, const std::vector<float>& points,

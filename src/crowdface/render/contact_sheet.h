@@ -12,7 +12,7 @@ namespace crowdface {
 
 /// One cell of a contact sheet: an image with a text below.
 struct SheetCell {
-  /// Image of the cell. In a contact_sheet, the images of all cells have the same size.
+  /// Image of the cell. The function contact_sheet needs images of equal size.
   Rgb8Image image;
   /// Text under the image. The font of a line that is too long is reduced until the line fits.
   std::string label;

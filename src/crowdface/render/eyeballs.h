@@ -15,7 +15,7 @@ namespace crowdface {
 /// The eyeballs of a mesh: connected components of the polygons of kind kEye. On eyeballs without a
 /// texture, the renderer paints an iris that looks straight ahead.
 struct Eyeballs {
-  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< in eyeball_of_vertex: no eyeball
+  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< value in eyeball_of_vertex: no eyeball
   /// for each vertex: index of the eyeball that the vertex belongs to, or kNone; empty if there are
   /// no eyeballs
   std::vector<std::uint32_t> eyeball_of_vertex;
@@ -25,16 +25,17 @@ struct Eyeballs {
 /// Finds the eyeballs of a mesh. \param kinds  the kind of each polygon; or empty.
 Eyeballs find_eyeballs(const Topology& topology, const std::vector<SurfaceKind>& kinds);
 
-// Lengths as fractions of the eyeball's radius.
-inline constexpr float kPupilRadius = 0.17F;  ///< radius of the pupil, as in dim light
-inline constexpr float kIrisRadius = 0.42F;   ///< radius of the iris
-inline constexpr float kIrisSoftness =
-    0.025F;  ///< half the width of the blurred edges of pupil and iris
+/// radius of the pupil (in dim light), as a fraction of the eyeball's radius
+inline constexpr float kPupilRadius = 0.17F;
+/// radius of the iris, as a fraction of the eyeball's radius
+inline constexpr float kIrisRadius = 0.42F;
+/// half the width of the blurred edges of pupil and iris, as a fraction of the eyeball's radius
+inline constexpr float kIrisSoftness = 0.025F;
 
 /// Position and size of an eyeball in one head.
 struct EyeballSphere {
   Eigen::Vector3f centre;
-  /// half the extent of the eyeball's vertices perpendicular to the gaze, along the wider direction
+  /// half the larger of the eyeball's extents along two axes perpendicular to the gaze
   float radius = 0;
 };
 

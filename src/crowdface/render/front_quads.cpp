@@ -147,8 +147,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
   const auto has_middle = [&](auto from, auto to) {
     return hn::Gt(pixel(hn::Add(to, half)), pixel(hn::Add(from, half)));
   };
-  // The first square that, with its rim, contains a pixel. Neighbouring squares with their rims
-  // overlap by 2 · kRimWidth pixels.
+  // Returns the first square that contains a pixel in its area or in its rim. Neighbouring squares
+  // with their rims overlap by 2 · kRimWidth pixels.
   const auto first_square = [&](auto from) {
     return hn::ShiftRight<kLog2SquareSide>(
         hn::Max(hn::Sub(from, hn::Set(whole, 2 * kRimWidth)), none));

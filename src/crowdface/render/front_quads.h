@@ -81,8 +81,11 @@ struct SampledPixel {
 /// A depth buffer: the nearest quad at each sample. The lists are padded by kMaxLanes.
 struct DepthBuffer {
   static constexpr std::uint32_t kNothing = 0xffffffffU;  ///< value in `front_quads`: no quad
-  std::vector<float> inverse_depth;                       ///< 0: no quad
-  std::vector<std::uint32_t> front_quads;  ///< 2 · quad index, plus 1 for the second triangle
+  /// for each sample: the nearest quad's inverse depth (see ProjectedVertex); 0: no quad
+  std::vector<float> inverse_depth;
+  /// for each sample: 2 · index of the nearest quad, plus 1 if the sample is in the quad's second
+  /// triangle
+  std::vector<std::uint32_t> front_quads;
 
   /// Creates an empty buffer. \param samples  number of samples
   explicit DepthBuffer(std::size_t samples);

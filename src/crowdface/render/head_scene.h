@@ -39,9 +39,9 @@ struct HeadScene {
   const VertexColours* colours;
   const std::vector<Quad>& quads;                             ///< polygons, split into quads
   const std::vector<SurfaceKind>& kinds;                      ///< kind of each quad
-  const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< #quads, linear; or empty
-  const std::vector<TexturedQuad>& textured_quads;            ///< #quads, or empty
-  const TextureSet* texture_set;                              ///< textures, or nullptr
+  const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< linear, of each quad; or empty
+  const std::vector<TexturedQuad>& textured_quads;  ///< texture coordinates of each quad; or empty
+  const TextureSet* texture_set;                    ///< textures, or nullptr
   std::vector<float> skin_lightness;   ///< skin_lightness() of each colour texture of `texture_set`
   const Eyeballs& eyeballs;            ///< which vertices form eyeballs
   std::vector<EyeballSphere> eyes;     ///< position and size of each eyeball

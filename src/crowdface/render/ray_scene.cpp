@@ -204,8 +204,9 @@ RayScene::RayScene(const RayDevice& device, std::vector<float> points,
   state.points.push_back(0);  // Embree reads 16 bytes at the last vertex
   state.scene = rtcNewScene(state.device);
   const bool moves = tree == Tree::kMovable;
-  // Robust mode avoids gaps along edges, but takes longer. Gaps are not visible in shadows, for
-  // which scenes with kMovable are used, nor between partly transparent quads.
+  // Robust mode avoids gaps along edges, but takes longer. Do not use robust mode where gaps are
+  // not visible: in scenes with kMovable, which are used only for shadows, and between partly
+  // transparent quads.
   rtcSetSceneFlags(state.scene, moves     ? RTC_SCENE_FLAG_DYNAMIC
                                 : opacity ? RTC_SCENE_FLAG_NONE
                                           : RTC_SCENE_FLAG_ROBUST);

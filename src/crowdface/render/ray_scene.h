@@ -33,7 +33,7 @@ class RayDevice {
 /// The points origin + t · direction with min_distance ≤ t ≤ max_distance.
 struct Ray {
   Eigen::Vector3f origin;
-  Eigen::Vector3f direction;   ///< any length
+  Eigen::Vector3f direction;   ///< need not have length 1
   float min_distance = 0;      ///< as a multiple of the length of `direction`
   float max_distance = 1e30F;  ///< as a multiple of the length of `direction`
   /// Seed in 0 … 65535 for stochastic transparency: the seed decides whether the ray passes a

@@ -32,7 +32,8 @@ class InterleavedDisc {
   }
 
  private:
-  std::vector<Eigen::Vector2f> points_;  ///< indexed as [ray][row][column] of a square of pixels
+  /// indexed as [ray][y][x], where x and y are modulo kInterleavePeriod
+  std::vector<Eigen::Vector2f> points_;
 };
 
 }  // namespace crowdface

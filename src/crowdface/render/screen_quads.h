@@ -50,14 +50,15 @@ class ScreenQuads {
                     std::vector<std::optional<RayHit>>& hits) const;
 
  private:
-  /// The hit of the camera ray through a position on the image, in pixels, on a quad.
-  /// \param front_quad  see DepthBuffer::front_quads
+  /// Returns the point where the camera ray through a position on the image hits a quad.
+  /// \param front_quad      the quad, see DepthBuffer::front_quads
+  /// \param pixel_position  the position on the image, in pixels
   RayHit hit(std::uint32_t front_quad, const Eigen::Array2f& pixel_position) const;
 
   const float* points_ = nullptr;           ///< x, y, z of each vertex
   std::span<const Quad> quads_;             ///< the quads of the last `project`
   int squares_per_row_ = 0;                 ///< number of squares in a row
-  std::vector<ProjectedVertex> projected_;  ///< #V
+  std::vector<ProjectedVertex> projected_;  ///< all vertices, projected to the image
   std::vector<SquareLists> square_lists_;   ///< one entry per block of consecutive quads
 };
 

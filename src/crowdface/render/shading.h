@@ -13,13 +13,13 @@ namespace crowdface {
 /// A surface point to shade, in camera space: x right, y up, z towards the camera.
 struct ShadePoint {
   Eigen::Vector3f normal;     ///< unit vector, on the visible side
-  Eigen::Vector3f to_viewer;  ///< unit vector
+  Eigen::Vector3f to_viewer;  ///< unit vector towards the viewer
   LinearRgb albedo;           ///< colour of the surface
   SurfaceKind kind = SurfaceKind::kSkin;
   bool is_back = false;      ///< whether the back of the surface is visible, as in nostrils
   float sky_visibility = 1;  ///< visible fraction of the sky
   float key_visibility = 1;  ///< visible fraction of the key light
-  float roughness = -1;      ///< 0 … 1; negative: the roughness of the material
+  float roughness = -1;      ///< 0 … 1; negative: use the roughness of Material
 };
 
 /// Radiance that a surface point in the studio reflects towards the camera. Diffuse light reaches

@@ -11,7 +11,8 @@ namespace crowdface {
 /// How a surface reflects light.
 struct Material {
   LinearRgb albedo;
-  /// wrap lighting: how far beyond the terminator light is visible, as a cosine
+  /// Wrapped diffuse light reaches surfaces that face away from the lamp, down to a cosine of −wrap
+  /// between normal and lamp.
   LinearRgb wrap;
   float roughness;    ///< roughness of the microfacets; 0 is a mirror
   float reflectance;  ///< fraction of light that is reflected specularly at normal incidence

@@ -15,8 +15,8 @@ enum class TextAlign { kLeft, kCentre, kRight };
 /// Size, position and colours of a text.
 struct LabelStyle {
   int text_px = 14;  ///< nominal height of the letters, reduced for long text
-  /// Smallest text height to fit a long text. If the text is still too long, "..." replaces its
-  /// middle.
+  /// Smallest height of the letters in a long text. If a text of this height is still too long,
+  /// "..." replaces the middle of the text.
   int min_text_px = 9;
   TextAlign align = TextAlign::kCentre;
   std::array<std::uint8_t, 3> text_colour = {214, 214, 216};     ///< sRGB

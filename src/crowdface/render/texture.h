@@ -51,7 +51,7 @@ struct MipMap {
 
 /// The textures of one head, and which polygon has which texture.
 struct TextureLayer {
-  static constexpr std::uint32_t kNone = 0xffffffffU;    ///< in texture_of_polygon: no texture
+  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< value in texture_of_polygon: no texture
   std::vector<std::shared_ptr<const Texture>> textures;  ///< all textures of the head
   /// for each polygon: index into `textures`, or kNone; if empty, no polygon has a texture
   std::vector<std::uint32_t> texture_of_polygon;

@@ -145,8 +145,8 @@ class Tile {
   }
 
   void render(Rgb8Image& image) {
-    // Trace a few samples in every pixel: where attachments may be, more than one, because
-    // attachments may be transparent.
+    // Trace one sample in every pixel. Trace a few samples in pixels that may show attachments,
+    // because attachments may be transparent.
     trace_camera_rays([&](int x, int y, const Pixel&) {
       return may_have_attachments(x, y) ? &sampling_.coarse_samples : &sampling_.centre_sample;
     });

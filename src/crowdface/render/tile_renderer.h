@@ -12,10 +12,10 @@ namespace crowdface {
 
 /// Sample positions in pixels, and ray directions towards the lights.
 struct Sampling {
-  /// One sample in the centre of the pixel.
+  /// one sample in the centre of the pixel
   PixelSamples centre_sample;
-  /// Samples for pixels that contain no edge, but whose normals differ from their neighbours'
-  /// normals, and for pixels without an edge where attachments may be.
+  /// Samples for two kinds of pixels without edges: pixels that may show attachments, and pixels
+  /// whose normals differ from the normals of the neighbouring pixels.
   PixelSamples coarse_samples;
   PixelSamples fine_samples;  ///< samples for pixels that contain edges of surfaces or colours
   /// directions of each pixel's shadow rays, towards the key light and towards the sky

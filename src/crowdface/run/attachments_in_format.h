@@ -54,7 +54,8 @@ class AttachmentsInFormat {
   }
   /// Maximum memory, in bytes, for encoding the attachments of one face. A face wears at most one
   /// attachment of each kind.
-  /// \param files  returns the number of files that contain an attachment
+  /// \param files  files(attachment) returns the number of the face's files that contain this
+  ///               attachment
   template <class Files>
   std::size_t encoding_memory_bytes(const Files& files) const {
     std::map<std::string, std::size_t> max_bytes_by_kind;

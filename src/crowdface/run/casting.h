@@ -55,9 +55,10 @@ struct FamilyReport {
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_outsider_mm = 0;
   double silhouette_coefficient = 0;  ///< see mean_silhouette_coefficient
-  /// largest value, over all pairs of parent and child, of the fraction of strangers (random faces,
-  /// sampled with the settings of the family's group) that are nearer to the child than the parent
-  /// is. Empty if the family has no parents.
+  /// Strangers are random faces, sampled with the settings of the family's group. For each child
+  /// and each of its parents, casting computes the fraction of strangers that are nearer to the
+  /// child than the parent is. This is the largest of these fractions; empty if the family has no
+  /// parents.
   std::optional<double> fraction_of_strangers_nearer_than_parent;
 };
 
@@ -83,7 +84,7 @@ AttachmentOptions attachment_options(const Config& config);
 
 /// Chooses the recipes of all faces ("casts" the crowd).
 /// \param builder      returns the builder of the job's faces; called only if casting builds meshes
-/// \param attachments  binds the haircuts whose cover of the eyes is measured
+/// \param attachments  places haircuts on faces, to measure how much of the irises they cover
 /// \param cache        see casting_space
 /// \throws Unsatisfiable if the constraints cannot be met; the message names the constraint that
 ///     prevented more faces, the number of faces that were cast, and a change that would help.

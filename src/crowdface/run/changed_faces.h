@@ -13,11 +13,11 @@
 
 namespace crowdface {
 
-/// Replaces the changed faces of a crowd, with their colours and attachments. No other face
-/// changes.
+/// Replaces each changed face of a crowd by the result of the change, and gives this face its
+/// colours and attachments. No other face changes.
 ///
-/// - A changed face that is still the same person keeps its colours and attachments. The hair greys
-///   with the age of the face.
+/// - A changed face that is still the same person keeps its colours and attachments. If its age
+///   changes, the fraction of grey hair changes with the age.
 /// - A face that was sampled again gets new colours and attachments, see
 ///   choose_attachments_of_changed_face. A variant keeps the colours of its original.
 ///

@@ -32,8 +32,8 @@ class MaterialCopies {
   };
 
  public:
-  /// \param own  the kinds of textures of which each face has its own files. If `own` is not empty,
-  ///             each face also has its own material file.
+  /// \param own  kinds of textures; each face has its own files of these kinds. If `own` is not
+  ///             empty, each face also has its own material file.
   MaterialCopies(const CrowdDirectory& directory, Ledger& ledger, std::set<TextureKind> own)
       : directory_(directory), ledger_(ledger), own_(std::move(own)) {}
 

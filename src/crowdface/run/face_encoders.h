@@ -40,7 +40,8 @@ struct FinishedFace {
   std::vector<Displacements> moves;
   /// for each blend shape: number of intersecting skin triangles, see FaceShapes::shapes_of_face
   std::vector<Index> skin_intersections;
-  std::vector<PlacedAttachment> placed_attachments;  ///< with the body, if files contain the body
+  /// the attachments of the face and, if files contain the body, the body
+  std::vector<PlacedAttachment> placed_attachments;
   ColourRows colours;  ///< #V vertex colours; no rows if there are none
   /// The face's blended textures, encoded as image files; empty if no output file uses them. With
   /// `neck.body_texture`, the last texture belongs to the body.
@@ -127,9 +128,10 @@ class FaceEncoders {
 
   const Config& config_;
   const Inputs& inputs_;
-  std::vector<MeshFormat> formats_;              ///< mesh formats of the faces
-  std::vector<MeshLevel> levels_;                ///< the whole mesh, then the levels of detail
-  std::map<MeshFormat, MeshEncoders> encoders_;  ///< by format, one encoder for each of `levels_`
+  std::vector<MeshFormat> formats_;  ///< mesh formats of the faces
+  std::vector<MeshLevel> levels_;    ///< the whole mesh, then the levels of detail
+  /// for each format: one encoder for each of `levels_`
+  std::map<MeshFormat, MeshEncoders> encoders_;
   /// for each level of detail, the encoders of the attachments' separate OBJ files; empty if no
   /// format needs such files
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;

@@ -83,8 +83,8 @@ class FaceTextureEncoder {
 
   const Config& config_;
   const Inputs& inputs_;
-  std::vector<PictureName> pictures_;               ///< see face_picture_names
-  std::map<Index, Materials> materials_of_target_;  ///< by index of the target head
+  std::vector<PictureName> pictures_;               ///< the result of face_picture_names
+  std::map<Index, Materials> materials_of_target_;  ///< key: index of the target head
 };
 
 }  // namespace crowdface

@@ -26,7 +26,7 @@ class IrisCover {
   static constexpr double kMaxCoveredFraction = 0.1;
 
   /// \param builder      called once, when the first item has to be measured
-  /// \param attachments  the items to measure are bound here; must outlive this object.
+  /// \param attachments  places the measured items on faces; must outlive this object.
   /// \param config, inputs  must outlive this object.
   IrisCover(const Config& config, const Inputs& inputs, FaceAttachments& attachments,
             std::function<const FaceBuilder&()> builder);
@@ -39,7 +39,7 @@ class IrisCover {
   /// An eyeball of a face.
   struct Eye {
     Eigen::Vector3d centre;
-    double radius;  ///< of the eyeball
+    double radius;  ///< radius of the eyeball
   };
   /// Returns the eyes of a mesh in the topology of the heads. \param positions  #V by 3
   std::vector<Eye> eyes_of(const Positions& positions) const;

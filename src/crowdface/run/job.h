@@ -47,7 +47,8 @@ CrowdDirectory crowd_directory_of(const Config& config);
 /// Returns the text of the config.yaml that a run writes into the crowd's folder. In this text, the
 /// paths of the review files are the paths of their copies in the crowd's folder.
 std::string stored_config_text(Config config, const CrowdDirectory& directory);
-/// Returns the config for comparison with the config.yaml that is already in the crowd's folder.
+/// Returns the texts of config.yaml and of the review files that a run writes into the crowd's
+/// folder, and a function that compares the config with the config.yaml that is already there.
 CrowdConfig crowd_config(const Config& config, const CrowdDirectory& directory);
 
 /// The scale that converts a smoothness into a number of smoothing iterations on these heads.

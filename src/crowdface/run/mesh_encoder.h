@@ -32,9 +32,10 @@ struct FaceMesh {
   std::string id;            ///< "market_0001", at a level of detail "market_0001_LOD1"
   std::string display_name;  ///< the name of the mesh in messages
   Index target = 0;          ///< index of the head that the face is built on
-  const Positions* positions = &kNoPositions;  ///< #V by 3
-  const Positions* normals = &kNoPositions;    ///< #V by 3; no rows if no encoder needs them
-  std::span<const Displacements> moves = {};   ///< displacements of each blend shape, or none
+  const Positions* positions = &kNoPositions;  ///< vertex positions, #V by 3
+  /// vertex normals, #V by 3; no rows if no encoder needs normals
+  const Positions* normals = &kNoPositions;
+  std::span<const Displacements> moves = {};  ///< displacements of each blend shape, or none
   std::span<const PlacedAttachment> placed_attachments = {};  ///< the face's attachments
   const ColourRows* colours = &kNoColours;  ///< #V vertex colours; no rows if there are none
   /// positions of the named points (PointCarrier) on this face; no rows in a reduced mesh
@@ -54,7 +55,7 @@ struct FaceMesh {
 struct MeshSource {
   const Config& config;
   const Inputs& inputs;
-  std::span<const MeshLevel> levels;    ///< the whole mesh first
+  std::span<const MeshLevel> levels;    ///< the whole mesh, then each level of detail
   std::span<const Index> target_heads;  ///< targets of all faces that will be encoded
   /// Relative path from the folder of a mesh to the folder of files that all meshes share (such as
   /// material files), for example ".."; empty: same folder.

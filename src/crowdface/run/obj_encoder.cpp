@@ -61,8 +61,8 @@ std::pair<std::size_t, std::size_t> sizes_of(const Templates& templates,
   return {memory, encode};
 }
 
-/// Returns new `mtllib` lines by target head. Omits target heads whose own `mtllib` line already
-/// names the material files that this run writes.
+/// Returns new `mtllib` lines; the key is the index of the target head. The result has no line for
+/// a target head whose own `mtllib` line already names the material files that this run writes.
 std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.target_heads) {
@@ -75,9 +75,10 @@ std::map<Index, std::string> replacing_library_lines(const MeshSource& source) {
   return lines;
 }
 
-/// Returns the `usemtl` line to write after the `mtllib` line, by target head. Contains only target
-/// heads whose first polygons have no material although the material files define exactly one
-/// material. Programs ignore this material if there is no `usemtl` line.
+/// Returns `usemtl` lines to write after the `mtllib` lines; the key is the index of the target
+/// head. The result has a line only for a target head whose first polygons have no material
+/// although the material files define exactly one material. Without a `usemtl` line, programs
+/// ignore this material.
 std::map<Index, std::string> usemtl_lines(const MeshSource& source) {
   std::map<Index, std::string> lines;
   for (const Index target : source.target_heads) {

@@ -124,8 +124,8 @@ class OverriddenPlan {
   /// Finds hair colours that fewer faces have than the config requests. Does not count changed
   /// faces.
   void find_missed_hair() {
-    // by name of the group; the key "" stands for faces without a group and for faces whose group
-    // has no hair colours of its own
+    // The key is the name of a group. The key "" stands for faces without a group and for faces
+    // whose group has no hair colours of its own.
     std::map<std::string, std::vector<const FacePlan*>> groups;
     const auto own = [&](const std::string& name) {
       return std::ranges::find_if(config_.groups, [&](const Group& group) {
@@ -212,7 +212,7 @@ class OverriddenPlan {
 
   const Config& config_;
   const std::vector<FacePlan>& crowd_;
-  std::map<std::string, const FacePlan*> faces_;  ///< by id
+  std::map<std::string, const FacePlan*> faces_;  ///< key: id of the face
   NamedFaces not_for_head_, without_tint_, not_in_group_, replaced_;
   std::vector<std::string> warnings_;
 };

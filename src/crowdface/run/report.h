@@ -64,8 +64,8 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// timings.json: the durations of the stages and the number of threads. These values may differ
-/// between runs.
+/// Returns the text of timings.json: the durations of the stages and the number of threads. These
+/// values may differ between runs.
 std::string format_timings(const StageSeconds& stages, const StageTimes& busy, std::size_t faces,
                            std::size_t heads_from_cache);
 

@@ -33,8 +33,9 @@ void require_all_faces(const CrowdDirectory& directory, const std::vector<FacePl
 void write_shared_files(const Config& config, const Inputs& inputs, const CrowdDirectory& directory,
                         Ledger& ledger);
 
-/// The folder's ledgers that may record faces of this shard: all ledgers except those of the other
-/// shards if the crowd is split into the same number of shards.
+/// Returns the ledgers in the folder that may record faces of this shard. Omits the ledgers of the
+/// other shards of the same split, because these shards make other faces. For example, shard 3/7
+/// does not need the ledger of shard 2/7, but may need the ledger of shard 2/5.
 std::vector<std::filesystem::path> relevant_ledgers(const CrowdDirectory& directory,
                                                     const Shard& shard);
 

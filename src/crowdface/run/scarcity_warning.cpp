@@ -104,8 +104,9 @@ void ScarcityWarning::on_face_accepted(const RejectionCounts& rejected) {
   const std::uint64_t too_near = rejected.of(RejectionReason::kMinDistance);
   const auto round =
       static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_face_count_));
-  // Casting tries candidates in rounds of `round` candidates, and accepts one of the last round.
-  // In all earlier rounds, every candidate was too near to a face of the crowd.
+  // Casting finds candidates in rounds of `round` candidates each. In all rounds before the last,
+  // every candidate was too near to a face of the crowd. Casting accepted a candidate of the last
+  // round.
   forecast_.add(too_near, round - too_near % round);
   const auto faces = forecast_.estimated_face_count();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);

@@ -12,13 +12,14 @@
 
 namespace crowdface {
 
-/// During casting by first-fit sampling, warns that a crowd may not reach the requested number of
-/// faces. Logs two messages, each at most once: that candidates are scarce, and the warning.
+/// Watches casting in the mode first_fit. Logs a warning if the forecast says that the crowd will
+/// not reach the requested number of faces. Before this warning, may log that a face needed many
+/// candidates. Logs each of these two messages at most once.
 class ScarcityWarning {
  public:
   /// \param casting  must outlive this object.
   explicit ScarcityWarning(const CastingOptions& casting) : casting_(casting) {}
-  /// \param rejected  the rejected candidates for this face
+  /// Call this after each accepted face. \param rejected  the rejected candidates for this face
   void on_face_accepted(const RejectionCounts& rejected);
 
  private:

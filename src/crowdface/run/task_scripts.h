@@ -20,8 +20,9 @@ namespace crowdface {
 struct TaskJob {
   std::filesystem::path program;              ///< the crowdface executable
   std::vector<std::string> config_arguments;  ///< words of the command line: config file, overrides
-  std::vector<std::string> input_limit_arguments;  ///< for every task: maximum sizes of inputs
-  std::string crowd_name;                          ///< name of the crowd
+  /// words of every task's command line that limit the sizes of inputs (`--limit`)
+  std::vector<std::string> input_limit_arguments;
+  std::string crowd_name;  ///< name of the crowd
   CrowdDirectory directory;
   std::filesystem::path cache;  ///< folder of prepared heads, shared by all machines
   /// a local folder on each machine; the machine's shell expands the path; empty: none
@@ -29,7 +30,7 @@ struct TaskJob {
   std::uint64_t prepare_task_count = 1;  ///< number of tasks that prepare heads
   std::uint64_t shard_count = 1;         ///< number of tasks that make faces
   std::uint64_t processor_count = 1;     ///< number of processors per task
-  std::uint64_t memory_bytes = 0;        ///< bytes per task; 0: the engine's default
+  std::uint64_t memory_bytes = 0;        ///< memory of each task; 0: the engine's default
 };
 
 /// The program that runs the tasks: Slurm or GNU parallel.

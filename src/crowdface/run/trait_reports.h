@@ -14,16 +14,17 @@ namespace crowdface {
 
 /// The statistics of one measurement over the faces of a crowd, for reports.
 struct TraitReport {
-  std::size_t trait_index = 0;          ///< index into measurements()
-  Quartiles head_values, crowd_values;  ///< values of the heads, and of the faces of the crowd
+  std::size_t trait_index = 0;  ///< index into measurements()
+  /// quartiles of the measurement over the heads, and over the faces of the crowd
+  Quartiles head_values, crowd_values;
   /// Compares the sampled faces with the distribution that the config requests.
   struct TargetComparison {
     TraitTarget target;                       ///< the requested distribution
     double mean = 0, standard_deviation = 0;  ///< mean and standard deviation of the sampled faces
-    /// `max_difference`: see kolmogorov_smirnov_distance. `fraction_below`, `fraction_above`: the
-    /// fractions of the requested distribution below the smallest and above the largest value of
-    /// random faces, which need not satisfy the limits.
-    double max_difference = 0, fraction_below = 0, fraction_above = 0;
+    double max_difference = 0;                ///< see kolmogorov_smirnov_distance
+    /// The values of random faces, which need not satisfy the limits, form a range. These are the
+    /// fractions of the requested distribution below this range and above this range.
+    double fraction_below = 0, fraction_above = 0;
   };
   std::optional<TargetComparison> comparison;  ///< empty if the config requests no distribution
 };

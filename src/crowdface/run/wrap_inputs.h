@@ -52,7 +52,8 @@ struct WrapInputs {
   std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology
   std::size_t model_head_count = 0;  ///< number of heads of the shape model
   LandmarkFile landmarks;            ///< landmarks that the user gave; empty if none
-  /// for the name of each landmark that the program can detect on a scan: the template's vertex
+  /// The landmarks that the program can detect on a scan: for the name of each landmark, the vertex
+  /// of the template at this landmark.
   std::map<std::string, std::uint32_t> detected_landmarks;
   std::vector<FaceFeature> features;  ///< features of the template's face
   int texture_size = 0;               ///< texels per side of baked textures; 0: none

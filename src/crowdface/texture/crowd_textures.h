@@ -17,7 +17,7 @@ using HeadMaps = std::vector<std::vector<std::shared_ptr<const TextureMap>>>;
 /// The textures of a crowd's heads in one common layout.
 struct CrowdTextures {
   TextureLayout layout;  ///< which polygon is in which picture
-  HeadMaps maps;         ///< #pictures by #heads
+  HeadMaps maps;         ///< the heads' texture maps, #pictures by #heads
 };
 
 /// One texture image of a face, blended from the heads' maps: colours, or other values such as

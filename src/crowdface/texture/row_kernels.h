@@ -22,7 +22,7 @@ struct InterpolatedFields {
   std::size_t count;  ///< number of fields
   /// barycentric coordinates of the second and the third corner at the first texel
   std::array<float, 2> barycentrics;
-  std::array<float, 2> barycentric_steps;  ///< increase from texel to texel
+  std::array<float, 2> barycentric_steps;  ///< increase of `barycentrics` from texel to texel
 };
 
 /// A row of stored values of a head's texture map, one pointer per channel.
@@ -38,11 +38,12 @@ void blend_texels(const InterpolatedFields& fields, std::span<const StoredRow> h
                   std::size_t begin, std::size_t end, std::size_t readable, std::span<float> ramps,
                   std::span<float* const> sums);
 
-/// Converts slopes to unit normals, (slope, slope, 1) normalized, with components from −1 to 1
-/// encoded in 0 … 65,535.
-/// \param slopes  two rows of `count` slopes, at most 65,535.
-/// \param out     count by 3.
-/// \return the sum of each component's encoded values.
+/// Converts pairs of slopes (u, v) to unit normals: the vector (u, v, 1), normalized. Each
+/// component lies between −1 and 1, and is encoded as a number in 0 … 65,535.
+/// \param slopes  two rows: `count` slopes u and `count` slopes v.
+/// \param count   number of normals, at most 65,535.
+/// \param out     the encoded normals, count by 3.
+/// \return for each component, the sum of its encoded values.
 std::array<std::uint64_t, 3> write_unit_normals(std::array<const float*, 2> slopes,
                                                 std::size_t count, std::uint16_t* out);
 

@@ -28,7 +28,7 @@ struct SurfaceStatistics {
   }
 
   std::size_t pair_count = 0;  ///< number of unordered pairs of heads, including the pairs (a, a)
-  std::vector<float> covariances;  ///< #V by #pairs
+  std::vector<float> covariances;  ///< the results of `covariance`, #V by #pairs
 };
 
 /// Smoothing scales of the statistics, as numbers of iterations with the operator

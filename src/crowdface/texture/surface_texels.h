@@ -15,8 +15,8 @@ namespace crowdface {
 struct TextureLayout {
   /// The size of one image.
   struct Picture {
-    int width = 0;   ///< texels
-    int height = 0;  ///< texels
+    int width = 0;   ///< in texels
+    int height = 0;  ///< in texels
     bool operator==(const Picture&) const = default;
   };
   std::vector<Picture> pictures;  ///< the images
@@ -43,7 +43,7 @@ class SurfaceTexels {
   /// The texels [begin, end) of one row that one triangle covers.
   struct Span {
     std::uint32_t triangle;    ///< index of the triangle, see `triangle()`
-    std::uint16_t begin, end;  ///< columns
+    std::uint16_t begin, end;  ///< columns; `end` is exclusive
   };
   /// An uncovered texel near the surface (`target`), which gets the colour of a covered texel
   /// (`source`). Such texels keep texture filtering from mixing the background into the surface.

@@ -17,7 +17,7 @@ namespace crowdface {
 /// Options of TextureBlender.
 struct TextureBlendOptions {
   StatisticsScale statistics_scale;  ///< how many smoothing iterations the statistics use
-  /// one per vertex: its weight in means over the face; not all zero
+  /// for each vertex: the vertex's weight in means over the face; not all weights may be zero
   std::vector<double> vertex_areas;
   /// For each vertex, whether it gets only the target's colours, as eyes and teeth do; may be
   /// empty.

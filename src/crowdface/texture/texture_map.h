@@ -62,7 +62,7 @@ struct TextureMap {
   MapCoding coding = {};            ///< how the stored values encode numbers
   /// the planes in a mapped file, instead of `planes`
   std::span<const StoredValue> mapped_planes = {};
-  std::shared_ptr<const MappedFile> mapped_file = {};  ///< keeps the file mapped; null: not used
+  std::shared_ptr<const MappedFile> mapped_file = {};  ///< the mapped file; null: `planes` is used
 
   /// The number that a stored value encodes.
   float decode(StoredValue stored) const { return coding.decode(stored); }
