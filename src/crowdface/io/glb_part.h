@@ -83,8 +83,9 @@ class GlbPart {
 /// A `GlbPart` and its positions for one face.
 struct PlacedGlbPart {
   const GlbPart* part;
-  const Positions* positions;                 ///< #V by 3, of the part
-  std::span<const Displacements> moves = {};  ///< one item per morph target
+  const Positions* positions;  ///< positions of the part's vertices on this face, #V by 3
+  /// for each morph target, the displacements of the part's vertices
+  std::span<const Displacements> moves = {};
   PartLook look = {};
 };
 

@@ -91,7 +91,8 @@ class ObjTemplate {
   Index vertex_count_ = 0;
   bool has_colours_;           ///< whether each file has its own colours
   std::vector<Block> blocks_;  ///< in the order of the text
-  /// The normals that are not computed: index of the `vn` line among the `vn` lines, and value.
+  /// The normals that are not computed. Each element is the index of a `vn` line (counted among the
+  /// `vn` lines) and the normal for this line.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> given_normals_;
   /// For each `vn` line, the polygons whose corners use it; nothing if no polygon uses normals.
   std::optional<NormalFans> fans_;

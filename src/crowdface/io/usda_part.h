@@ -65,8 +65,9 @@ class UsdaPart {
 /// A `UsdaPart` and its positions for the layer of one face.
 struct PlacedUsdaPart {
   const UsdaPart* part;
-  const Positions* positions;                 ///< #V by 3, of the part
-  std::span<const Displacements> moves = {};  ///< one item per blend shape
+  const Positions* positions;  ///< positions of the part's vertices on this face, #V by 3
+  /// for each blend shape, the displacements of the part's vertices
+  std::span<const Displacements> moves = {};
   PartLook look = {};
 };
 
