@@ -75,7 +75,7 @@ class GlbPart {
   std::vector<GlbImage> images_;
   std::vector<GlbSkinAttribute> skin_attributes_;  ///< no elements if the mesh is not skinned
   std::vector<std::string> targets_;               ///< names of the morph targets
-  GivenNormals given_normals_;  ///< replace the computed normals of some vertices
+  GivenNormals given_normals_;                     ///< normals that replace computed normals
   /// bytes that are the same for all faces: texture coordinates, influences, triangles, images
   std::string shared_data_;
 };

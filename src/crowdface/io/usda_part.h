@@ -58,8 +58,8 @@ class UsdaPart {
   Topology topology_;
   NormalFans fans_;  ///< the polygons around each vertex, for its normal
   UsdaMesh mesh_;
-  std::vector<UsdaSurface> surfaces_;  ///< one per material
-  GivenNormals given_normals_;         ///< replace the computed normals of some vertices
+  std::vector<UsdaSurface> surfaces_;  ///< the appearance of each material
+  GivenNormals given_normals_;         ///< normals that replace computed normals
 };
 
 /// A `UsdaPart` and its positions for the layer of one face.
