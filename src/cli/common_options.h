@@ -36,7 +36,7 @@ struct CommonOptions {
 
 /// The option `--cache`, the folder of prepared heads.
 struct CacheOption {
-  std::string cache_folder;  ///< of the prepared heads; empty: the default folder
+  std::string cache_folder;  ///< folder of the prepared heads; empty: the default folder
 
   /// Adds the option to a command.
   void add_to(CLI::App& command);
@@ -69,7 +69,8 @@ struct WriteOptions {
   void add_to(CLI::App& command);
   /// Adds the options `--shard` and `--planned`. For commands that build faces.
   void add_shard_to(CLI::App& command);
-  /// Converts these options to options of `generate`, and applies the memory limit to images.
+  /// Converts these options to options of `generate`. If the user gives `--memory`, also limits the
+  /// memory that this process may reserve for images to half of the given size.
   /// \param cache  folder of prepared heads. \throws UsageError
   GenerateOptions generate_options(const std::filesystem::path& cache) const;
 };

@@ -16,8 +16,8 @@ namespace crowdface::cli {
 /// largest number of heads that one command makes
 inline constexpr std::uint64_t kMaxGeneratedHeads = 1000;
 inline constexpr int kMaskSize = 1024;  ///< width and height of masks in pixels
-inline constexpr std::uint64_t kMinTexturePx = 64,
-                               kMaxTexturePx = 8192;  ///< width and height of textures in pixels
+/// smallest and largest accepted size of a texture: its width and height in pixels
+inline constexpr std::uint64_t kMinTexturePx = 64, kMaxTexturePx = 8192;
 
 /// A file to write into a folder of heads. The content depends only on the command line.
 struct HeadFile {

@@ -150,9 +150,8 @@ void refuse_senseless_values(const CLI::App& program) {
 void open_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1) continue;
-    // open() returns the lowest free file descriptor, which is `stream`. For standard output,
-    // /dev/null is opened for reading only, so that writing to a closed standard output still
-    // fails.
+    // open() returns the lowest free file descriptor, which is `stream`. A closed standard output
+    // gets a descriptor that is only for reading, so that writing to standard output still fails.
     if (::open("/dev/null", stream == STDOUT_FILENO ? O_RDONLY : O_RDWR) < 0) return;
   }
 }

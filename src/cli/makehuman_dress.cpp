@@ -212,7 +212,7 @@ void strengthen_detail(Picture& picture, double factor) {
   const auto width = static_cast<std::size_t>(picture.width);
   const auto height = static_cast<std::size_t>(picture.height);
   for (std::size_t c = 0; c < 3; ++c) {
-    // sums[y][x]: sum of the densities above and to the left of (x, y), both excluded.
+    // sums[y][x]: sum of the densities of the texels in the rows before y and the columns before x
     std::vector<double> sums((width + 1) * (height + 1), 0);
     for (std::size_t y = 0; y < height; ++y) {
       for (std::size_t x = 0; x < width; ++x) {
@@ -248,7 +248,8 @@ void strengthen_detail(Picture& picture, double factor) {
 }
 
 /// Multiplies the light that lips reflect by the factors `tint`.
-/// \param mask  of any size: image 0 holds the lips in its red channel
+/// \param mask  The red channel of its image 0 is 255 on the lips and 0 elsewhere. The image may
+///              have any size.
 void tint_lips(Picture& picture, const PaintedMasks& mask, const std::array<double, 3>& tint) {
   const std::vector<float>& light = light_of_srgb8_values();
   const std::vector<std::uint8_t>& bytes = mask.images_by_tile.begin()->second[0];
@@ -281,7 +282,8 @@ PaintedMasks paint_lips(const MakeHumanHeads& model) {
 
 /// Returns the texture coordinates of the texel in the middle of the largest opaque square.
 Eigen::RowVector2d opaque_place(const Picture& picture) {
-  // side[x]: side of the largest opaque square whose lower right texel is (x, y)
+  // side[x]: side of the largest opaque square whose lower right texel is (x, y), in texels.
+  // above[x]: the same for the texel (x, y - 1).
   std::vector<int> above(static_cast<std::size_t>(picture.width), 0), side = above;
   int largest = 0;
   Eigen::RowVector2d place(0.5, 0.5);

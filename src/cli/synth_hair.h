@@ -40,7 +40,7 @@ class SynthHair {
   };
   /// Returns whether a registered head may wear the haircut.
   bool is_used(const synth::HairCut& cut) const;
-  std::set<HairStyle> used_hair_styles_;  ///< of the registered heads
+  std::set<HairStyle> used_hair_styles_;  ///< the hair styles of the registered heads
 };
 
 }  // namespace crowdface::cli

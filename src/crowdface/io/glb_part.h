@@ -75,7 +75,7 @@ class GlbPart {
   std::vector<GlbImage> images_;
   std::vector<GlbSkinAttribute> skin_attributes_;  ///< no elements if the mesh is not skinned
   std::vector<std::string> targets_;               ///< names of the morph targets
-  GivenNormals given_normals_;  ///< replace the computed normals of some vertices
+  GivenNormals given_normals_;                     ///< normals that replace computed normals
   /// bytes that are the same for all faces: texture coordinates, influences, triangles, images
   std::string shared_data_;
 };
@@ -83,8 +83,9 @@ class GlbPart {
 /// A `GlbPart` and its positions for one face.
 struct PlacedGlbPart {
   const GlbPart* part;
-  const Positions* positions;                 ///< #V by 3, of the part
-  std::span<const Displacements> moves = {};  ///< one item per morph target
+  const Positions* positions;  ///< positions of the part's vertices on this face, #V by 3
+  /// for each morph target, the displacements of the part's vertices
+  std::span<const Displacements> moves = {};
   PartLook look = {};
 };
 

@@ -39,7 +39,7 @@ struct GlbSkin {
 /// A vertex attribute of a skinned mesh.
 struct GlbSkinAttribute {
   std::string name;    ///< JOINTS_n or WEIGHTS_n
-  int component_type;  ///< the code that glTF has for the type, such as gltf::kFloat
+  int component_type;  ///< component type of the values as a glTF code, such as gltf::kFloat
   std::string bytes;   ///< values of all vertices, encoded as in the file
 };
 /// Builds pairs of the attributes JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex.

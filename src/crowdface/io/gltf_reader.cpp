@@ -43,7 +43,9 @@ struct UvTransform {
 /// The vertices of one accessor, as a range of rows in the list of all vertices of the file.
 struct VertexRange {
   std::uint32_t first = 0, count = 0;
-  /// by accessor and transform, the row of the first vertex's texture coordinates
+  /// These vertices may have several sets of texture coordinates. The key of a set is its accessor
+  /// and its transform. The value is the row of the first vertex in the list of all texture
+  /// coordinates of the file; kNoIndex if the set does not have one pair per vertex.
   std::map<std::pair<std::size_t, UvTransform>, std::uint32_t> first_uvs;
 };
 
@@ -358,8 +360,8 @@ class GltfMeshReader {
     return part;
   }
 
-  /// Appends the texture coordinates of `count` vertices, and returns the row of the first one;
-  /// kNoIndex if their number differs.
+  /// Appends the texture coordinates of `count` vertices, and returns the row of the first vertex.
+  /// Appends nothing and returns kNoIndex if `uvs` does not have two numbers per vertex.
   std::uint32_t add_uvs(const std::vector<double>& uvs, std::size_t count, const UvTransform& by) {
     if (uvs.size() != 2 * count) return kNoIndex;
     const auto first = static_cast<std::uint32_t>(uvs_.size() / 2);

@@ -58,7 +58,9 @@ const ImageCodec& codec_of(std::string_view format) {
 struct OpenImage {
   const ImageCodec& codec;
   ImageHeader header;
-  std::unique_ptr<const std::string> rewritten;  ///< what `picture` reads instead of the file
+  /// For a Photoshop file: its content without layers, which `picture` reads in place of the file.
+  /// Null for other files.
+  std::unique_ptr<const std::string> rewritten;
   std::unique_ptr<void, void (*)(void*)> picture;
 };
 

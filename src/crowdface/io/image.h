@@ -78,11 +78,12 @@ class DamagedImage : public InvalidInput {
 /// Photoshop file. The content, not the file name, determines the format. Palette indices become
 /// colours; alpha and colours keep the values of the file. For EXR the result is the display
 /// window; pixels outside the data window are zero.
+/// A TIFF may be uncompressed, or compressed with LZW, Deflate, PackBits or, with `allows_jpeg`,
+/// JPEG.
 /// \throws MissingInput if the file does not exist; DamagedImage if the pixels cannot be read or a
-/// value is not finite (the message names the first such pixel); InvalidInput if the format is
-/// unsupported, the file is truncated or exceeds the limits, integers have more than 16 bits, a
-/// TIFF has a compression other than none, LZW, Deflate and PackBits (with `allows_jpeg` also
-/// JPEG), or all images together would exceed the memory limit.
+/// value is not finite (the message names the first such pixel); InvalidInput if the format or
+/// compression is unsupported, the file is truncated or exceeds the limits, integers have more than
+/// 16 bits, or all images together would exceed the memory limit.
 Image read_image(const std::filesystem::path& path, const ImageLimits& limits = {});
 
 /// Size and value type of the image that `read_image` would return.

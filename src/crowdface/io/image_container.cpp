@@ -21,8 +21,9 @@ bool has_at(std::string_view bytes, std::size_t at, std::string_view wanted) {
   return bytes.size() >= at && bytes.substr(at).starts_with(wanted);
 }
 
-/// Whether a header is one of a Truevision TGA file, which begins with no fixed bytes: known types
-/// of picture and palette, sizes above zero, and the bits per pixel of the type.
+/// Whether a file begins with the header of a Truevision TGA file. The format has no fixed first
+/// bytes. The function therefore checks whether the types of picture and palette are known, width
+/// and height are above zero, and the number of bits per pixel fits the type.
 bool is_targa(std::string_view bytes) {
   constexpr std::size_t kHeader = 18;
   if (bytes.size() <= kHeader) return false;
@@ -38,7 +39,8 @@ bool is_targa(std::string_view bytes) {
   return fits_type && fits_palette && has_size && (byte(17) & 0xC0U) == 0;
 }
 
-/// The sections of a Photoshop file; the picture of all layers merged comes last.
+/// The sections of a Photoshop file. `picture` is the last section: all layers merged into one
+/// picture.
 struct PsdSections {
   std::string_view header_and_palette, metadata, picture;
 };

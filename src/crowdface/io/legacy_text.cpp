@@ -25,8 +25,8 @@ std::string converted(std::string_view bytes, const char* encoding) {
   return out;
 }
 
-/// Whether most bytes above 127 stand beside each other. In Chinese and Japanese text they do; in
-/// text of western languages most such letters stand between ASCII letters.
+/// Whether most bytes above 127 are next to another byte above 127. This is the case in Chinese and
+/// Japanese text. In text of western languages, most bytes above 127 are between ASCII letters.
 bool has_mostly_pairs(std::string_view bytes) {
   std::size_t high = 0, beside = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {

@@ -29,7 +29,7 @@ constexpr const char* kBlanks = " \t\r";
 constexpr std::string_view kTexture = "texture";  // in warnings
 constexpr std::uintmax_t kLargestMaterialFile = 16U << 20U;
 
-/// The operating system would truncate such a name at the NUL.
+/// Whether a path contains a NUL character. The operating system would truncate the path there.
 bool holds_nul(const fs::path& path) {
   return path.native().find('\0') != std::string::npos;
 }

@@ -27,16 +27,20 @@ std::string write_mesh_textures(const FileMesh& mesh, const std::filesystem::pat
 void read_texture_files(std::vector<std::string> files, const std::filesystem::path& path,
                         FileMesh& mesh);
 
-/// Finds what an OBJ file without material files probably shows: a material file with the name of
-/// the mesh file beside it or, if there is none, an image with this name.
-/// \return an empty path if there is neither, or if the text names a material file or has no
-///         texture coordinates.
+/// Finds the material file or the texture that probably belongs to an OBJ file that names no
+/// material file. This is the material file that differs from the OBJ file only in its extension,
+/// or, if there is none, the image that differs only in its extension.
+/// \param path  path of the OBJ file.
+/// \param text  content of the OBJ file.
+/// \return an empty path if there is no such file, if the OBJ file names a material file, or if the
+///         OBJ file has no texture coordinates.
 std::filesystem::path find_unnamed_texture(const std::filesystem::path& path,
                                            std::string_view text);
 
 bool is_material_file(const std::filesystem::path& path);
 
-/// The image as the colour texture of all these materials.
+/// Returns one colour texture for each of the materials. The content of each texture is the image.
+/// If there are no materials, returns one texture for a material without a name.
 std::vector<MeshTexture> colour_textures(const std::filesystem::path& image,
                                          const std::vector<MaterialRange>& materials);
 

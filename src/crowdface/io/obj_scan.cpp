@@ -175,8 +175,8 @@ class Scanner {
         concat(name_, ": expected at most ", most, ' ', what, " (--limit), found ", found));
   }
 
-  /// Whether the check can skip a line because the line belongs to the known mesh: `vt` and `f`.
-  /// Counts the `f` lines.
+  /// Whether a line is a `vt` or `f` line, which the check can skip because the mesh is known. Also
+  /// counts the `f` lines.
   bool skips(std::string_view line) {
     line = without_blanks_before(line);
     if (is_of(line, "vt")) return true;

@@ -64,7 +64,7 @@ class ObjTemplate {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;            ///< offset in the text at which the block ends
     std::uint64_t output_offset = 0;  ///< offset in the output buffer at which the block starts
-    std::vector<NumberRange> ranges;  ///< in the order of the text
+    std::vector<NumberRange> ranges;  ///< the ranges, in the order of the text
   };
   /// The new values of the `v` and `vn` lines.
   struct NewValues {
@@ -90,8 +90,9 @@ class ObjTemplate {
   const Topology& topology_;
   Index vertex_count_ = 0;
   bool has_colours_;           ///< whether each file has its own colours
-  std::vector<Block> blocks_;  ///< in the order of the text
-  /// The normals that are not computed: index of the `vn` line among the `vn` lines, and value.
+  std::vector<Block> blocks_;  ///< the blocks, in the order of the text
+  /// The normals that are not computed. Each element is the index of a `vn` line (counted among the
+  /// `vn` lines) and the normal for this line.
   std::vector<std::pair<std::uint32_t, Eigen::RowVector3d>> given_normals_;
   /// For each `vn` line, the polygons whose corners use it; nothing if no polygon uses normals.
   std::optional<NormalFans> fans_;

@@ -30,7 +30,7 @@ double number_in(const std::array<char, 8>& raw) {
 struct Type {
   std::string_view name, other;
   std::size_t bytes;
-  double full;  ///< the value that stands for 1 if numbers of this type are colours
+  double full;  ///< for colours stored in this type: the largest value (full brightness)
   double (*read)(const std::array<char, 8>&);
 };
 constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std::int8_t>},
@@ -298,7 +298,8 @@ class PlyReader {
     }
   }
 
-  /// Gives the following polygons the material with this texture.
+  /// Starts a range of polygons: the polygons that are added later get the material of a texture.
+  /// \param number  index into `texture_files_`; ignored if it is out of range.
   void use_texture(double number) {
     if (!(number >= 0 && number < static_cast<double>(texture_files_.size()))) return;
     const std::string material = material_of_texture(static_cast<std::size_t>(number));

@@ -156,7 +156,8 @@ bool compress_rows(const ImageToEncode& picture, std::string& compressed) {
   const std::size_t pixel_bytes = static_cast<std::size_t>(picture.channels) * (has_words ? 2 : 1);
   const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(picture.width);
   const auto* pixels = static_cast<const std::uint8_t*>(picture.pixels);
-  // Rows after `pixel_bytes` zeros, and a filtered row after the number of its filter
+  // `row` and `above` each hold `pixel_bytes` zeros, followed by a row of the image. `filtered`
+  // holds the number of the filter, followed by the filtered row.
   std::vector<std::uint8_t> row(pixel_bytes + row_bytes), above(row.size()),
       filtered(1 + row_bytes);
   filtered[0] = PNG_FILTER_VALUE_PAETH;

@@ -116,8 +116,8 @@ std::uint64_t word_at(const std::uint8_t* bytes) {
   return word;
 }
 
-/// The first index from `i` on where a run begins: the byte before it is followed by at least
-/// kMinRun equal bytes. Returns `size` if no run begins.
+/// Finds the first run that begins at index `i` or later. A run begins at an index k if the bytes
+/// from k to k + kMinRun - 1 all equal byte k - 1. Returns `size` if there is no run.
 std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size) {
   for (i = std::max<std::size_t>(i, 1); i + 7 + kMinRun <= size; i += 8) {
     static_assert(kMinRun == 3);
@@ -169,7 +169,9 @@ void visit_tokens(const std::vector<std::uint8_t>& block, std::size_t first,
 
 /// Writes bits to memory.
 struct BitWriter {
-  /// \param bits  at most 56; the bits from `count` on are 0
+  /// Writes the lowest `count` bits of `bits`.
+  /// \param bits   All higher bits must be 0.
+  /// \param count  at most 56
   void put(std::uint64_t bits, int count) {
     pending |= bits << pending_count;
     pending_count += static_cast<unsigned>(count);
@@ -236,8 +238,8 @@ void RunDeflater::write_block(bool is_last) {
   // Count the symbols, and choose their codes
   std::vector<std::uint32_t> counts(kSymbols, 0);
   ++counts[kEndOfBlock];
-  // Neighbouring bytes are often equal. Counting them in different tables is faster, because no
-  // count then waits for the one before it.
+  // Neighbouring bytes are often equal. If they were counted in the same table, each increment
+  // would have to wait for the previous increment of the same number. Four tables are faster.
   std::array<std::array<std::uint32_t, 256>, 4> byte_counts{};
   visit_tokens(
       block_, written_,

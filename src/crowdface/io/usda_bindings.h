@@ -21,10 +21,10 @@ class UsdaBindings {
   void add(const std::string& prim, const std::string& property,
            const std::vector<std::string>& values, const std::string& strength);
 
-  /// The path of the material bound to a prim; empty if there is none. The binding of the nearest
-  /// prim above wins, unless a prim above has a binding that is stronger than its descendants. If a
-  /// prim has several bindings, the bindings through collections win. Bindings of the purpose
-  /// `full` count only if no other binding applies.
+  /// The path of the material bound to a prim; empty if there is none. The prim and the prims above
+  /// it may have bindings. The binding nearest to the prim wins, unless a binding farther up has
+  /// the strength `strongerThanDescendants`. If one prim has several bindings, the bindings through
+  /// collections win. Bindings of the purpose `full` count only if no other binding applies.
   std::string material_of(std::string_view prim) const;
 
  private:
@@ -47,7 +47,8 @@ class UsdaBindings {
   /// \param full  true: considers only bindings of the purpose `full`; false: only other bindings.
   const Property* binding_at(const Properties& properties, std::string_view prim, bool full) const;
 
-  std::map<std::string, Properties, std::less<>> prims_;  ///< by path of the prim
+  /// maps the path of each prim to its properties
+  std::map<std::string, Properties, std::less<>> prims_;
 };
 
 }  // namespace crowdface

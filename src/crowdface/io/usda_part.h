@@ -58,15 +58,16 @@ class UsdaPart {
   Topology topology_;
   NormalFans fans_;  ///< the polygons around each vertex, for its normal
   UsdaMesh mesh_;
-  std::vector<UsdaSurface> surfaces_;  ///< one per material
-  GivenNormals given_normals_;         ///< replace the computed normals of some vertices
+  std::vector<UsdaSurface> surfaces_;  ///< the appearance of each material
+  GivenNormals given_normals_;         ///< normals that replace computed normals
 };
 
 /// A `UsdaPart` and its positions for the layer of one face.
 struct PlacedUsdaPart {
   const UsdaPart* part;
-  const Positions* positions;                 ///< #V by 3, of the part
-  std::span<const Displacements> moves = {};  ///< one item per blend shape
+  const Positions* positions;  ///< positions of the part's vertices on this face, #V by 3
+  /// for each blend shape, the displacements of the part's vertices
+  std::span<const Displacements> moves = {};
   PartLook look = {};
 };
 

@@ -53,7 +53,7 @@ struct MeshPrim {
   bool has_final_place;  ///< whether `place` transforms to the layer's axes
   Prim prim;
   bool is_hidden = false;    ///< whether the prim or a parent is inactive or invisible
-  bool is_animated = false;  ///< whether the prim or a parent has a property without default value
+  bool is_animated = false;  ///< whether the prim or a parent has a property with only time samples
 };
 
 /// Whether a primvar has a value for each corner or vertex.

@@ -11,7 +11,7 @@ namespace crowdface {
 struct UsdaToken {
   /// kEnd: the text has ended; kSign: a punctuation character.
   enum class Kind { kEnd, kWord, kQuoted, kSign } kind = Kind::kEnd;
-  std::string_view text;  ///< without quotation marks; empty for kEnd
+  std::string_view text;  ///< the token without quotation marks; empty for kEnd
   /// Whether the token is this punctuation character.
   bool is(char sign) const { return kind == Kind::kSign && text.front() == sign; }
   bool is_word(std::string_view word) const { return kind == Kind::kWord && text == word; }
@@ -46,7 +46,7 @@ class UsdaTokens {
   /// \param escapes  whether a backslash protects the character after it from ending the text.
   std::string_view text_before(std::string_view end, bool escapes);
 
-  std::string_view text_;     ///< the layer
+  std::string_view text_;     ///< the text of the layer
   const std::string& name_;   ///< name of the file, for messages
   std::size_t position_ = 0;  ///< offset in `text_` of the first character not yet consumed
 };

@@ -232,7 +232,8 @@ class Bending {
   /// For each skin vertex, the closest triangle of the scan in the previous search. The next search
   /// uses the triangle as a guess.
   std::vector<std::uint32_t> last_scan_triangles_;
-  /// For each sampled scan point, the closest point of the skin in the previous search, as a guess.
+  /// For each sampled scan point, the closest point of the skin in the previous search. The next
+  /// search uses the triangle of this point as a guess.
   std::vector<SurfaceHit> last_skin_hits_;
   std::vector<std::uint32_t> skin_end_;
   std::optional<PointGrid> scan_end_grid_;

@@ -14,7 +14,7 @@ namespace crowdface {
 /// triangle, depend on the last digits of coordinates, and their effects accumulate.
 struct CentredScan {
   Scan scan;                            ///< the translated and rounded scan
-  std::vector<WrapLandmark> landmarks;  ///< with translated and rounded `scan_position`
+  std::vector<WrapLandmark> landmarks;  ///< their `scan_position` is translated and rounded
   Eigen::Vector3d box_centre;           ///< centre of the bounding box in the scan file
 };
 /// Translates and rounds a scan and its landmarks.

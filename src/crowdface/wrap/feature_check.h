@@ -34,11 +34,12 @@ struct ReliefCorrelation {
   double best_correlation_nearby = -1;
 
   bool is_high() const { return correlation_at_feature >= 0.7; }
-  /// Whether the template's feature probably lies on another part of the scan: the correlation is
-  /// low, or hardly higher than `best_correlation_nearby`. (On ICT heads, whose vertices are known,
-  /// mouths that are right within 2 mm have correlations from 0.55 to 0.9, and mouths that are
-  /// wrong by more than 4 mm have −0.1 to 0.86. On synthetic heads, mouths that are right within 4
-  /// mm have at least 0.5, which is at least 0.12 more than `best_correlation_nearby`.)
+  /// Whether the template's feature probably lies on another part of the scan: the correlation at
+  /// the feature is low, or hardly higher than `best_correlation_nearby`. Measurements: On ICT
+  /// heads, whose vertices are known, the correlation is 0.55 to 0.9 if the mouth is within 2 mm of
+  /// its correct place, and −0.1 to 0.86 if the mouth is more than 4 mm away. On synthetic heads,
+  /// if the mouth is within 4 mm of its correct place, the correlation is at least 0.5, and exceeds
+  /// `best_correlation_nearby` by at least 0.12.
   bool is_doubtful() const {
     return correlation_at_feature < 0.55 ||
            (!is_high() && correlation_at_feature - best_correlation_nearby < 0.1);

@@ -29,8 +29,9 @@ bool has_area(const Scan& scan) {
   });
 }
 
-/// The smallest distance between different coordinates along an axis, in a sample of the vertices.
-/// A scan with enough digits has a far smaller distance than its size.
+/// The smallest difference between two unequal coordinates along one axis, in a sample of the
+/// vertices. If the coordinates have enough digits, this difference is far smaller than the scan.
+/// \param values  coordinates of all vertices along the axis. \return 0 if there are few vertices.
 double smallest_step(const std::vector<double>& values) {
   constexpr std::size_t kMinValues = 500, kSample = 2000;
   if (values.size() < kMinValues) return 0;

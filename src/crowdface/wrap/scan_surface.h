@@ -50,10 +50,11 @@ class ScanSurface {
   /// Adds the surface normal to a hit, and whether the hit lies on the scan's boundary.
   ClosestPoint closest_point_of(const SurfaceHit& hit) const;
 
-  Scan scan_;                             ///< without small loose components
-  Positions normals_;                     ///< normals of the vertices
-  std::vector<bool> is_boundary_vertex_;  ///< for each vertex
-  SurfaceTree tree_;                      ///< over the triangles of `scan_`
+  Scan scan_;          ///< the scan without small loose components
+  Positions normals_;  ///< normals of the vertices
+  /// for each vertex: whether the vertex lies on the scan's boundary
+  std::vector<bool> is_boundary_vertex_;
+  SurfaceTree tree_;  ///< contains the triangles of `scan_`
 };
 
 /// Returns the distance to the scan above which a point counts as an outlier: three standard

@@ -16,7 +16,7 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxProbes = 3000;  ///< vertices sampled in each step
-/// fraction of the correspondences that is used: the closest ones
+/// fraction of the correspondences that is used; the farthest are ignored
 constexpr double kKeptFraction = 0.8;
 constexpr Index kPoseUnknowns = 7;
 /// Standard deviation of the pose's scale, relative to its first estimate, if a model is fitted.

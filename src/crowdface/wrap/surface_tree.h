@@ -58,7 +58,7 @@ class SurfaceTree {
   const std::vector<Triangle>& triangles_;
   /// for each triangle, the mean of its corners' normals
   std::vector<Eigen::Vector3d> mean_normals_;
-  MedianSplitTree tree_;                    ///< over the triangles with nonzero area
+  MedianSplitTree tree_;                    ///< contains the triangles with nonzero area
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< bounding box of each node of `tree_`
 };
 

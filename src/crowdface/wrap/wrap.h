@@ -51,7 +51,7 @@ struct WrapResult {
   /// for each skin vertex: true if the scan has no data near the vertex, or if only the scan's
   /// boundary is near
   std::vector<bool> lacks_data;
-  Index folded_triangle_count = 0;  ///< triangles of the skin that remain folded
+  Index folded_triangle_count = 0;  ///< number of triangles of the skin that remain folded
   /// Distance in mm between two estimates of the point between the eyes: on the wrapped template,
   /// and on the face found by the scan's relief. Nothing if a face was not found, or if enough
   /// landmarks were picked.
@@ -62,7 +62,8 @@ struct WrapResult {
 /// nearly symmetric, the function also adds the mirror images of the heads to the model.
 ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& wrap_template);
 
-inline constexpr std::size_t kMinLandmarks = 4;  ///< landmarks needed to determine the pose
+/// smallest number of landmarks from which `wrap` can determine the pose
+inline constexpr std::size_t kMinLandmarks = 4;
 
 /// Deforms the template's skin onto the scan; eyes, teeth and lashes follow the skin.
 /// \param model  shape model of the template's skin, in the template's frame and in millimetres; or

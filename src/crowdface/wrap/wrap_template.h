@@ -23,7 +23,9 @@ struct WrapTemplate {
   SkinMesh skin;
   /// the face found on the skin; nothing if the skin does not have the relief of a face
   std::optional<ReliefMatch> face_match;
-  std::optional<ReducedSkin> reduced_skin;  ///< replaces a skin of many vertices during deformation
+  /// The mesh that is deformed in place of the skin. Nothing if the skin has few vertices and is
+  /// deformed itself (see `TemplateOptions`).
+  std::optional<ReducedSkin> reduced_skin;
 };
 
 /// Settings of `make_template`.
