@@ -67,8 +67,9 @@ class FaceSearch {
     double distance_to_crowd_mm = HUGE_VAL;
     /// whether `distance_to_crowd_mm` is the exact distance, not an upper bound
     bool is_distance_exact = true;
-    bool is_skin_judged = false;  ///< whether `check_skin` was called
-    std::optional<RejectionReason> violated_constraint = std::nullopt;  ///< result of `judge_skin`
+    bool is_skin_judged = false;  ///< whether `judge_skin` has judged the candidate
+    /// the constraint that `judge_skin` found violated; empty if there is none
+    std::optional<RejectionReason> violated_constraint = std::nullopt;
   };
 
   /// Returns whether a round needs another candidate. Candidates that are too near to the crowd

@@ -70,7 +70,7 @@ class EditAttachments {
   const Job& job_;
   const std::vector<FacePlan>* crowd_;  ///< faces of the existing crowd, or null
   std::mutex mutex_;
-  /// for the name of each attachment requested so far: its binding
+  /// Maps the name of an attachment to its binding. Contains only attachments that were requested.
   std::map<std::string, BindingFuture> bindings_;
   AttachmentSurfaces surfaces_;  ///< meshes and materials of the attachments
   ShownAttachments shown_;       ///< converts attachments to the data of the page

@@ -168,7 +168,8 @@ class EditSession {
   FaceBuilder builder_;
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;
-  /// the face of the previous call of `build`, which then recomputes only what differs
+  /// The face of the previous call of `build`. The next call recomputes only the parts of the face
+  /// that differ from this face.
   mutable FaceBuilder::PreviousFace previous_face_;
   std::shared_future<JudgingData> judging_data_;
   CastingOptions casting_;

@@ -40,7 +40,7 @@ struct Complexion {
   ScreenColour iris;      ///< mean colour of the iris
   double recession = 0;   ///< recession of the hairline: 0 (full) … 1 (bald on top)
   double makeup = 0;      ///< 0 … 1: make-up on lids, lashes and cheeks
-  double lipstick = 0;    ///< 0 … 1; 0 for most people
+  double lipstick = 0;    ///< 0 … 1: amount of lipstick; 0 for most people
 };
 
 /// Returns the random complexion of head `index`. Skin tones are stratified: the five women among

@@ -28,7 +28,7 @@ std::span<const FacialHair> facial_hairs();
 /// Brows or a beard as a mesh close above the skin of the average head, with its neutral texture.
 struct FacialHairLayer {
   Mesh mesh;
-  int width = 0, height = 0;         ///< of the texture, in texels
+  int width = 0, height = 0;         ///< size of the texture, in texels
   std::vector<std::uint8_t> pixels;  ///< sRGB and alpha, row by row, first row at v = 1
 };
 /// Makes the layer of a style. \param skin  the skin of the average head, cm.

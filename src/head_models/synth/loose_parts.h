@@ -58,9 +58,10 @@ class LooseParts {
 
   std::vector<Eigen::Vector3d>
       points_;  ///< eyeballs: on the unit sphere; teeth: in the mean head, cm
-  std::vector<Eigen::RowVector2d> uvs_;              ///< one per vertex
-  std::vector<std::uint32_t> corners_;               ///< four per polygon
-  std::vector<Index> first_vertices_, first_faces_;  ///< for each piece, in the order of LoosePiece
+  std::vector<Eigen::RowVector2d> uvs_;  ///< one per vertex
+  std::vector<std::uint32_t> corners_;   ///< four per polygon
+  /// index of each piece's first vertex, and of its first polygon; pieces in the order of LoosePiece
+  std::vector<Index> first_vertices_, first_faces_;
 };
 
 }  // namespace crowdface::synth
