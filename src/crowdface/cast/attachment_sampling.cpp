@@ -84,8 +84,8 @@ struct ChosenAttachments {
 struct KindQuotas {
   std::vector<std::string> words;
   std::vector<double> shares;
-  /// Maps the index of each group to one entry per sampled face of the group: the index of the quota
-  /// that applies to this face, or −1 if no quota applies.
+  /// Maps the index of each group to one entry per sampled face of the group. The entry is the
+  /// index of the quota that applies to this face, or −1 if no quota applies.
   std::map<int, std::vector<int>> schedules;
 
   bool of_kind(const std::string& kind) const { return contains(words, kind); }
@@ -296,8 +296,8 @@ class AttachmentChooser {
   }
 
   /// Keeps only the items whose colour equals the colour of an item that the face already wears. If
-  /// there are none, keeps only the items whose colour equals the colour of a parent's items or, for
-  /// a face without parents, of the family's items. If there are none either, keeps all items.
+  /// there are none, keeps only the items whose colour equals the colour of a parent's items
+  /// (without parents: of the family's items). If there are none either, keeps all items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto keep_colour = [&](const std::string& colour) {
@@ -412,8 +412,8 @@ class AttachmentChooser {
   WearerCounts all_wearer_counts_;           ///< how many of all sampled faces wear each item
   std::optional<HairChooser> hair_;          ///< empty if no item has a tint
   std::map<std::string, HairColour> hairs_;  ///< maps the id of a face to its hair colour
-  /// Maps the id of a face to the ids of the previous and of the next face. Contains a neighbour only
-  /// if must_differ holds for the face and this neighbour.
+  /// Maps the id of a face to the ids of the previous and of the next face. Leaves out a neighbour
+  /// if must_differ does not hold for the face and this neighbour.
   std::map<std::string, std::vector<std::string>> neighbours_;
 };
 
@@ -427,7 +427,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     face.attachments = std::move(drawn.names);
     face.hair = drawn.hair;
   };
-  // all versions of a redrawn face, by id: the rejected versions in order, then the final version
+  // Maps the id of a redrawn face to all versions of this face: the rejected versions in order,
+  // then the final version.
   std::map<std::string, std::vector<const FacePlan*>> versions_by_id;
   for (const FacePlan& face : rejected) {
     if (face.index) versions_by_id[face.id].push_back(&face);

@@ -57,7 +57,7 @@ struct ChangedFace {
 
 /// The result of casting a crowd.
 struct CastingResult {
-  /// first the faces of recipes, then of families, then the sampled faces 1 … count
+  /// all faces: first the faces of recipes, then of families, then the sampled faces 1 … count
   std::vector<FacePlan> crowd;
   std::vector<FaceSpace::Point> points;  ///< each face's point in the face space
   std::vector<int> group_indices;        ///< group of each sampled face, or −1

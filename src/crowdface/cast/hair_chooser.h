@@ -44,8 +44,8 @@ class HairChooser {
   std::string key_in_hair_colours(const FacePlan& face) const;
   /// Returns the colour that `hair_colours` gives the face. The colours are distributed so that,
   /// among the faces with the same key in `entries_of_faces_`, each colour has the fraction that
-  /// the config specifies. Grey hides the colour of a face that looks grey. A later face that has no
-  /// colour of its own then gets this colour as well.
+  /// the config specifies. Grey hides the colour of a face that looks grey. A later face that has
+  /// no colour of its own then gets this colour as well.
   std::optional<HairColour> configured_colour(const FacePlan& face, bool is_grey);
   /// Returns the hair colour that a face inherits from its parents or shares with its family.
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
@@ -74,13 +74,13 @@ class HairChooser {
   std::map<std::string, EntryOfFace> entries_of_faces_;
   /// maps a key of `hair_colours` to the number of faces in `entries_of_faces_` with this key
   std::map<std::string, std::uint64_t> entry_sizes_;
-  /// Maps a key of `hair_colours` to one element for each face in `entries_of_faces_` with this key.
-  /// The element is the index of the face's colour among the colours of the entry, or −1 if the face
-  /// has none of these colours.
+  /// Maps a key of `hair_colours` to one element for each face in `entries_of_faces_` with this
+  /// key. The element is the index of the face's colour among the colours of the entry, or −1 if
+  /// the face has none of these colours.
   std::map<std::string, std::vector<int>> colour_indices_;
   /// Maps a key of `hair_colours` to the colours that grey hides: the colours of faces that look
-  /// grey. A colour is an index among the colours of the entry. The next faces that do not look grey
-  /// and have no colour of the entry get these colours.
+  /// grey. A colour is an index among the colours of the entry. The next faces that do not look
+  /// grey and have no colour of the entry get these colours.
   std::map<std::string, std::deque<int>> hidden_colours_;
   /// Maps the id of a face to the index of its colour among the colours of its entry, or to −1 if
   /// the face has none of these colours.

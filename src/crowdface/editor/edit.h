@@ -15,7 +15,7 @@ namespace crowdface {
 /// Options of `crowdface edit`.
 struct EditOptions {
   CacheFolder cache;  ///< folder of prepared heads
-  int port = 0;       ///< 0: any free port
+  int port = 0;       ///< port of the server; 0: any free port
   /// approximate maximum number of vertices of the mesh that the page shows
   std::size_t preview_vertices = 50'000;
   /// additional arguments for `crowdface generate`

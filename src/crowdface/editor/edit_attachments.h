@@ -62,9 +62,9 @@ class EditAttachments {
   /// Returns the binding of an attachment to the heads. The first call for an attachment starts a
   /// thread that computes the binding.
   BindingFuture binding(const std::string& name);
-  /// Returns a plan that contains the attachments and the hair colour of the edited face: the
-  /// crowd's face with the id `opened_id`. If the crowd has no face with this id, returns a copy of
-  /// `face` with sampled attachments.
+  /// Returns the plan from which the edited face gets its attachments and its hair colour. This is
+  /// the plan of the crowd's face with the id `opened_id`. If the crowd has no face with this id,
+  /// returns a copy of `face` with sampled attachments.
   FacePlan plan_with_attachments(const FacePlan& face, const std::string& opened_id) const;
 
   const Job& job_;

@@ -47,7 +47,7 @@ struct FaceMeasures {
   /// A measurement of the face.
   struct Trait {
     std::size_t trait = 0;            ///< index into measurements()
-    double value = 0;                 ///< in the unit of the measurement
+    double value = 0;                 ///< value on the face, in the unit of the measurement
     double difference_from_mean = 0;  ///< `value` minus the mean of the heads' values
     double low = 0, high = 0;         ///< smallest and largest value of any head
   };

@@ -392,6 +392,7 @@ void read_markup(const ListJson& markup, LandmarkList& list) {
   for (const ListJson& point : markup["controlPoints"]) read_json_item("", point, is_ras, list);
 }
 
+/// Reads a list of landmarks in JSON.
 /// \return false if the text has a key `template` or `scan` (see read_landmarks), or is not JSON.
 bool read_json(std::string_view text, LandmarkList& list) {
   const ListJson root = parse_shallow_json(text);

@@ -60,7 +60,7 @@ class LooseParts {
       points_;  ///< eyeballs: on the unit sphere; teeth: in the mean head, cm
   std::vector<Eigen::RowVector2d> uvs_;  ///< one per vertex
   std::vector<std::uint32_t> corners_;   ///< four per polygon
-  /// index of each piece's first vertex, and of its first polygon; pieces in the order of LoosePiece
+  /// index of each piece's first vertex and of its first polygon, in the order of LoosePiece
   std::vector<Index> first_vertices_, first_faces_;
 };
 

@@ -23,7 +23,7 @@ double bump(double x) {
 struct Fold {
   std::string_view name;
   Vector2d start, control, end;
-  double width, depth;  ///< width and depth of the groove, cm
+  double width, depth;  ///< width and depth of the groove, cm; a ridge has a negative depth
   /// The factor on the depth has the mean base + 1.25 · aged · Person::scaled_age() and the
   /// standard deviation `spread`.
   double base, aged, spread;
