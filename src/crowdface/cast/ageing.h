@@ -11,9 +11,11 @@ namespace crowdface {
 /// young (age below 0). Heads with this tag keep their weight. The key `ageing` of a band is a
 /// factor on the fraction. Three steps choose the nearest head: keep the heads of the same sex, if
 /// there are any; of these, keep the heads with the most common tags; of these, take the head with
-/// the nearest anchor. So faces made from different heads also take their aged detail from different
-/// heads. (The paper, too, transfers an older person's detail to a younger person, Fig. 2.) Removes
-/// the positions of the bands, because the changed weights no longer correspond to a position. Sets FacePlan::age, and FacePlan::age_years if the age is in years; see age_as_fraction.
+/// the nearest anchor. So faces made from different heads also take their aged detail from
+/// different heads. (The paper, too, transfers an older person's detail to a younger person, Fig.
+/// 2.) Removes the positions of the bands, because the changed weights no longer correspond to a
+/// position. Sets FacePlan::age, and FacePlan::age_years if the age is in years; see
+/// age_as_fraction.
 ///
 /// \param face  A face whose age is 0, with its group (see sampling_of).
 /// \throws BrokenPrecondition if no head has the tag, or if the age is in years and the ages of the

@@ -72,10 +72,10 @@ class FaceSearch {
     std::optional<RejectionReason> violated_constraint = std::nullopt;
   };
 
-  /// Returns whether a round needs another candidate. A round also counts the candidates
-  /// that are too near to the crowd, so that a nearly full crowd does not need many more candidates.
-  /// A face with limits on measurements may need many more attempts than other faces. So after the
-  /// usual number of attempts, one acceptable candidate is enough.
+  /// Returns whether a round needs another candidate. A round also counts the candidates that are
+  /// too near to the crowd, so that a nearly full crowd does not need many more candidates. A face
+  /// with limits on measurements may need many more attempts than other faces. So after the usual
+  /// number of attempts, one acceptable candidate is enough.
   ///
   /// \param unchecked_count  number of generated candidates that are not checked yet
   /// \param too_near_count   number of candidates of this round that were too near to the crowd
