@@ -8,13 +8,14 @@ namespace crowdface {
 
 /// Ages a face: the last step that changes the heads of a face and their weights. In every region,
 /// moves the fraction |age| of each head's weight to the nearest head tagged old (age above 0) or
-/// young (age below 0). Heads with this tag keep their weight. The key
-/// `ageing` of a band is a factor on the fraction. The nearest head is chosen first by equal sex,
-/// then by the number of common tags, then by the distance between the anchors. So faces made from
-/// different heads also take their aged detail from different heads. (The paper, too, transfers an
-/// older person's detail to a younger person, Fig. 2.) Removes the positions of the bands, because
-/// the changed weights no longer correspond to a position.
-/// Sets FacePlan::age, and FacePlan::age_years if the age is in years; see age_as_fraction.
+/// young (age below 0). Heads with this tag keep their weight. The key `ageing` of a band is a
+/// factor on the fraction. Three steps choose the nearest head: keep the heads of the same sex, if
+/// there are any; of these, keep the heads with the most common tags; of these, take the head with
+/// the nearest anchor. So faces made from different heads also take their aged detail from
+/// different heads. (The paper, too, transfers an older person's detail to a younger person, Fig.
+/// 2.) Removes the positions of the bands, because the changed weights no longer correspond to a
+/// position. Sets FacePlan::age, and FacePlan::age_years if the age is in years; see
+/// age_as_fraction.
 ///
 /// \param face  A face whose age is 0, with its group (see sampling_of).
 /// \throws BrokenPrecondition if no head has the tag, or if the age is in years and the ages of the
@@ -23,7 +24,7 @@ void apply_age(FacePlan& face, const Age& age, const CastingOptions& casting);
 
 /// Converts an age, which may be in years, to a value from −1 to 1. A face's age in years is the
 /// weighted mean of the ages of the heads that lend the finest detail. If ageing cannot give the
-/// face the wanted number of years, returns the value with which the face comes nearest to it.
+/// face the wanted age, returns the value with which the face's age comes nearest to this age.
 /// Parameters and exceptions are those of apply_age.
 double age_as_fraction(const Age& age, const FacePlan& face, const CastingOptions& casting);
 

@@ -21,7 +21,7 @@ struct AttachmentItem {
   /// inherit this colour.
   std::string colour = {};
   std::vector<std::string> excluded_tags = {};  ///< the typical head must have none of these tags
-  Tint tint = Tint::kNone;  ///< kind of the face's hair whose colour the item gets
+  Tint tint = Tint::kNone;  ///< kind of hair (see Tint) whose colour on the face the item gets
 };
 
 /// Returns whether `word` is the item's kind, name or colour.

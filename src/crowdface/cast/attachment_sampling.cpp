@@ -84,7 +84,8 @@ struct ChosenAttachments {
 struct KindQuotas {
   std::vector<std::string> words;
   std::vector<double> shares;
-  /// by group: for each of the group's sampled faces, the index of the quota that applies, or −1
+  /// Maps the index of each group to one entry per sampled face of the group. The entry is the
+  /// index of the quota that applies to this face, or −1 if no quota applies.
   std::map<int, std::vector<int>> schedules;
 
   bool of_kind(const std::string& kind) const { return contains(words, kind); }
@@ -294,9 +295,9 @@ class AttachmentChooser {
     return quotas.schedules.at(group)[place];
   }
 
-  /// Keeps only items in the colour of another item of the face. If no item has this colour, keeps
-  /// only items in the colour of a parent's items or, without parents, of the family's items. If no
-  /// item has either colour, keeps all items.
+  /// Keeps only the items whose colour equals the colour of an item that the face already wears. If
+  /// there are none, keeps only the items whose colour equals the colour of a parent's items
+  /// (without parents: of the family's items). If there are none either, keeps all items.
   void match_colours(const std::string& kind, const FacePlan& face, const Items& placed,
                      Items& items) const {
     const auto keep_colour = [&](const std::string& colour) {
@@ -398,18 +399,21 @@ class AttachmentChooser {
   /// for each sampled face: the face's group, and the face's index within the group
   std::vector<std::pair<int, std::uint64_t>> group_indices_;
   std::map<int, std::uint64_t> group_sizes_;  ///< number of sampled faces in each group
-  /// attachments that have been chosen so far, by the face's id
+  /// maps the id of a face to the attachments that have been chosen for this face
   std::map<std::string, Items> placed_;
-  /// by the face's id: the typical head, whose tags apply to the face
+  /// maps the id of a face to the face's typical head, whose tags apply to the face
   std::map<std::string, Index> heads_;
-  /// colour of the items that a family wears, by (family, kind)
+  /// Maps a family's name and a kind of items to the colour of the items of this kind that the
+  /// family wears.
   std::map<std::pair<std::string, std::string>, std::string> family_colours_;
-  /// for each set of similar faces, by similar_faces_key: how many faces of the set wear each item
+  /// Maps the key of a set of similar faces (see similar_faces_key) to the number of faces of this
+  /// set that wear each item.
   std::map<std::string, WearerCounts> wearer_counts_;
   WearerCounts all_wearer_counts_;           ///< how many of all sampled faces wear each item
   std::optional<HairChooser> hair_;          ///< empty if no item has a tint
-  std::map<std::string, HairColour> hairs_;  ///< hair colours, by the face's id
-  /// by the face's id: the ids of the previous and the next face, if must_differ holds for the pair
+  std::map<std::string, HairColour> hairs_;  ///< maps the id of a face to its hair colour
+  /// Maps the id of a face to the ids of the previous and of the next face. Leaves out a neighbour
+  /// if must_differ does not hold for the face and this neighbour.
   std::map<std::string, std::vector<std::string>> neighbours_;
 };
 
@@ -423,7 +427,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     face.attachments = std::move(drawn.names);
     face.hair = drawn.hair;
   };
-  // all versions of a redrawn face, by id: the rejected versions in order, then the final version
+  // Maps the id of a redrawn face to all versions of this face: the rejected versions in order,
+  // then the final version.
   std::map<std::string, std::vector<const FacePlan*>> versions_by_id;
   for (const FacePlan& face : rejected) {
     if (face.index) versions_by_id[face.id].push_back(&face);
@@ -433,7 +438,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     if (found != versions_by_id.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // by face id: the version that got attachments last, as an index into the face's versions
+  // Maps the id of a face to the version of the face that got attachments last. The version is an
+  // index into the face's entry of `versions_by_id`.
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
   // Chooses attachments for the replacements of rejected faces, in the order of rejection. Stops at

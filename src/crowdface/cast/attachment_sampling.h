@@ -18,13 +18,14 @@ namespace crowdface {
 struct AttachmentOptions {
   std::uint64_t seed = 1;
   std::vector<AttachmentItem> items;
-  /// For each group and kind, the fraction of the faces that wear no item of this kind. The entry
-  /// "" applies to kinds without a fraction of the group and to faces without a group.
+  /// For each group and kind, the fraction of the group's faces that wear no item of this kind. If
+  /// the group has no fraction for a kind, the fraction in the entry "" applies. The entry "" also
+  /// applies to faces without a group.
   std::map<std::string, std::map<std::string, double>> fractions_without_item;
   HeadTags tags;  ///< the tags of each head
-  /// By kind, name or colour of items: the fraction of each group's sampled faces that wear an item
-  /// of this kind, name or colour. A kind has either a quota of its own or quotas for some of its
-  /// names and colours.
+  /// A key is a kind, a name or a colour of items. The value is the fraction of each group's
+  /// sampled faces that wear an item of this kind, name or colour. A kind has either a quota of its
+  /// own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
   std::vector<std::string> head_names = {};  ///< names of the heads, because a parent may be a head
   /// For each group, the fraction of the faces that have each named hair colour, before age makes

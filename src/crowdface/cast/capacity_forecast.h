@@ -32,7 +32,8 @@ class CapacityForecast {
   struct FaceRange {
     std::uint64_t face_count = 16;     ///< n; the range has the faces n + 1 to 2·n
     std::uint64_t too_near_count = 0;  ///< number of rejected candidates for the faces of the range
-    /// sum over the faces of this range: the fraction of the face's candidates that were rejected
+    /// Each face of the range has a fraction of rejected candidates. This is the sum of these
+    /// fractions over the faces that are placed so far.
     double rejected_fraction_sum = 0;
     double mean_rejected_fraction() const {
       return rejected_fraction_sum / static_cast<double>(face_count);

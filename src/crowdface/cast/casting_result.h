@@ -22,8 +22,9 @@ namespace crowdface {
 struct Shortfall {
   enum class What { kSampledFace, kManualRecipe, kFamily, kRedrawnFace, kChangedFace };
   std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
-  RejectionCounts rejections;  ///< how often each constraint rejected a candidate for the next face
-  int group_index = -1;        ///< group of the sampled face that could not be found, or −1
+  /// how often each constraint rejected a candidate for the face that could not be cast
+  RejectionCounts rejections;
+  int group_index = -1;  ///< group of the sampled face that could not be found, or −1
   What what = What::kSampledFace;
   std::string name = {};  ///< name of the family, or id of the face unless it is a sampled face
 };
@@ -45,7 +46,7 @@ struct AppliedChange {
 struct ChangedFace {
   FacePlan face;           ///< the face's plan; its colours and attachments are not set
   FaceSpace::Point point;  ///< point of the changed face in the face space
-  /// in the order of application: first the config's changes
+  /// the changes, in the order in which casting applied them: first the changes of the config
   std::vector<AppliedChange> changes = {};
   TraitLimits traits = {};  ///< the limits on the measurements that all changes together request
   /// whether the face was redrawn, so that it now shows another person
@@ -56,7 +57,7 @@ struct ChangedFace {
 
 /// The result of casting a crowd.
 struct CastingResult {
-  /// first the faces of recipes, then of families, then the sampled faces 1 … count
+  /// all faces: first the faces of recipes, then of families, then the sampled faces 1 … count
   std::vector<FacePlan> crowd;
   std::vector<FaceSpace::Point> points;  ///< each face's point in the face space
   std::vector<int> group_indices;        ///< group of each sampled face, or −1

@@ -49,8 +49,9 @@ class AvoidedFaces {
   std::vector<FaceSpace::Point> points_;  ///< points of the changed faces
 };
 
-/// Returns the nearest head, and the nearest of the faces that `is_considered` marks (one entry per
-/// face of the crowd).
+/// Returns the head and the face of the crowd that are nearest to a point.
+///
+/// \param is_considered  One entry per face of the crowd: whether the face is compared.
 NearestNeighbours nearest_neighbours(const FaceJudge& judge, const CastingResult& cast,
                                      const FaceSpace::Point& point,
                                      const std::vector<bool>& is_considered);

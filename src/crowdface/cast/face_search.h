@@ -67,14 +67,15 @@ class FaceSearch {
     double distance_to_crowd_mm = HUGE_VAL;
     /// whether `distance_to_crowd_mm` is the exact distance, not an upper bound
     bool is_distance_exact = true;
-    bool is_skin_judged = false;  ///< whether `check_skin` was called
-    std::optional<RejectionReason> violated_constraint = std::nullopt;  ///< result of `judge_skin`
+    bool is_skin_judged = false;  ///< whether `judge_skin` has judged the candidate
+    /// the constraint that `judge_skin` found violated; empty if there is none
+    std::optional<RejectionReason> violated_constraint = std::nullopt;
   };
 
-  /// Returns whether a round needs another candidate. Candidates that are too near to the crowd
-  /// count, so that a nearly full crowd does not need many more candidates. A face with limits on
-  /// measurements may need many more attempts than other faces. So after the usual number of
-  /// attempts, one acceptable candidate is enough.
+  /// Returns whether a round needs another candidate. A round also counts the candidates that are
+  /// too near to the crowd, so that a nearly full crowd does not need many more candidates. A face
+  /// with limits on measurements may need many more attempts than other faces. So after the usual
+  /// number of attempts, one acceptable candidate is enough.
   ///
   /// \param unchecked_count  number of generated candidates that are not checked yet
   /// \param too_near_count   number of candidates of this round that were too near to the crowd
@@ -92,8 +93,8 @@ class FaceSearch {
   void add_candidates(const CrowdSoFar& crowd, std::size_t& too_near_count);
   /// Returns whether a candidate is far enough from all faces of the crowd. If several candidates
   /// are wanted, also stores the candidate's distance from the crowd's sampled faces. If another
-  /// candidate is farther, stores only an upper bound of this distance, because the bound is faster
-  /// to compute and usually sufficient.
+  /// candidate is farther from the crowd, stores only an upper bound of this distance, because the
+  /// bound is faster to compute and usually sufficient.
   bool is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
   /// Compares the candidates with the faces that have joined the crowd since the last comparison.
   void compare_with_added_faces(const CrowdSoFar& crowd);

@@ -18,8 +18,9 @@ namespace {
 constexpr double kFieldTolerance = 0.02;
 /// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
-/// How far the principal directions that are left out may move a training face, in millimetres. The
-/// distance of a face from the span of the other directions is stored as an additional coordinate.
+/// FaceSpace leaves out principal directions as long as this moves no training face by more than
+/// this distance, in millimetres. An additional coordinate stores the distance of a face from the
+/// span of the remaining directions.
 constexpr double kFaceTolerance = 0.05;
 /// largest number of directions for each orientation (unmirrored and mirrored), before directions
 /// are left out
@@ -47,8 +48,8 @@ bool is_extrapolated(const Recipe& recipe) {
 }  // namespace
 
 /// The order of the coordinate functions: the mean head, then the deviation of each head from the
-/// mean head, then the displacement fields. The fields are sorted by region; those of a region by
-/// head; those of a head by mode. Each function has three rows in a matrix: x, y and z.
+/// mean head, then the displacement fields. The fields are sorted by region, then by head,
+/// then by mode. Each function has three rows in a matrix: x, y and z.
 struct FaceSpace::FunctionOrder {
   Index heads, modes;
   static constexpr Index kMean = 0;

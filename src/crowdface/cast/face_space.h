@@ -101,8 +101,8 @@ class FaceSpace {
   /// Returns 2 if each head has a mirror image (the mirror images are the heads from number
   /// head_count() on), otherwise 1.
   Index mirror_variant_count() const { return heads_.mirror_images == nullptr ? 1 : 2; }
-  /// Returns the data that contain the head with this number: of the unmirrored heads if the number
-  /// is below head_count(), otherwise of their mirror images.
+  /// Returns the data that contain the head with this number. If the number is below head_count(),
+  /// these are the data of the unmirrored heads, otherwise the data of the mirror images.
   const HeadsAtSamples& heads_at_samples_containing(Index head) const {
     return head < head_count() ? heads_ : *heads_.mirror_images;
   }
@@ -188,7 +188,7 @@ class FaceSpace {
   FaceSpaceTables tables_;
   Shape mean_shape_;                 ///< shape of the mean head
   FloatRows directions_transposed_;  ///< 3·#P by #D, padded with zeros to a multiple of 16 columns
-  /// the region's fraction of the face's surface area; empty if there is one region
+  /// for each region, its fraction of the face's surface area; empty if there is only one region
   std::vector<double> region_area_fractions_;
 };
 

@@ -78,8 +78,9 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     rejections.add(founder.rejections());
     if (!found) continue;
     const double to_half = sampler.fraction_of_strangers_nearer_than_parent(found->point);
-    // The limit grows with the number of tries. If both parents are new, a pair that matches well
-    // is soon found. If one parent is given, no new parent may match well.
+    // The limit grows with the number of tries. If both parents are new, the search soon finds a
+    // pair that matches well. If one parent is given, perhaps no new parent matches this parent
+    // well.
     const double enough =
         kMaxFractionOfNearerStrangersForFounder * (0.5 + static_cast<double>(f) / kMaxCouples);
     if (drawn && f < kMaxCouples && to_half > enough) continue;

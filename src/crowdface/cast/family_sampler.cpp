@@ -36,9 +36,8 @@ constexpr double kMaxTwinDistanceMm = 0.5;
 /// A child counts as resembling a parent if at most this fraction of strangers is nearer to the
 /// child than the parent is.
 constexpr double kMaxFractionOfNearerStrangersForChild = 0.1;
-/// Limit for children of parents that are far apart: the largest difference between a child's
-/// distance from a parent and the founder's distance from this parent, as a fraction of
-/// max_distance.
+/// Limit for children of parents that are far apart. A child's distance from a parent may exceed
+/// the founder's distance from this parent by at most this fraction of max_distance.
 constexpr double kMaxFartherThanFounder = 0.25;
 
 /// Returns the parameters of a new parent. If no target of the crowd has the parent's sex, all

@@ -57,7 +57,8 @@ class UnrelatedFaces {
                          std::optional<std::size_t> group = std::nullopt) const;
 
  private:
-  /// by index of the group; nullopt: faces drawn with the parameters of the crowd
+  /// Maps the index of a group to the points of the random faces of this group. The key nullopt has
+  /// the points of the faces that are drawn with the parameters of the crowd.
   std::map<std::optional<std::size_t>, std::vector<FaceSpace::Point>> points_by_group_;
 };
 

@@ -114,8 +114,8 @@ void add_scaled(float factor, const float* from, std::size_t count, float* to) {
   for (; i < count; ++i) to[i] += factor * from[i];
 }
 
-/// Adds Σ factors[i]·rows[i] over the rows i of a list to `to`. Computes only the leading columns
-/// that fill kRegisters SIMD registers.
+/// Computes to += Σ factors[i]·rows[i], where i takes all values in `list`. Computes only the
+/// leading columns that fill kRegisters SIMD registers.
 ///
 /// \param width  number of columns
 template <std::size_t kRegisters>

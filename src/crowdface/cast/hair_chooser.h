@@ -44,7 +44,8 @@ class HairChooser {
   std::string key_in_hair_colours(const FacePlan& face) const;
   /// Returns the colour that `hair_colours` gives the face. The colours are distributed so that,
   /// among the faces with the same key in `entries_of_faces_`, each colour has the fraction that
-  /// the config specifies. If a face looks grey, a later face also gets the face's colour.
+  /// the config specifies. Grey hides the colour of a face that looks grey. A later face that has
+  /// no colour of its own then gets this colour as well.
   std::optional<HairColour> configured_colour(const FacePlan& face, bool is_grey);
   /// Returns the hair colour that a face inherits from its parents or shares with its family.
   std::optional<HairColour> inherited_colour(const FacePlan& face, const std::string& person) const;
@@ -68,23 +69,25 @@ class HairChooser {
     std::string key;               ///< key of the entry in `hair_colours`
     std::uint64_t face_index = 0;  ///< index of the face among the faces with this key
   };
-  /// by the face's id; contains only the faces that inherit no colour
+  /// Maps the id of a face to the entry of `hair_colours` that applies to this face. Contains only
+  /// the faces that inherit no colour.
   std::map<std::string, EntryOfFace> entries_of_faces_;
-  /// by key in `hair_colours`: number of faces in `entries_of_faces_` with this key
+  /// maps a key of `hair_colours` to the number of faces in `entries_of_faces_` with this key
   std::map<std::string, std::uint64_t> entry_sizes_;
-  /// By key in `hair_colours`. A vector has one element for each face in `entries_of_faces_` with
-  /// this key: the index of the face's colour among the colours of the entry, or −1 if the face has
-  /// none of these colours.
+  /// Maps a key of `hair_colours` to one element for each face in `entries_of_faces_` with this
+  /// key. The element is the index of the face's colour among the colours of the entry, or −1 if
+  /// the face has none of these colours.
   std::map<std::string, std::vector<int>> colour_indices_;
-  /// By key in `hair_colours`: colours that were assigned to faces that look grey, as indices among
-  /// the colours of the entry. The next faces that have no assigned colour and do not look grey get
-  /// these colours too.
+  /// Maps a key of `hair_colours` to the colours that grey hides: the colours of faces that look
+  /// grey. A colour is an index among the colours of the entry. The next faces that do not look
+  /// grey and have no colour of the entry get these colours.
   std::map<std::string, std::deque<int>> hidden_colours_;
-  /// by the face's id: index of the colour among the colours of the face's entry; or −1
+  /// Maps the id of a face to the index of its colour among the colours of its entry, or to −1 if
+  /// the face has none of these colours.
   std::map<std::string, int> colour_of_faces_;
-  /// hair colours without the grey of age, by the face's id
+  /// maps the id of a face to its hair colour without the grey of age
   std::map<std::string, HairColour> base_colours_;
-  std::map<std::string, HairColour> family_colours_;  ///< hair colours of families, by family
+  std::map<std::string, HairColour> family_colours_;  ///< maps a family's name to its hair colour
 };
 
 }  // namespace crowdface

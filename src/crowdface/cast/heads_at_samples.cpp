@@ -57,8 +57,9 @@ Positions blended_samples(const HeadsAtSamples& heads, const Recipe& recipe) {
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     std::fill(change.begin(), change.end(), 0.F);
-    // For each level L of the region (see weights_by_level), add the displacements S_L G − G of the
-    // region's samples by smoothing. G is the sum of the heads, weighted with the level's weights.
+    // For each level L of the region (see weights_by_level), add S_L G − G: the displacements by
+    // which smoothing moves the region's samples. G is the sum of the heads, weighted with the
+    // level's weights.
     for (const LevelWeights& at : weights_by_level(recipe, k)) {
       for (const WeightedTrajectoryRow& level : interpolation_rows(heads.levels, at.level)) {
         for (const SourceWeight& part : at.weights) {

@@ -17,7 +17,7 @@ namespace crowdface {
 struct HeadsAtSamples {
   /// for each head, the positions of the samples, #S by 3, in millimetres
   std::vector<Positions> heads;
-  Positions mean;          ///< the mean of the heads at the samples, #S by 3
+  Positions mean;          ///< the mean of `heads`, #S by 3, in millimetres
   Columns region_weights;  ///< #S by #regions: each region's weight at each sample
   /// for each head, the displacements of the samples at all stored smoothing levels
   std::span<const Trajectory> trajectories;

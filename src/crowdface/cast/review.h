@@ -32,7 +32,7 @@ struct FaceChange {
   enum class AgeStep { kOlder, kYounger };
   std::string id;                   ///< id of the face
   std::optional<AgeStep> age_step;  ///< makes the face older or younger by a fixed step
-  std::optional<Age> age;           ///< not together with `age_step`
+  std::optional<Age> age;           ///< new age; a change has at most one of `age` and `age_step`
   /// id of the face of which this face becomes a variant
   std::optional<std::string> variant_of;
   double variant_distance_mm = 1.5;  ///< distance between this face and `variant_of`

@@ -47,8 +47,9 @@ struct AgeRange {
 struct PositionDistribution {
   /// How the position is drawn.
   enum class Kind {
-    /// on the straight line from a random source's anchor to a random point in the convex hull of
-    /// the sources' anchors; `pull` limits the distance from the anchor
+    /// On the straight line from the anchor of a source, which is chosen at random, to a random
+    /// point in the convex hull of all sources' anchors. `pull` limits the distance from the
+    /// anchor.
     kAnchored,
     kUniform,  ///< anywhere in the convex hull of the sources' anchors
     kAround,   ///< in the disc of `radius` around a head's anchor
@@ -180,8 +181,8 @@ struct Group {
   /// used if `count` is empty: fraction (0 … 1) of the faces that are in no group with a count
   double share = 0;
   SamplingOptions sampling;
-  /// by kind of attachment: fraction of the group's faces that wear no item of this kind; replaces
-  /// the crowd's fraction
+  /// Maps a kind of attachments to the fraction of the group's faces that wear no item of this
+  /// kind. This fraction replaces the crowd's fraction.
   std::map<std::string, double> fraction_without_item_by_kind = {};
   /// fractions of hair colours, which replace the crowd's fractions
   std::map<std::string, double> hair_colours = {};

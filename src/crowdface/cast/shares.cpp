@@ -24,8 +24,9 @@ std::uint64_t deadline(double share, std::uint64_t m) {
 }
 
 /// Returns whether face `n` must be assigned to one of the shares. Share q must get at least ⌊q·m⌋
-/// of the first m faces. So face `n` must be assigned if, for any m from n to n + horizon, all
-/// shares together still need more faces than the faces n + 1 to m.
+/// of the first m faces. So face `n` must be assigned if there is an m from n to n + horizon for
+/// which all shares together still need more than m − n faces: only m − n of the first m faces
+/// follow face `n`.
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {

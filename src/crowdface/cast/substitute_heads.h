@@ -26,7 +26,7 @@ class SubstituteHeads {
 
   /// Returns weights in which each head outside the group is replaced by its substitute.
   ///
-  /// \param weights  Weights, by ascending head.
+  /// \param weights  Weights, in ascending order of the heads' indices.
   std::vector<SourceWeight> substituted(const std::vector<SourceWeight>& weights) const;
   /// Returns whether the group contains every head in `weights`.
   bool contains_all(const std::vector<SourceWeight>& weights) const;

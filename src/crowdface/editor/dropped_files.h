@@ -32,7 +32,8 @@ class DroppedFiles {
   /// \throws UsageError if an earlier piece is missing, or the file would become larger than its
   /// size in `begin_upload`.
   void add(const std::string& name, std::uint64_t offset, std::string_view bytes);
-  /// Moves all files to a new folder.
+  /// Moves all files of the upload to a new folder `added/NAME` in the config's folder. NAME is the
+  /// name of the first mesh file, if necessary with a number.
   /// \return paths of the mesh files, sorted by name.
   /// \throws UsageError if a file is incomplete.
   std::vector<std::filesystem::path> move_to_config_folder();
@@ -41,10 +42,12 @@ class DroppedFiles {
   /// Deletes the files of the current upload.
   void discard();
 
-  std::filesystem::path added_folder_;   ///< `added`, beside the config
-  std::filesystem::path upload_folder_;  ///< hidden folder in `added_folder_`, for arriving files
+  std::filesystem::path added_folder_;  ///< the folder `added` in the config's folder
+  /// hidden folder in `added_folder_` that receives the files
+  std::filesystem::path upload_folder_;
   std::mutex mutex_;
-  std::map<std::string, std::uint64_t> expected_bytes_, received_bytes_;  ///< by name of the file
+  /// for the name of each file: the size of the file, and the number of bytes received so far
+  std::map<std::string, std::uint64_t> expected_bytes_, received_bytes_;
 };
 
 }  // namespace crowdface

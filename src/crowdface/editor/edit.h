@@ -14,9 +14,10 @@ namespace crowdface {
 
 /// Options of `crowdface edit`.
 struct EditOptions {
-  CacheFolder cache;                      ///< folder of prepared heads
-  int port = 0;                           ///< 0: any free port
-  std::size_t preview_vertices = 50'000;  ///< approximate maximum for the mesh on the page
+  CacheFolder cache;  ///< folder of prepared heads
+  int port = 0;       ///< port of the server; 0: any free port
+  /// approximate maximum number of vertices of the mesh that the page shows
+  std::size_t preview_vertices = 50'000;
   /// additional arguments for `crowdface generate`
   std::vector<std::string> generate_arguments = {};
 };

@@ -107,7 +107,7 @@ class EditApi {
   /// samples other faces.
   std::atomic<std::uint32_t> sampling_attempts_ = 0;
   std::mutex newest_requests_mutex_;
-  /// by id of the page: number of the page's newest request
+  /// maps the id of a page to the number of the page's newest request
   std::map<std::string, std::uint64_t> newest_requests_;
 };
 

@@ -62,15 +62,15 @@ class EditAttachments {
   /// Returns the binding of an attachment to the heads. The first call for an attachment starts a
   /// thread that computes the binding.
   BindingFuture binding(const std::string& name);
-  /// Returns a plan that contains the attachments and the hair colour of the edited face: the
-  /// crowd's face with the id `opened_id`. If the crowd has no face with this id, returns a copy of
-  /// `face` with sampled attachments.
+  /// Returns the plan from which the edited face gets its attachments and its hair colour. This is
+  /// the plan of the crowd's face with the id `opened_id`. If the crowd has no face with this id,
+  /// returns a copy of `face` with sampled attachments.
   FacePlan plan_with_attachments(const FacePlan& face, const std::string& opened_id) const;
 
   const Job& job_;
   const std::vector<FacePlan>* crowd_;  ///< faces of the existing crowd, or null
   std::mutex mutex_;
-  /// for the name of each attachment requested so far: its binding
+  /// Maps the name of an attachment to its binding. Contains only attachments that were requested.
   std::map<std::string, BindingFuture> bindings_;
   AttachmentSurfaces surfaces_;  ///< meshes and materials of the attachments
   ShownAttachments shown_;       ///< converts attachments to the data of the page

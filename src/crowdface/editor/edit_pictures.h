@@ -32,7 +32,7 @@ class EditPictures {
   const Job& job_;
   std::mutex mutex_;
   std::unique_ptr<CrowdRenders> thumbnail_renders_;
-  std::map<Index, std::string> thumbnails_;  ///< PNG files by head
+  std::map<Index, std::string> thumbnails_;  ///< maps a head to the PNG file of its thumbnail
   std::unique_ptr<FaceTextures> textures_;
 };
 

@@ -47,7 +47,7 @@ struct FaceMeasures {
   /// A measurement of the face.
   struct Trait {
     std::size_t trait = 0;            ///< index into measurements()
-    double value = 0;                 ///< in the unit of the measurement
+    double value = 0;                 ///< value on the face, in the unit of the measurement
     double difference_from_mean = 0;  ///< `value` minus the mean of the heads' values
     double low = 0, high = 0;         ///< smallest and largest value of any head
   };
@@ -168,7 +168,8 @@ class EditSession {
   FaceBuilder builder_;
   MeshFaults faults_;
   mutable std::mutex previous_face_mutex_;
-  /// the face of the previous call of `build`, which then recomputes only what differs
+  /// The face of the previous call of `build`. The next call recomputes only the parts of the face
+  /// that differ from this face.
   mutable FaceBuilder::PreviousFace previous_face_;
   std::shared_future<JudgingData> judging_data_;
   CastingOptions casting_;

@@ -40,7 +40,7 @@ class MeshFaults {
   const FaceBuilder& builder_;
   mutable std::mutex mutex_;
   mutable std::optional<const ProtrudingPartsCheck> protruding_parts_check_;
-  /// by index of the head
+  /// maps the index of a head to the head's faults
   mutable std::map<Index, std::shared_ptr<const TargetFaults>> target_faults_;
 };
 

@@ -53,8 +53,8 @@ PerHead moved(const PerHead& weights, const PerHead& gradient, double step) {
   return projected_onto_simplex(std::move(row));
 }
 
-/// Returns one value for each head of a band: the derivative of the measurement when all weights
-/// move linearly towards weight one for this head.
+/// Returns one derivative of the measurement for each head of a band: how fast the measurement
+/// changes when the weights of the band move linearly until this head has all the weight.
 PerHead gradient_of(const Recipe& recipe, const SteeredBand& band, double value,
                     const std::function<double(const Recipe&)>& measure) {
   constexpr double kStep = 0.05;

@@ -56,8 +56,8 @@ std::map<std::string, LandmarkFile::Place> read_places(const YamlNode* node, Com
   return places;
 }
 
-/// Names that differ only in case, blanks, hyphens, underscores or Unicode's normal form have the
-/// same key.
+/// Returns the key of a name. Two names have the same key if they differ only in case, blanks,
+/// hyphens, underscores or Unicode's normal form.
 std::string key_of(std::string_view name) {
   std::string key = lower_case(decomposed(name));
   std::ranges::replace_if(

@@ -19,7 +19,8 @@ namespace crowdface {
 /// The content of a landmark file: for each landmark name, a vertex number (from 0) or a point.
 struct LandmarkFile {
   using Place = LandmarkPlace;
-  std::map<std::string, Place> template_places, scan_places;  ///< keyed by landmark name
+  /// Map the name of a landmark to its place on the template, and to its place on the scan.
+  std::map<std::string, Place> template_places, scan_places;
 };
 
 /// The mesh to which the landmarks of a file without the keys `template` and `scan` belong.

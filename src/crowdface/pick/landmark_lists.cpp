@@ -238,8 +238,9 @@ bool was_not_placed(std::string_view line, const std::vector<std::string_view>& 
 
 /// A row of a table.
 struct TableRow {
-  std::string name;             ///< empty if the row has no name
-  std::vector<double> numbers;  ///< a vertex or x, y, z; another count if the row is wrong
+  std::string name;  ///< empty if the row has no name
+  /// one number (a vertex) or three numbers (x, y, z); any other count is an error in the row
+  std::vector<double> numbers;
 };
 
 /// Reads a row whose columns the table's header names. Returns nothing if a number is missing.
@@ -391,6 +392,7 @@ void read_markup(const ListJson& markup, LandmarkList& list) {
   for (const ListJson& point : markup["controlPoints"]) read_json_item("", point, is_ras, list);
 }
 
+/// Reads a list of landmarks in JSON.
 /// \return false if the text has a key `template` or `scan` (see read_landmarks), or is not JSON.
 bool read_json(std::string_view text, LandmarkList& list) {
   const ListJson root = parse_shallow_json(text);

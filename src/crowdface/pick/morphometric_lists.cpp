@@ -76,8 +76,10 @@ ListedLandmark read_landmark(const Line& line, double missing, const FailAtLine&
 
 using Landmarks = std::vector<ListedLandmark>;
 
-/// Landmark Editor writes a version, the number of points, and on each line a name and x, y, z.
-/// 300-W files have names before version and number, and the points, without names, in braces.
+/// Reads a .pts file of Landmark Editor or of the 300-W data set. Landmark Editor writes the
+/// version, the number of points, and one line "NAME x y z" for each point. A 300-W file begins
+/// with the lines "version: 1" and "n_points: 68". One line "x y z" for each point follows, in
+/// braces.
 Landmarks read_pts(const std::vector<Line>& lines, const FailAtLine& fail) {
   constexpr double kMissing = 9999;
   Landmarks landmarks;

@@ -48,7 +48,7 @@ class PickApi {
 
 /// Serves the page for picking landmarks until a signal such as SIGINT arrives.
 /// \param pages    folder with the HTML pages; nothing if they were not built
-/// \param port     0: any free port
+/// \param port     port of the server; 0: any free port
 /// \param started  called with the address of the page once the server listens
 /// \throws Error
 void pick_landmarks(PickableScans& scans, std::optional<std::filesystem::path> pages, int port,

@@ -71,7 +71,7 @@ class PickSession {
 
   PickInputs inputs_;
   PickableMesh template_, scan_;
-  MirrorPlane symmetry_plane_;                              ///< of the template
+  MirrorPlane symmetry_plane_;                              ///< symmetry plane of the template
   std::map<std::string, std::uint32_t> proposed_vertices_;  ///< result of propose_landmarks
   PoseHint scan_orientation_;
   /// Guards the members below.

@@ -26,7 +26,8 @@ struct LandmarkPose {
     /// landmark was misplaced. The fit of `pose` ignores outliers.
     bool is_outlier = false;
   };
-  std::map<std::string, Residual> residuals;  ///< one per pair, keyed by landmark name
+  /// maps the name of a pair's landmark to the residual of the pair
+  std::map<std::string, Residual> residuals;
 };
 
 /// Fits the similarity (Umeyama 1991) to landmark pairs. Removes outlier pairs one by one, and

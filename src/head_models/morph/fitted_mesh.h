@@ -34,7 +34,7 @@ struct FittedMesh {
     std::string name;            ///< name of the material: "brown"
     std::filesystem::path path;  ///< colour texture; empty: none
   };
-  Topology topology;                                  ///< #V vertices
+  Topology topology;                                  ///< the polygons, on #V vertices
   TextureCoordinates uvs;                             ///< #T by 2
   std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V: three vertices of the base mesh
   Positions weights;  ///< #V by 3: for each vertex, the weights of its three anchors

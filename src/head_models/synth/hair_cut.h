@@ -16,7 +16,7 @@ struct HairCut {
   std::string_view name;
   bool is_for_women = false;
   bool is_curly = false;
-  bool has_bald_crown = false;  ///< the crown is bald
+  bool has_bald_crown = false;  ///< whether the crown is bald
   double recession = 0;  ///< hairline recession, 0 … 1; above 0, the cut is not for young people
   double parting_x = 0;  ///< x coordinate of the parting
   double sideways_combing = 1;  ///< component of the combing direction away from the parting
@@ -31,7 +31,7 @@ struct HairCut {
   int layers = 1;
   /// whether the hair is tied at the back; in front of the tie, the hair lies on the head
   bool is_tied = false;
-  bool excludes_old_people = false;  ///< true: the cut is not for old people
+  bool excludes_old_people = false;  ///< whether the cut is not for old people
 
   bool has_fringe() const { return fringe_y < kNoFringe; }
   bool has_parting() const { return layers == 1 && backward_combing < 0.8 && !has_fringe(); }

@@ -11,7 +11,8 @@ namespace crowdface::synth {
 /// The texture of hair_picture has kTextureStripCount vertical strips: kCardStripCount strips for
 /// hair cards, then one strip for the hair cap below the cards.
 inline constexpr int kCardStripCount = 4, kTextureStripCount = 5;
-/// The last two strips for hair cards have fewer strands: half as many, and a few single strands.
+/// The last two strips for hair cards have fewer strands: kThinStrip has half as many as the other
+/// strips, kWispStrip has a few single strands.
 inline constexpr int kThinStrip = kCardStripCount - 2, kWispStrip = kCardStripCount - 1;
 
 /// sRGB value of hair in neutral textures. Neutral textures are tinted with each face's hair colour

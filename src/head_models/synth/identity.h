@@ -15,7 +15,7 @@ namespace crowdface::synth {
 struct Person {
   double maleness = 0;    ///< −1 (female) … 1 (male)
   double age_years = 40;  ///< years, 18 … 77
-  double build = 0;       ///< standard normal, clamped to ±2: slight … heavy
+  double build = 0;  ///< build of the body, from slight to heavy: standard normal, clamped to ±2
 
   /// Returns the age in units of 20 years from 40: −1.1 … 1.85.
   double scaled_age() const { return (age_years - 40) / 20; }

@@ -14,7 +14,7 @@ enum class SkinPatch { kStrip, kCap, kEye, kNostril, kMouth, kEar, kEarCore };
 /// A parametric location on the skin, independent of the tessellation.
 struct LatticePoint {
   SkinPatch patch = SkinPatch::kStrip;
-  double side = 1;  ///< −1: the mirrored patch at the head's right (x < 0)
+  double side = 1;  ///< 1: the patch on the head's left (x > 0); −1: its mirror image
   /// First coordinate. Strip and cap: signed units around the head from the midline of the face.
   /// Rings: 0 … 4 along the sides of the opening, counter-clockwise from its upper left corner,
   /// seen on the side x > 0. Ear core: 0 … 1 across.

@@ -56,11 +56,12 @@ class LooseParts {
   /// \param first  index of the band's first vertex.
   void close_band(Index first, int along, int around);
 
-  std::vector<Eigen::Vector3d>
-      points_;  ///< eyeballs: on the unit sphere; teeth: in the mean head, cm
-  std::vector<Eigen::RowVector2d> uvs_;              ///< one per vertex
-  std::vector<std::uint32_t> corners_;               ///< four per polygon
-  std::vector<Index> first_vertices_, first_faces_;  ///< for each piece, in the order of LoosePiece
+  /// position of each vertex; eyeballs: on the unit sphere; teeth: in the mean head, cm
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Eigen::RowVector2d> uvs_;  ///< texture coordinates, one pair per vertex
+  std::vector<std::uint32_t> corners_;   ///< indices of the polygons' corners, four per polygon
+  /// index of each piece's first vertex and of its first polygon, in the order of LoosePiece
+  std::vector<Index> first_vertices_, first_faces_;
 };
 
 }  // namespace crowdface::synth

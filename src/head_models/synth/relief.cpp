@@ -23,7 +23,7 @@ double bump(double x) {
 struct Fold {
   std::string_view name;
   Vector2d start, control, end;
-  double width, depth;  ///< cm
+  double width, depth;  ///< width and depth of the groove, cm; a ridge has a negative depth
   /// The factor on the depth has the mean base + 1.25 · aged · Person::scaled_age() and the
   /// standard deviation `spread`.
   double base, aged, spread;
@@ -54,13 +54,14 @@ const auto& fold_list() {
 /// An area of wrinkles that are arcs around a pole, or rays from the pole, in the front view.
 struct WrinkleArea {
   std::string_view name;
-  Vector2d pole;  ///< cm
+  Vector2d pole;  ///< centre of the arcs or rays, cm
   bool has_rays;
   Vector2d centre, radii;  ///< the wrinkles lie in this ellipse; cm
   double spacing;          ///< mean distance between neighbouring wrinkles, cm
   double depth;            ///< depth of the wrinkles of old people, cm
-  double begin;            ///< Person::scaled_age() at which wrinkles begin; complete 1 later
-  bool paired = true;      ///< whether the area is mirrored to x < 0
+  /// Person::scaled_age() at which wrinkles begin; at begin + 1, wrinkles have their full depth
+  double begin;
+  bool paired = true;  ///< whether the area is mirrored to x < 0
 };
 /// Half the width of a wrinkle, relative to the distance between wrinkles.
 constexpr double kWrinkleHalfWidth = 0.27;

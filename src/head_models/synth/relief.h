@@ -40,7 +40,7 @@ class Relief {
   struct Stroke {
     static constexpr int kPieces = 12;  ///< number of straight pieces of the curve
     std::array<Eigen::Vector2d, kPieces + 1> points;
-    double width, depth;  ///< of the groove
+    double width, depth;  ///< width and depth of the groove
     double bulge;  ///< height of a ridge beside the curve, relative to the depth; positive: left
     Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
   };
@@ -59,8 +59,9 @@ class Relief {
 
   std::vector<Stroke> strokes_;
   SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< displace all folds together
-  SmoothNoise wrinkle_waves_;  ///< bends wrinkles; −0.45 … 0.45 of their spacing
-  SmoothNoise wrinkle_gaps_;   ///< wrinkles have gaps where this noise is low
+  /// bends wrinkles sideways, by about ±0.45 of the distance between neighbouring wrinkles
+  SmoothNoise wrinkle_waves_;
+  SmoothNoise wrinkle_gaps_;  ///< wrinkles have gaps where this noise is low
   /// The wrinkles of an area. Lengths in cm.
   struct Wrinkles {
     double depth, spacing;  ///< spacing: mean distance between neighbouring wrinkles

@@ -16,9 +16,10 @@ struct AtlasTexel {
   /// Coordinate LatticePoint::b in the rings around an eye: 0 at their outline, 1 at the edge of
   /// the lid, 2 at the hole
   double eye_ring_coordinate = 0;
-  /// the same around the mouth: 1 at the edge of the opening between the lips
+  /// Coordinate LatticePoint::b in the rings around the mouth: 1 at the edge of the opening between
+  /// the lips
   double mouth_ring_coordinate = 0;
-  /// the same around a nostril: 1 at the edge of the nostril
+  /// Coordinate LatticePoint::b in the rings around a nostril: 1 at the edge of the nostril
   double nostril_ring_coordinate = 0;
   double on_eyeball = 0;  ///< 1 on an eyeball, 0 elsewhere
   Eigen::Vector3d point_on_ball =

@@ -298,8 +298,8 @@ double SkinPaint::beard_coverage(const Vector& p) const {
 
 void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   if (complexion_.beard <= 0 || p.z() < -0.5 || p.y() > 0) return;
-  // If beards are separate meshes, paint the shadow of a shaven beard on every man.
-  // Short hair: noise stretched along y.
+  // If beards are separate meshes, this function paints the shadow of a shaven beard on every man.
+  // Otherwise, it also paints short hair: noise stretched along y.
   const double strand = paints_all_hair() ? hairs_.at({p.x(), 0.3 * p.y(), p.z()}) : 0;
   const double beard = beard_coverage(p, strand);
   if (beard <= 0) return;
