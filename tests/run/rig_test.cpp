@@ -245,7 +245,7 @@ TEST(GltfRig, BrokenScenesAreRefused) {
   refuse(scene(R"({},{"children":[2]},{"children":[1],"mesh":0})", position), {"form a cycle"});
   refuse(scene(R"({"matrix":[1,0,0]})", position), {"16 numbers in the matrix"});
   refuse(scene(R"({},{"mesh":0,"skin":0})", R"({"bufferView":3,"componentType":5126,"count":40})"),
-         {"accessor 0", "beyond its data"});
+         {"accessor 0", "beyond the end of its buffer view"});
   refuse(scene(R"({},{"mesh":0,"skin":0})",
                position + R"(,{"bufferView":1,"componentType":5126,"count":1})" + weights),
          {"accessor 1", "expected whole numbers"});
