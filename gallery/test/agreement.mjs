@@ -170,7 +170,7 @@ if (address) {
     await page.getByLabel('Open a face').selectOption(`face ${id}`);
     await page.waitForFunction((name) => { // until its own skin and what it wears are there
       const { editor: it } = window.crowdface;
-      return it.document.face === name && !it.pending && it.exactOf === it.document && !it.skin.running && it.view.worn.node.visible && !it.exactFace.bare;
+      return it.document.face === name && !it.pending && it.exactOf === it.document && it.skinOf?.document === it.document && !it.skin.running && it.view.worn.node.visible && !it.exactFace.bare;
     }, id);
     await page.waitForTimeout(500);
     await rested();
