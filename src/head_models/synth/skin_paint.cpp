@@ -116,7 +116,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   // weaker on women, on whom they would look like beards.
   const double hollows = patch(p, {5.2, -5.4}, {2.2, 3.4}) + patch(p, {6.4, 2.6}, {2.0, 2.6}) +
                          patch(p, {3.4, -9.6}, {1.5, 1.6});
-  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.7 : 0.87) * aged_ * std::min(1.0, hollows));
+  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.2 : 0.87) * aged_ * std::min(1.0, hollows));
   // Old skin is sallow and reflects less light.
   tint(colour, {0.88, 0.84, 0.75}, aged_);
   // Darken lines and hollows, because they lie in shade.
@@ -150,7 +150,7 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   const double pale = (male ? 0.4 + 0.1 * aged_ : 0);
   // The contrast between skin and lips or eyes is larger in women (Russell 2009, "A sex difference
   // in facial contrast and its exaggeration by cosmetics").
-  tint(lips, {male ? 0.88 : 0.79, male ? 0.63 : 0.53, male ? 0.65 : 0.55}, 1 - pale);
+  tint(lips, {male ? 0.88 : 0.84, male ? 0.63 : 0.58, male ? 0.65 : 0.60}, 1 - pale);
   tint(lips, {0.90, 0.62, 0.66}, complexion_.lipstick);
   tint(lips, {male ? 0.82 : 0.97, male ? 0.8 : 0.63, male ? 0.83 : 0.68}, complexion_.skin_tone);
   // The upper lip is darker, because it faces down; so is the line between the lips.
