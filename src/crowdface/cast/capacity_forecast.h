@@ -41,7 +41,7 @@ class CapacityForecast {
     /// Returns the middle of the range from n to 2·n, with n = `face_count`: 1.5·n.
     double middle_face_number() const { return 1.5 * static_cast<double>(face_count); }
   };
-  std::uint64_t placed_count_ = 0;
+  std::uint64_t placed_count_ = 0;        ///< number of faces that are placed so far
   FaceRange current_;                     ///< the range of the next face
   FaceRange previous_, before_previous_;  ///< the two complete ranges before `current_`
 };

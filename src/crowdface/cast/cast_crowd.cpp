@@ -146,7 +146,8 @@ class CrowdCaster {
     }
   }
 
-  /// Like `cast_first_fit`, for few faces with the same minimum distance.
+  /// Casts the sampled faces `from` … `to`: at most kFacesCastInParallel faces, which have the same
+  /// minimum distance. Generates the first candidates of these faces in parallel.
   void cast_block(const DiversityOptions& diversity, const FamilySeparation& family_separation,
                   std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd) {
     throw_if_interrupted();

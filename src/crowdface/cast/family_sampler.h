@@ -94,7 +94,7 @@ class FamilySampler {
     Age age;
     /// for twins: the age of their prototype in years, if this age was given in years
     std::optional<double> age_years_of_twins = {};
-    double distance_mm = 0;  ///< distance from the founder
+    double distance_mm = 0;  ///< distance of the member from the founder
   };
 
   /// Stores a parent in `parents_`, without the effects of the parent's age.

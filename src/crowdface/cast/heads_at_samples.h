@@ -50,10 +50,13 @@ std::shared_ptr<const HeadsAtSamples> sample_mirror_images(const HeadSet& head_s
                                                            const FaceSamples& trajectory_vertices,
                                                            const HeadsAtSamples& heads);
 
-/// Returns the target of a recipe at the samples, #S by 3 in millimetres, mirrored like the face.
+/// Returns the positions of the samples on a recipe's target (a head or a mixture of heads), #S by
+/// 3 in millimetres. The target is mirrored if the recipe mirrors the face, and has the asymmetry
+/// of the recipe.
 Positions sample_target(const HeadsAtSamples& heads, const Recipe& recipe);
 
-/// Returns the face of a recipe at the samples, #S by 3 in millimetres, not aligned (Eq. 7).
+/// Returns the positions of the samples on a recipe's face, #S by 3 in millimetres (Eq. 7). The
+/// face is not aligned to the mean head.
 ///
 /// \throws BrokenPrecondition if the face is mirrored or its asymmetry is not 1, and there are no
 /// mirror images.

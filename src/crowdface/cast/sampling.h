@@ -69,21 +69,23 @@ struct PositionDistribution {
 struct SmoothnessDistribution {
   /// The unit of `range`.
   enum class Unit {
-    kFraction,    ///< a fraction of L_max, like the slider in the paper
+    /// a fraction of L_max, the largest number of smoothing iterations; the slider in the paper has
+    /// the same unit
+    kFraction,
     kIterations,  ///< a number of smoothing iterations
     /// a wavelength in mm: smoothing halves the amplitude of relief that has this wavelength
     /// (docs/method.md)
     kSize,
   };
   Unit unit = Unit::kFraction;
-  Range range = {0.2, 0.9};
+  Range range = {0.2, 0.9};  ///< values in `unit`; all values are equally likely
 };
 
 /// The distributions of one region.
 struct RegionSampling {
   PositionDistribution position;
   SmoothnessDistribution smoothness;
-  Range extrapolation = {1, 1};  ///< factor e of Fig. 6 in the paper
+  Range extrapolation = {1, 1};  ///< range of the extrapolation factor (e in Fig. 6 of the paper)
 };
 
 /// The parameters of one band of detail. If a member is empty, the value of the band's region or of
@@ -92,7 +94,8 @@ struct BandSampling {
   /// The distributions of this band in one region.
   struct Region {
     std::optional<PositionDistribution> position;
-    /// level at which the band begins; may be empty for the first band only
+    /// Distribution of the smoothing level at which the band begins. Only the first band may have
+    /// no value.
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
@@ -137,13 +140,15 @@ enum class Mirroring {
 struct SamplingOptions {
   std::vector<WeightedHead> targets;  ///< possible targets, with their frequencies
   std::vector<Eigen::Index> sources;  ///< heads that lend detail, ascending
-  /// one entry for each region (one entry in total if there are no regions)
+  /// distributions of the regions, one entry for each region (one entry in total if there are no
+  /// regions)
   std::vector<RegionSampling> regions;
-  std::vector<BandSampling> bands;  ///< from coarse to fine; empty: all detail is one band
+  /// parameters of the bands, from coarse to fine; empty: all detail is one band
+  std::vector<BandSampling> bands;
   /// largest number of heads that may have weight in one band of one region; empty: no limit
   std::optional<int> max_sources;
   AgeRange age = {};         ///< range of the ages of sampled faces
-  Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
+  Range asymmetry = {1, 1};  ///< range of the asymmetry factor; see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
   std::vector<Eigen::Index> heads_tagged_old;    ///< heads with the tag `old`, ascending
   std::vector<Eigen::Index> heads_tagged_young;  ///< heads with the tag `young`, ascending
@@ -202,7 +207,7 @@ struct ManualRecipe {
   /// The values of a region, which apply to all bands that have no values of their own. Exception:
   /// the region's smoothness applies only to the first band.
   struct Region : Band {
-    std::vector<Band> bands;  ///< one entry for each band, or empty
+    std::vector<Band> bands;  ///< values of the bands, one entry for each band, or empty
   };
   std::string id;
   std::optional<Eigen::Index> target;

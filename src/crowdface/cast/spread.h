@@ -20,7 +20,7 @@ struct CandidatePool {
   std::vector<FacePlan> faces;
   std::vector<FaceSpace::Point> points;
   std::vector<int> group_indices;  ///< for each candidate: index of its group, or −1
-  RejectionCounts rejections;
+  RejectionCounts rejections;      ///< candidates that were rejected and are not in the pool
 };
 
 /// Generates a pool of at most `count` · `pool_size_factor` candidates. Groups have the same
