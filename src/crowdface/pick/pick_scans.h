@@ -53,7 +53,7 @@ class PickableScans {
   std::function<PickInputs(const Entry&)> read_inputs_;
   /// Guards the members below.
   mutable std::mutex mutex_;
-  std::shared_ptr<OpenScan> current_;  ///< the open scan
+  std::shared_ptr<OpenScan> current_;  ///< the scan that is open; see current()
   std::size_t current_index_ = 0;
 };
 

@@ -30,8 +30,8 @@ struct LandmarkPose {
   std::map<std::string, Residual> residuals;
 };
 
-/// Fits the similarity (Umeyama 1991) to landmark pairs. Removes outlier pairs one by one, and
-/// repeats the fit after each removal.
+/// Fits the similarity transform (Umeyama 1991) from template to scan to landmark pairs. Removes
+/// outlier pairs one by one, and repeats the fit after each removal.
 /// \return nothing if there are fewer than three pairs, or if the landmarks lie almost on a line.
 std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>& landmarks,
                                                const Positions& template_positions);
