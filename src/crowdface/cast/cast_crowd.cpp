@@ -188,7 +188,8 @@ class CrowdCaster {
     }
   }
 
-  /// Moves the faces to the result, and finds the nearest neighbours of the new faces.
+  /// Moves all faces of `crowd` back to the result, and finds the nearest neighbours of the faces
+  /// that are new.
   void take_crowd(CrowdSoFar& crowd) {
     const std::size_t known = result_.crowd.size();
     result_.crowd = crowd.take_faces();

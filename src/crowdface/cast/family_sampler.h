@@ -141,7 +141,8 @@ class FamilySampler {
   std::vector<KnownParent> parents_;
   /// indices in `parents_` of the parents that are not in the crowd yet
   std::vector<std::size_t> parents_not_in_crowd_;
-  std::vector<FaceSearch::FoundFace> new_parents_;  ///< see new_parents()
+  /// parents that the last call of sample_parents made
+  std::vector<FaceSearch::FoundFace> new_parents_;
   /// Distribution of the third contributor: a random face from which members inherit what comes
   /// from neither parent.
   FaceDistribution third_contributor_distribution_;

@@ -19,7 +19,7 @@ struct HeadsAtSamples {
   std::vector<Positions> heads;
   Positions mean;          ///< the mean of `heads`, #S by 3, in millimetres
   Columns region_weights;  ///< #S by #regions: each region's weight at each sample
-  /// for each head, the displacements of the samples at all stored smoothing levels
+  /// for each head: how far smoothing displaces the samples, at all stored smoothing levels
   std::span<const Trajectory> trajectories;
   /// For each region, ranges [begin, end) that contain all samples with nonzero weight. Loops over
   /// a region's samples skip the other samples.

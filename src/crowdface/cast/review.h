@@ -16,7 +16,7 @@ struct ReviewMark {
     kKeep,    ///< the face stays as it is
     kReject,  ///< the face is redrawn, except for the locked parts
   };
-  std::string id;  ///< id of the face
+  std::string id;  ///< id of the face that is marked
   Verdict verdict = Verdict::kKeep;
   /// Bands of regions that stay the same when the face is redrawn. The number of a band is (index
   /// of the region) · #bands + (index of the band). If the crowd has no bands, #bands is 1, and the
@@ -30,7 +30,7 @@ struct ReviewMark {
 /// run/changed_faces.cpp).
 struct FaceChange {
   enum class AgeStep { kOlder, kYounger };
-  std::string id;                   ///< id of the face
+  std::string id;                   ///< id of the face that is changed
   std::optional<AgeStep> age_step;  ///< makes the face older or younger by a fixed step
   std::optional<Age> age;           ///< new age; a change has at most one of `age` and `age_step`
   /// id of the face of which this face becomes a variant
@@ -74,7 +74,7 @@ struct Review {
   /// current value applies.
   std::optional<double> min_distance_mm = {};
   std::vector<ReviewMark> marks;
-  std::vector<FaceChange> changes;  ///< changes, applied after the marks
+  std::vector<FaceChange> changes;  ///< requested changes of faces; applied after the marks
 };
 
 }  // namespace crowdface

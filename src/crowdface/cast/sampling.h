@@ -100,7 +100,7 @@ struct BandSampling {
     std::optional<Range> extrapolation;
   };
   std::string name;
-  std::vector<Region> regions;  ///< one entry for each region
+  std::vector<Region> regions;  ///< distributions of the band, one entry for each region
   /// heads that lend detail to the band, ascending
   std::optional<std::vector<Eigen::Index>> sources;
   /// factor (0 … 1) on the effect that ageing has on the band
@@ -189,7 +189,8 @@ struct Group {
   /// Maps a kind of attachments to the fraction of the group's faces that wear no item of this
   /// kind. This fraction replaces the crowd's fraction.
   std::map<std::string, double> fraction_without_item_by_kind = {};
-  /// fractions of hair colours, which replace the crowd's fractions
+  /// Maps the name of a hair colour to the fraction of the group's faces with this colour. Replaces
+  /// the crowd's fractions.
   std::map<std::string, double> hair_colours = {};
 };
 
@@ -199,7 +200,8 @@ struct ManualRecipe {
   /// The values of one band; empty values are random.
   struct Band {
     std::optional<PlanePoint> position;
-    /// weights of the heads that lend detail; empty: not given. Not together with `position`.
+    /// weights of the heads that lend detail; empty: the recipe gives no weights. A recipe cannot
+    /// give both weights and a `position`.
     std::vector<WeightedHead> weights;
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
@@ -211,7 +213,7 @@ struct ManualRecipe {
   };
   std::string id;
   std::optional<Eigen::Index> target;
-  std::vector<Region> regions;  ///< one entry for each region
+  std::vector<Region> regions;  ///< values of the regions, one entry for each region
   /// heads whose textures are blended for the face; empty: not given
   std::vector<WeightedHead> colours = {};
   std::optional<AgeRange> age;  ///< range of the face's age; empty: as for sampled faces

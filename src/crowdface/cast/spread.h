@@ -41,7 +41,7 @@ class FarthestPoints {
  public:
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);
 
-  /// A candidate of the pool, and its distance.
+  /// A candidate of the pool, and its distance from the nearest face.
   struct Pick {
     Index candidate = -1;  ///< index of the candidate; −1: no candidate is left
     /// distance to the nearest picked or initial face; infinite if there is no such face

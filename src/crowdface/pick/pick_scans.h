@@ -16,7 +16,7 @@ namespace crowdface {
 /// A reduced mesh for the page; encoded at the first request.
 struct ShownMesh {
   std::once_flag once;  ///< set by the first request, which computes `bytes`
-  std::string bytes;    ///< result of PickableMesh::encode_reduced
+  std::string bytes;    ///< the reduced mesh; see PickableMesh::encode_reduced
 };
 
 /// The scan that is open on the page, its session, and the meshes that the page shows.

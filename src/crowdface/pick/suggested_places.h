@@ -43,7 +43,7 @@ std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>
 struct SuggestedPlaces {
   std::map<std::string, PickedPlace> template_places;  ///< suggested positions on the template
   std::map<std::string, PickedPlace> scan_places;      ///< suggested positions on the scan
-  std::optional<LandmarkPose> pose;                    ///< result of fit_pose_to_picked
+  std::optional<LandmarkPose> pose;  ///< pose of the template on the scan; see fit_pose_to_picked
 };
 
 /// Suggests likely positions of the landmarks that are not picked yet.
