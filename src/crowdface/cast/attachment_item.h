@@ -21,7 +21,9 @@ struct AttachmentItem {
   /// inherit this colour.
   std::string colour = {};
   std::vector<std::string> excluded_tags = {};  ///< the typical head must have none of these tags
-  Tint tint = Tint::kNone;  ///< kind of hair (see Tint) whose colour on the face the item gets
+  /// kind of hair that the item represents. On each face, the item gets the colour of the face's
+  /// hair of this kind; see Tint.
+  Tint tint = Tint::kNone;
 };
 
 /// Returns whether `word` is the item's kind, name or colour.

@@ -409,8 +409,9 @@ class AttachmentChooser {
   /// Maps the key of a set of similar faces (see similar_faces_key) to the number of faces of this
   /// set that wear each item.
   std::map<std::string, WearerCounts> wearer_counts_;
-  WearerCounts all_wearer_counts_;           ///< how many of all sampled faces wear each item
-  std::optional<HairChooser> hair_;          ///< empty if no item has a tint
+  WearerCounts all_wearer_counts_;  ///< how many of all sampled faces wear each item
+  /// chooses the faces' hair colours; empty if no item has a tint
+  std::optional<HairChooser> hair_;
   std::map<std::string, HairColour> hairs_;  ///< maps the id of a face to its hair colour
   /// Maps the id of a face to the ids of the previous and of the next face. Leaves out a neighbour
   /// if must_differ does not hold for the face and this neighbour.

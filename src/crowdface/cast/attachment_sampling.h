@@ -16,7 +16,7 @@ namespace crowdface {
 
 /// The attachments that faces of a crowd may wear, and parameters for choosing among these.
 struct AttachmentOptions {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;  ///< seed of the crowd's random numbers
   std::vector<AttachmentItem> items;
   /// For each group and kind, the fraction of the group's faces that wear no item of this kind. If
   /// the group has no fraction for a kind, the fraction in the entry "" applies. The entry "" also

@@ -30,7 +30,7 @@ class CapacityForecast {
   /// Statistics of the candidates for the faces n + 1 to 2·n, with n = `face_count`. A rejected
   /// candidate was too near to a face of the crowd.
   struct FaceRange {
-    std::uint64_t face_count = 16;     ///< n; the range has the faces n + 1 to 2·n
+    std::uint64_t face_count = 16;     ///< n, where the range has the faces n + 1 to 2·n
     std::uint64_t too_near_count = 0;  ///< number of rejected candidates for the faces of the range
     /// Each face of the range has a fraction of rejected candidates. This is the sum of these
     /// fractions over the faces that are placed so far.
@@ -41,9 +41,10 @@ class CapacityForecast {
     /// Returns the middle of the range from n to 2·n, with n = `face_count`: 1.5·n.
     double middle_face_number() const { return 1.5 * static_cast<double>(face_count); }
   };
-  std::uint64_t placed_count_ = 0;
-  FaceRange current_;                     ///< the range of the next face
-  FaceRange previous_, before_previous_;  ///< the two complete ranges before `current_`
+  std::uint64_t placed_count_ = 0;  ///< number of faces that are placed so far
+  FaceRange current_;               ///< statistics of the range that contains the next face
+  /// statistics of the two complete ranges before `current_`
+  FaceRange previous_, before_previous_;
 };
 
 }  // namespace crowdface

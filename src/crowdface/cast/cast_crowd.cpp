@@ -146,7 +146,8 @@ class CrowdCaster {
     }
   }
 
-  /// Like `cast_first_fit`, for few faces with the same minimum distance.
+  /// Casts the sampled faces `from` … `to`: at most kFacesCastInParallel faces, which have the same
+  /// minimum distance. Generates the first candidates of these faces in parallel.
   void cast_block(const DiversityOptions& diversity, const FamilySeparation& family_separation,
                   std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd) {
     throw_if_interrupted();
@@ -187,7 +188,8 @@ class CrowdCaster {
     }
   }
 
-  /// Moves the faces to the result, and finds the nearest neighbours of the new faces.
+  /// Moves all faces of `crowd` back to the result, and finds the nearest neighbours of the faces
+  /// that are new.
   void take_crowd(CrowdSoFar& crowd) {
     const std::size_t known = result_.crowd.size();
     result_.crowd = crowd.take_faces();

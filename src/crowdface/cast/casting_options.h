@@ -26,11 +26,12 @@ struct SmoothingLevelScale {
 
 /// All inputs of casting except the face space.
 struct CastingOptions {
-  std::string name;         ///< name of the crowd
-  std::uint64_t count = 0;  ///< number of sampled faces
-  std::uint64_t seed = 1;
-  std::vector<PlanePoint> anchors;        ///< position of each head on the weight plane
-  std::vector<std::string> region_names;  ///< contains only "all" if there are no regions
+  std::string name;                 ///< name of the crowd
+  std::uint64_t count = 0;          ///< number of sampled faces
+  std::uint64_t seed = 1;           ///< seed of the crowd's random numbers
+  std::vector<PlanePoint> anchors;  ///< position of each head on the weight plane
+  /// names of the regions; contains only "all" if the config has no regions
+  std::vector<std::string> region_names;
   SamplingOptions sampling;
   std::vector<ManualRecipe> recipes;
   Normalization normalization = Normalization::kPartition;

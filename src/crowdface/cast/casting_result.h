@@ -24,9 +24,12 @@ struct Shortfall {
   std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
   /// how often each constraint rejected a candidate for the face that could not be cast
   RejectionCounts rejections;
-  int group_index = -1;  ///< group of the sampled face that could not be found, or −1
-  What what = What::kSampledFace;
-  std::string name = {};  ///< name of the family, or id of the face unless it is a sampled face
+  /// index of the group of the sampled face that could not be cast; −1 if this face has no group,
+  /// or if a face of another kind or a family could not be cast
+  int group_index = -1;
+  What what = What::kSampledFace;  ///< what could not be cast
+  /// name of the family, or id of the face, that could not be cast; empty for a sampled face
+  std::string name = {};
 };
 
 struct ChangedFace;
@@ -48,7 +51,8 @@ struct ChangedFace {
   FaceSpace::Point point;  ///< point of the changed face in the face space
   /// the changes, in the order in which casting applied them: first the changes of the config
   std::vector<AppliedChange> changes = {};
-  TraitLimits traits = {};  ///< the limits on the measurements that all changes together request
+  /// limits on the face's measurements: the limits of all changes together
+  TraitLimits traits = {};
   /// whether the face was redrawn, so that it now shows another person
   bool is_other_person = false;
   /// the original, if this face is a variant of another face
@@ -60,8 +64,8 @@ struct CastingResult {
   /// all faces: first the faces of recipes, then of families, then the sampled faces 1 … count
   std::vector<FacePlan> crowd;
   std::vector<FaceSpace::Point> points;  ///< each face's point in the face space
-  std::vector<int> group_indices;        ///< group of each sampled face, or −1
-  std::vector<FamilyPlan> families;
+  std::vector<int> group_indices;        ///< for each sampled face: index of its group, or −1
+  std::vector<FamilyPlan> families;      ///< families of the crowd, in the order of the config
   /// faces that reviews rejected, in the order of rejection; a face and its replacement have the
   /// same id
   std::vector<FacePlan> rejected;

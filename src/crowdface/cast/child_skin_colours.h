@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// Parameters for choosing the skin colours of faces with parents.
 struct ChildSkinOptions {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;               ///< seed of the crowd's random numbers
   std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
   HeadTags tags;                        ///< the tags of each head, or empty
   /// tone of each head: the mean optical density of the head's colour texture

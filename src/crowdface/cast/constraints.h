@@ -72,7 +72,8 @@ std::string describe_violation(RejectionReason reason, const DiversityOptions& d
 
 /// Number of rejected candidates for each reason.
 struct RejectionCounts {
-  std::array<std::uint64_t, kReasonCount> counts = {};  ///< indexed by RejectionReason
+  /// number of rejected candidates for each RejectionReason
+  std::array<std::uint64_t, kReasonCount> counts = {};
   void add(RejectionReason reason, std::uint64_t candidate_count = 1) {
     counts[static_cast<std::size_t>(reason)] += candidate_count;
   }

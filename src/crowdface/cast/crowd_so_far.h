@@ -33,6 +33,7 @@ class CrowdSoFar {
   std::vector<FacePlan> take_faces() { return std::move(faces_); }
   /// Moves the points out of this object. Afterwards, only `take_faces` may be called.
   std::vector<FaceSpace::Point> take_points() { return std::move(points_); }
+  /// Returns the search for the faces of this crowd that are nearest to a point.
   const NearestFaceSearch& nearest_search() const { return nearest_search_; }
 
  private:

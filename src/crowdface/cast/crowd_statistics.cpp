@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-/// Returns distance(i, j) for all j < i < count.
+/// Calls distance(i, j) for each pair of faces j < i < count, and returns the results.
 template <class Distance>
 std::vector<double> pairwise(std::size_t count, const Distance& distance) {
   std::vector<double> distances(count * (count - (count > 0 ? 1 : 0)) / 2);

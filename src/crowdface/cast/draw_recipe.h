@@ -13,9 +13,9 @@ namespace crowdface {
 /// The distribution from which a face is drawn: the parameters of the crowd or of a group, and the
 /// possible targets.
 struct FaceDistribution {
-  const SamplingOptions* sampling = nullptr;
-  std::vector<WeightedHead> targets;
-  std::optional<std::string> group;
+  const SamplingOptions* sampling = nullptr;  ///< parameters of the crowd or of the group
+  std::vector<WeightedHead> targets;          ///< possible targets, with their frequencies
+  std::optional<std::string> group;           ///< name of the group; empty: no group
   /// For each band, the heads that lend detail. A band that has no entry, or an empty entry, has
   /// the sources of `sampling`.
   std::vector<std::vector<Index>> sources = {};

@@ -45,7 +45,7 @@ class AvoidedFaces {
   std::optional<RejectionReason> rejection_reason(const FaceSpace::Point& point) const;
 
  private:
-  double min_distance_mm_;
+  double min_distance_mm_;  ///< smallest allowed distance from each point in `points_`
   std::vector<FaceSpace::Point> points_;  ///< points of the changed faces
 };
 

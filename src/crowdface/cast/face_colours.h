@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// Parameters for choosing colours (textures) at random, independently of shapes.
 struct ColourOptions {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;               ///< seed of the crowd's random numbers
   std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
   HeadTags tags;                        ///< the tags of each head, or empty
   /// The tags that must be equal on the head that lends colours and on the face's typical head.

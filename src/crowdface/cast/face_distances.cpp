@@ -10,7 +10,8 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kVerticesPerBlock = 1024;  ///< number of vertices that are transformed at a time
+/// The rigid alignment moves this number of vertices at a time.
+constexpr Index kVerticesPerBlock = 1024;
 
 double distance_of_views(const Eigen::Ref<const Positions>& a, const Eigen::Ref<const Positions>& b,
                          const Eigen::VectorXd& weights) {

@@ -39,11 +39,13 @@ class FaceJudge {
   void set_diversity(const DiversityOptions& diversity) { diversity_ = diversity; }
   /// Returns whether this judge checks whole meshes.
   bool checks_meshes() const { return find_mesh_defects_ != nullptr; }
+  /// From now on, check_skin checks only the coarse mesh.
   void stop_mesh_checks() { find_mesh_defects_ = nullptr; }
-  /// Returns the landmarks of a face in microseconds, see FaceMeasurer::landmarks. Returns no rows
-  /// if there are neither limits on measurements nor distributions of measurements.
+  /// Returns the positions of a face's landmarks, see FaceMeasurer::landmarks. Takes microseconds.
+  /// Returns no rows if there are neither limits on measurements nor distributions of measurements.
   Positions landmarks(const Recipe& recipe) const;
-  /// Checks the limits on measurements at these landmarks.
+  /// Checks whether a face meets the limits on its measurements, given the positions of the face's
+  /// landmarks.
   std::optional<RejectionReason> check_traits(const FacePlan& face,
                                               const Positions& landmarks) const;
   /// Checks the limits on measurements at the landmarks of the whole mesh. Takes a millisecond.
@@ -83,12 +85,12 @@ class FaceJudge {
   const FaceSpace& space_;
   DiversityOptions diversity_;
   BelievabilityOptions believability_;
-  NearestFaceSearch head_search_;
+  NearestFaceSearch head_search_;  ///< finds heads (and mirror images of heads) near a point
   /// a face that is nearer to a head than this distance counts as the same person as the head
   double same_person_mm_;
   Plausibility plausibility_;
-  const ProxySkin* proxy_skin_;
-  MeshDefectFinder find_mesh_defects_;
+  const ProxySkin* proxy_skin_;         ///< coarse mesh; null: no check of the skin
+  MeshDefectFinder find_mesh_defects_;  ///< null: whole meshes are not checked
   std::optional<TraitRules> trait_rules_;
 };
 

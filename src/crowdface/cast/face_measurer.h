@@ -15,11 +15,12 @@ namespace crowdface {
 /// stored smoothing levels.
 class FaceMeasurer {
  public:
-  /// A landmark as a weighted mean of three samples. All weights are zero if no measurement needs
-  /// the landmark.
+  /// A landmark as a point in a triangle of the mesh: the weighted mean of the triangle's three
+  /// corners. All weights are zero if no measurement needs the landmark.
   struct Landmark {
-    std::array<Index, 3> samples = {};   ///< indices of the samples, see HeadsAtSamples
-    std::array<double, 3> weights = {};  ///< weights of the samples
+    /// corners of the triangle, as indices of samples in HeadsAtSamples
+    std::array<Index, 3> samples = {};
+    std::array<double, 3> weights = {};  ///< weights (barycentric coordinates) of the corners
   };
   /// Computes the landmarks on the mesh that is written for a face, #landmarks by 3 in millimetres.
   /// Must be callable from any thread.
@@ -35,11 +36,12 @@ class FaceMeasurer {
         head_distributions_(std::move(head_distributions)),
         exact_landmarks_(std::move(exact_landmarks)) {}
 
-  /// Computes the landmarks of a face in microseconds, #landmarks by 3 in millimetres. Ignores the
-  /// correction of the gap between the lips (made after blending), which moves the skin around the
-  /// mouth by fractions of a millimetre.
+  /// Computes the positions of a face's landmarks: #landmarks by 3, in millimetres. The computation
+  /// takes microseconds. Ignores the correction of the gap between the lips (made after blending),
+  /// which moves the skin around the mouth by fractions of a millimetre.
   Positions landmarks(const Recipe& recipe) const;
-  /// Computes the landmarks of the mesh that is written for a recipe, in about a millisecond.
+  /// Computes the positions of the landmarks on the mesh that is written for a recipe. Takes about
+  /// a millisecond.
   Positions exact_landmarks(const Recipe& recipe) const { return exact_landmarks_(recipe); }
 
   const TraitDistributions& head_distributions() const { return head_distributions_; }
@@ -47,7 +49,7 @@ class FaceMeasurer {
   bool meets(const TraitLimits& limits, const Positions& landmarks) const;
 
  private:
-  HeadsAtSamples heads_;
+  HeadsAtSamples heads_;  ///< data of the heads at the corners of the landmarks' triangles
   std::vector<Landmark> landmarks_;
   TraitDistributions head_distributions_;
   ExactLandmarks exact_landmarks_;

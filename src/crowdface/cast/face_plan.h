@@ -13,11 +13,11 @@ namespace crowdface {
 
 /// The head and the earlier face that are nearest to a face; for information only.
 struct NearestNeighbours {
-  Index head = 0;  ///< index of the nearest input head
-  double head_distance_mm = 0;
+  Index head = 0;               ///< index of the nearest input head
+  double head_distance_mm = 0;  ///< distance between the face and `head`
   /// id of the nearest of the faces before this face in the plan
   std::optional<std::string> earlier_face;
-  double earlier_face_distance_mm = 0;
+  double earlier_face_distance_mm = 0;  ///< distance between the face and `earlier_face`
 };
 
 /// How casting found a face. The face's mesh does not depend on these notes.

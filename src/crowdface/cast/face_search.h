@@ -43,7 +43,8 @@ class FaceSearch {
   struct FoundFace {
     FacePlan face;
     FaceSpace::Point point;
-    /// has no rows if the crowd has neither limits nor distributions of measurements
+    /// positions of the face's landmarks; no rows if the crowd has neither limits nor distributions
+    /// of measurements
     Positions landmarks = {};
   };
   /// Returns the candidate that is farthest from the sampled faces of the current crowd and passes
@@ -109,8 +110,10 @@ class FaceSearch {
   GenerateCandidate generate_candidate_;
   const FaceJudge& judge_;
   const DiversityOptions& diversity_;
-  std::size_t wanted_candidate_count_;          ///< number of acceptable candidates in a round
-  std::uint32_t first_attempt_, next_attempt_;  ///< numbers of the first and of the next candidate
+  /// number of acceptable candidates that a round should find
+  std::size_t wanted_candidate_count_;
+  /// number of the first candidate of this search, and of the next candidate to generate
+  std::uint32_t first_attempt_, next_attempt_;
   /// Number of the attempt after the last allowed attempt. Each candidate that violates limits on
   /// measurements raises `attempts_end_` by one, up to a bound.
   std::uint32_t attempts_end_;

@@ -22,8 +22,8 @@ constexpr Index kMaxBasisFunctions = 400;
 /// this distance, in millimetres. An additional coordinate stores the distance of a face from the
 /// span of the remaining directions.
 constexpr double kFaceTolerance = 0.05;
-/// largest number of directions for each orientation (unmirrored and mirrored), before directions
-/// are left out
+/// Largest number of principal directions for each orientation (unmirrored and mirrored), before
+/// FaceSpace leaves out directions.
 constexpr Index kMaxDirections = 192;
 constexpr std::uint64_t kTrainingFaces = 1024;
 
@@ -48,8 +48,8 @@ bool is_extrapolated(const Recipe& recipe) {
 }  // namespace
 
 /// The order of the coordinate functions: the mean head, then the deviation of each head from the
-/// mean head, then the displacement fields. The fields are sorted by region, then by head,
-/// then by mode. Each function has three rows in a matrix: x, y and z.
+/// mean head, then the displacement fields. The fields are sorted by region, then by head, then by
+/// mode (see smoothing_displacement_modes). Each function has three rows in a matrix: x, y and z.
 struct FaceSpace::FunctionOrder {
   Index heads, modes;
   static constexpr Index kMean = 0;
@@ -379,8 +379,9 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     });
     FloatRows metric(rank, rank);
     parallel_for_each(rank, [&](Index d) {
-      // Multiply direction d by G_k, separately for each coordinate x, y, z. `add_product` reads
-      // the rows of `gram` as columns, because G_k is symmetric.
+      // Multiply principal direction d by the matrix G_k (see find_region_metrics), separately for
+      // each coordinate x, y, z. `add_product` reads the rows of `gram` as columns, because G_k is
+      // symmetric.
       const auto count = static_cast<std::size_t>(functions);
       std::vector<float> along(3 * count, 0.F);
       for (std::size_t c = 0; c < 3; ++c) {

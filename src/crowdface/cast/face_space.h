@@ -11,13 +11,17 @@ namespace crowdface {
 
 /// The parts of a face space that take long to compute.
 struct FaceSpaceTables {
-  FloatRows level_coefficients;  ///< #levels by #modes: coefficient of each mode at each level
+  /// #levels by #modes: the coefficient of each mode (see smoothing_displacement_modes) at each
+  /// smoothing level, divided by the mode's largest absolute coefficient
+  FloatRows level_coefficients;
   /// 3·#functions by #P: the coefficients of the coordinate functions in an orthonormal basis of P
   /// scalar functions on the skin. A coordinate function has three rows, for its x, y and z. Each
   /// face is a linear combination of the coordinate functions.
   FloatRows basis_coefficients;
-  FloatRows principal_directions;  ///< #D by 3·#P: principal directions of the aligned faces
-  /// the metric of each region, #D by #D; empty if there is only one region
+  /// #D by 3·#P: one principal direction of the aligned faces per row
+  FloatRows principal_directions;
+  /// For each region, the matrix of the region's metric, #D by #D; see find_region_metrics. Empty
+  /// if there is only one region.
   std::vector<FloatRows> region_metrics;
 };
 
@@ -71,7 +75,7 @@ class FaceSpace {
   static double distance(const Point& a, const Point& b);
   /// A point, and one region's metric multiplied by the point's coordinates.
   struct RegionPoint {
-    const Point* point = nullptr;  ///< the point itself
+    const Point* point = nullptr;  ///< the point of a face
     /// the region's metric multiplied by the point's coordinates with and without extrapolation,
     /// #dimensions each; empty if there is only one region
     Eigen::VectorXf metric_times_coordinates_with_extrapolation,
@@ -186,8 +190,9 @@ class FaceSpace {
   std::vector<Index> nonzero_weight_samples_;  ///< indices of the samples with nonzero weight
   Eigen::VectorXf weight_square_roots_;        ///< √w of each sample in `nonzero_weight_samples_`
   FaceSpaceTables tables_;
-  Shape mean_shape_;                 ///< shape of the mean head
-  FloatRows directions_transposed_;  ///< 3·#P by #D, padded with zeros to a multiple of 16 columns
+  Shape mean_shape_;  ///< coefficients of the mean head in the basis
+  /// one principal direction per column: 3·#P by #D, padded with zeros to a multiple of 16 columns
+  FloatRows directions_transposed_;
   /// for each region, its fraction of the face's surface area; empty if there is only one region
   std::vector<double> region_area_fractions_;
 };

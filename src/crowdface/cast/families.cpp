@@ -78,9 +78,10 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     rejections.add(founder.rejections());
     if (!found) continue;
     const double to_half = sampler.fraction_of_strangers_nearer_than_parent(found->point);
-    // The limit grows with the number of tries. If both parents are new, the search soon finds a
-    // pair that matches well. If one parent is given, perhaps no new parent matches this parent
-    // well.
+    // The founder may have at most this fraction of strangers that are nearer to the founder than a
+    // parent is. The limit grows with the number of tries. If both parents are new, the search soon
+    // finds a pair that matches well. If one parent is given, perhaps no new parent matches this
+    // parent well.
     const double enough =
         kMaxFractionOfNearerStrangersForFounder * (0.5 + static_cast<double>(f) / kMaxCouples);
     if (drawn && f < kMaxCouples && to_half > enough) continue;

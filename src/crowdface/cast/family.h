@@ -16,7 +16,8 @@ struct Parent {
   std::string id;  ///< id of the face, with or without the crowd's name; or name of the head
   /// whether the parent does not exist yet, so that casting makes a face with this id
   bool is_new = false;
-  /// for a new parent: the group whose parameters are used; empty: the crowd's parameters
+  /// for a new parent: index of the group that the parent belongs to; empty: no group, so the
+  /// crowd's parameters apply
   std::optional<std::size_t> group = {};
   /// For a new parent that belongs to no group, the heads that may be the parent's target: the
   /// heads tagged female (mother) or male (father). Empty: all targets of the crowd.
@@ -27,12 +28,13 @@ struct Parent {
 struct FamilyOptions {
   std::string name;
   int member_count = 0;
-  /// group whose parameters are used; empty: the crowd's parameters
+  /// index of the group that the members belong to; empty: no group, so the crowd's parameters
+  /// apply
   std::optional<std::size_t> group;
   /// the head that is the target of all members; empty: members inherit the target from the parents
   /// or the founder
   std::optional<Eigen::Index> target;
-  std::vector<Parent> parents;  ///< mother and father, or empty
+  std::vector<Parent> parents;  ///< the mother and the father; empty if the family has no parents
   /// one entry for each band of each region, region by region: 0 if the detail comes from the
   /// mother, 1 from the father, −1 from a random parent
   std::vector<int> parent_of_band;
@@ -43,8 +45,9 @@ struct FamilyOptions {
   /// Whether members are as similar as twins: all are within 0.5 mm of the same face. This face is
   /// not in the crowd.
   bool are_twins = false;
-  AgeRange age = {};  ///< ages of the members
-  /// limits that replace the crowd's or group's limits on the same measurements
+  AgeRange age = {};  ///< range of the members' ages
+  /// limits on the members' measurements; a limit replaces the limit of the crowd or group on the
+  /// same measurement
   TraitLimits traits = {};
 };
 

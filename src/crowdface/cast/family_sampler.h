@@ -94,7 +94,7 @@ class FamilySampler {
     Age age;
     /// for twins: the age of their prototype in years, if this age was given in years
     std::optional<double> age_years_of_twins = {};
-    double distance_mm = 0;  ///< distance from the founder
+    double distance_mm = 0;  ///< distance of the member from the founder
   };
 
   /// Stores a parent in `parents_`, without the effects of the parent's age.
@@ -141,7 +141,8 @@ class FamilySampler {
   std::vector<KnownParent> parents_;
   /// indices in `parents_` of the parents that are not in the crowd yet
   std::vector<std::size_t> parents_not_in_crowd_;
-  std::vector<FaceSearch::FoundFace> new_parents_;  ///< see new_parents()
+  /// parents that the last call of sample_parents made
+  std::vector<FaceSearch::FoundFace> new_parents_;
   /// Distribution of the third contributor: a random face from which members inherit what comes
   /// from neither parent.
   FaceDistribution third_contributor_distribution_;

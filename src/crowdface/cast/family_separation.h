@@ -41,7 +41,7 @@ class FamilySeparation {
     /// distance from this member to the farthest member of its family
     double distance_to_farthest_member_mm;
   };
-  std::vector<Member> members_;
+  std::vector<Member> members_;  ///< members of all families
 };
 
 /// Random faces that belong to no family. The distances from a face to these random faces show how

@@ -4,7 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/cast/float_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway needs this order: foreach_target.h first, then the code compiled once for each target.
+// The SIMD library Highway needs this order: foreach_target.h first, then the code that is compiled
+// once for each instruction set.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();

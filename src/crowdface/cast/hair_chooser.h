@@ -18,7 +18,7 @@ namespace crowdface {
 /// The parameters of HairChooser. The members have the same meaning as the members of
 /// AttachmentOptions.
 struct HairOptions {
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;               ///< seed of the crowd's random numbers
   HeadTags tags;                        ///< the tags of each head
   std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
   /// for each group: the fraction of the faces that have each named hair colour

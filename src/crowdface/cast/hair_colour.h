@@ -14,7 +14,7 @@ namespace crowdface {
 struct HairColour {
   /// concentration of the brown to black pigment: 0.2 gives blond hair, 1 black hair
   double eumelanin = 0;
-  double pheomelanin = 0;    ///< concentration of the red pigment
+  double pheomelanin = 0;    ///< concentration of the red pigment, from 0 to 1
   double grey_fraction = 0;  ///< fraction of hairs without pigment (white hairs)
   bool operator==(const HairColour&) const = default;
 };

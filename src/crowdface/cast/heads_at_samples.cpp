@@ -12,7 +12,9 @@ namespace crowdface {
 namespace {
 
 void find_sample_ranges(HeadsAtSamples& sampled) {
-  // ranges at most this far apart are joined, because a short gap costs less than another range
+  // If two ranges of samples (see sample_ranges) are at most this number of samples apart, one
+  // range replaces both ranges. A loop over the samples between both ranges costs less than another
+  // range.
   constexpr Index kMaxJoinedGap = 8;
   for (Index k = 0; k < sampled.region_weights.cols(); ++k) {
     auto& sample_ranges = sampled.sample_ranges.emplace_back();
@@ -25,7 +27,8 @@ void find_sample_ranges(HeadsAtSamples& sampled) {
   }
 }
 
-/// Copies the samples of all heads in millimetres, and computes the mean of the heads.
+/// Copies the positions of the samples on all heads, converts the positions to millimetres, and
+/// computes the mean of the heads.
 ///
 /// \param whole  whole(head) returns all positions of a head, or of the head's mirror image.
 template <class Whole>
@@ -52,8 +55,8 @@ Positions target_samples(const HeadsAtSamples& heads, const Recipe& recipe) {
 
 Positions blended_samples(const HeadsAtSamples& heads, const Recipe& recipe) {
   Positions face = target_samples(heads, recipe);
-  // The displacements have single precision, which is precise enough and saves time: casting calls
-  // this function for every accepted face.
+  // The sum of the displacements has single precision, which is precise enough and saves time:
+  // casting calls this function for every accepted face.
   std::vector<float> change(static_cast<std::size_t>(face.size()));
   for (std::size_t k = 0; k < recipe.regions.size(); ++k) {
     std::fill(change.begin(), change.end(), 0.F);

@@ -19,7 +19,7 @@ struct HeadsAtSamples {
   std::vector<Positions> heads;
   Positions mean;          ///< the mean of `heads`, #S by 3, in millimetres
   Columns region_weights;  ///< #S by #regions: each region's weight at each sample
-  /// for each head, the displacements of the samples at all stored smoothing levels
+  /// for each head: how far smoothing displaces the samples, at all stored smoothing levels
   std::span<const Trajectory> trajectories;
   /// For each region, ranges [begin, end) that contain all samples with nonzero weight. Loops over
   /// a region's samples skip the other samples.
@@ -50,10 +50,13 @@ std::shared_ptr<const HeadsAtSamples> sample_mirror_images(const HeadSet& head_s
                                                            const FaceSamples& trajectory_vertices,
                                                            const HeadsAtSamples& heads);
 
-/// Returns the target of a recipe at the samples, #S by 3 in millimetres, mirrored like the face.
+/// Returns the positions of the samples on a recipe's target (a head or a mixture of heads), #S by
+/// 3 in millimetres. The target is mirrored if the recipe mirrors the face, and has the asymmetry
+/// of the recipe.
 Positions sample_target(const HeadsAtSamples& heads, const Recipe& recipe);
 
-/// Returns the face of a recipe at the samples, #S by 3 in millimetres, not aligned (Eq. 7).
+/// Returns the positions of the samples on a recipe's face, #S by 3 in millimetres (Eq. 7). The
+/// face is not aligned to the mean head.
 ///
 /// \throws BrokenPrecondition if the face is mirrored or its asymmetry is not 1, and there are no
 /// mirror images.

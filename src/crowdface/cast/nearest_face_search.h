@@ -89,7 +89,8 @@ class GrowingPointSet {
  private:
   Index dimensions_;
   Index size_ = 0;
-  /// from the oldest points to the newest; each tree contains more points than the next tree
+  /// trees of all points except the newest. The first tree contains the oldest points; each tree
+  /// contains more points than the next tree.
   std::vector<PointTree> trees_;
   PointBlocks newest_points_;
 };

@@ -12,7 +12,7 @@ namespace crowdface {
 struct PlanNames {
   std::vector<std::string> heads;
   std::vector<std::string> regions;
-  std::vector<std::string> bands = {};  ///< empty: all detail is one band
+  std::vector<std::string> bands = {};  ///< names of the bands; empty: all detail is one band
   /// Names of the attachments. Empty if recipes have no attachments.
   std::vector<std::string> attachments = {};
   std::vector<std::string> traits = {};  ///< names of the measurements that a plan records

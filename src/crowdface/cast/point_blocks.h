@@ -29,8 +29,8 @@ struct NearestPoint {
 /// Bounding box of points in their leading (first few) coordinates. If points have fewer
 /// coordinates than the box, the missing coordinates are zero.
 struct LeadingCoordinatesBox {
-  static constexpr std::size_t kDimensions = 8;  ///< number of leading coordinates
-  std::array<float, kDimensions> low, high;
+  static constexpr std::size_t kDimensions = 8;  ///< number of coordinates that the box bounds
+  std::array<float, kDimensions> low, high;      ///< smallest and largest value of each coordinate
 
   /// Returns the squared distance from a point to the box; 0 inside the box.
   float squared_distance(const std::vector<float>& query) const {
@@ -95,7 +95,7 @@ class PointBlocks {
         (index / kLanes * kCoordinatesPerChunk + dimension % kCoordinatesPerChunk) * kLanes +
         index % kLanes);
   }
-  /// Returns the chunk that contains a coordinate.
+  /// Returns the chunk that contains this coordinate of all points; see `chunks_`.
   const std::vector<float>& chunk_of(Index dimension) const {
     return chunks_[static_cast<std::size_t>(dimension / kCoordinatesPerChunk)];
   }

@@ -12,8 +12,9 @@ namespace crowdface {
 /// that their whole meshes need not be built.
 class ProxySkin {
  public:
-  /// \param mean   #S by 3, samples of the mean head in millimetres.
-  /// \param heads  #S by 3 each, samples of the heads that may be targets.
+  /// \param mean   #S by 3, positions of the samples on the mean head, in millimetres.
+  /// \param heads  For each head that may be a target: #S by 3, positions of the samples on this
+  ///               head.
   ProxySkin(std::vector<Triangle> triangles, const Positions& mean,
             const std::vector<Positions>& heads);
 
@@ -27,21 +28,23 @@ class ProxySkin {
   const ReferenceSkin& reference_skin_of_head(Index head) const {
     return reference_skins_of_heads_[static_cast<std::size_t>(head)];
   }
-  /// Prepares a target that is a mixture of heads.
-  /// \param samples  #S by 3, samples of the target in millimetres
+  /// Makes the reference skin of a target that is a mixture of heads. (The constructor makes the
+  /// reference skins of single heads.)
+  /// \param samples  #S by 3, positions of the samples on the target, in millimetres
   ReferenceSkin make_reference_skin(const Positions& samples) const;
 
   /// Returns the number of triangles that take part in intersections which the reference skin does
   /// not have. Considers only pairs of triangles that are near each other on the mean head but are
   /// not neighbours, as at lips, lids, nostrils and folds.
   ///
-  /// \param samples  #S by 3, samples of the face in millimetres
+  /// \param samples  #S by 3, positions of the samples on the face, in millimetres
   Index count_newly_intersecting_triangles(const Positions& samples,
                                            const ReferenceSkin& reference) const;
 
  private:
   std::vector<Triangle> triangles_;
-  std::vector<TrianglePair> nearby_pairs_;  ///< pairs that are checked for intersection
+  /// pairs of triangles that are checked for intersection
+  std::vector<TrianglePair> nearby_pairs_;
   std::vector<ReferenceSkin> reference_skins_of_heads_;
 };
 

@@ -16,13 +16,13 @@ struct ReviewMark {
     kKeep,    ///< the face stays as it is
     kReject,  ///< the face is redrawn, except for the locked parts
   };
-  std::string id;  ///< id of the face
+  std::string id;  ///< id of the face that is marked
   Verdict verdict = Verdict::kKeep;
   /// Bands of regions that stay the same when the face is redrawn. The number of a band is (index
   /// of the region) · #bands + (index of the band). If the crowd has no bands, #bands is 1, and the
   /// numbers are the indices of the regions.
   std::vector<std::size_t> locked_bands;
-  std::optional<std::string> note;  ///< text of the reviewer
+  std::optional<std::string> note;  ///< the reviewer's comment on the face
 };
 
 /// A change of one face. To add a config key, add a member here, a row in config/changes_keys.cpp,
@@ -30,12 +30,13 @@ struct ReviewMark {
 /// run/changed_faces.cpp).
 struct FaceChange {
   enum class AgeStep { kOlder, kYounger };
-  std::string id;                   ///< id of the face
+  std::string id;                   ///< id of the face that is changed
   std::optional<AgeStep> age_step;  ///< makes the face older or younger by a fixed step
   std::optional<Age> age;           ///< new age; a change has at most one of `age` and `age_step`
   /// id of the face of which this face becomes a variant
   std::optional<std::string> variant_of;
-  double variant_distance_mm = 1.5;  ///< distance between this face and `variant_of`
+  /// requested distance between this face and the face `variant_of`
+  double variant_distance_mm = 1.5;
   std::optional<std::string> group;  ///< group in which the face is redrawn
   /// Bands of regions that stay the same while the other bands are redrawn; encoded as in
   /// ReviewMark.
@@ -47,7 +48,7 @@ struct FaceChange {
   std::optional<std::vector<std::string>> attachments;
   /// Kinds and names of attachments that are taken off the face.
   std::vector<std::string> removed_attachments;
-  std::optional<std::string> hair;  ///< name of a hair colour
+  std::optional<std::string> hair;  ///< name of the face's new hair colour
   /// heads whose textures are blended for the face; empty: no change
   std::vector<WeightedHead> colours;
 
@@ -73,7 +74,7 @@ struct Review {
   /// current value applies.
   std::optional<double> min_distance_mm = {};
   std::vector<ReviewMark> marks;
-  std::vector<FaceChange> changes;  ///< changes, applied after the marks
+  std::vector<FaceChange> changes;  ///< requested changes of faces; applied after the marks
 };
 
 }  // namespace crowdface

@@ -14,7 +14,8 @@ namespace crowdface {
 /// Dijkstra's algorithm from all samples at once). Distances along edges keep the upper and the
 /// lower lip in different cells, even where the lips touch.
 struct SampleCells {
-  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< no cell
+  /// marks a vertex outside the skin, which belongs to no cell
+  static constexpr std::uint32_t kNone = 0xffffffffU;
   /// for each vertex, the index of the sample whose cell contains the vertex; kNone outside the
   /// skin
   std::vector<std::uint32_t> sample_of_vertex;

@@ -69,21 +69,23 @@ struct PositionDistribution {
 struct SmoothnessDistribution {
   /// The unit of `range`.
   enum class Unit {
-    kFraction,    ///< a fraction of L_max, like the slider in the paper
+    /// a fraction of L_max, the largest number of smoothing iterations; the slider in the paper has
+    /// the same unit
+    kFraction,
     kIterations,  ///< a number of smoothing iterations
     /// a wavelength in mm: smoothing halves the amplitude of relief that has this wavelength
     /// (docs/method.md)
     kSize,
   };
   Unit unit = Unit::kFraction;
-  Range range = {0.2, 0.9};
+  Range range = {0.2, 0.9};  ///< values in `unit`; all values are equally likely
 };
 
 /// The distributions of one region.
 struct RegionSampling {
   PositionDistribution position;
   SmoothnessDistribution smoothness;
-  Range extrapolation = {1, 1};  ///< factor e of Fig. 6 in the paper
+  Range extrapolation = {1, 1};  ///< range of the extrapolation factor (e in Fig. 6 of the paper)
 };
 
 /// The parameters of one band of detail. If a member is empty, the value of the band's region or of
@@ -92,12 +94,13 @@ struct BandSampling {
   /// The distributions of this band in one region.
   struct Region {
     std::optional<PositionDistribution> position;
-    /// level at which the band begins; may be empty for the first band only
+    /// Distribution of the smoothing level at which the band begins. Only the first band may have
+    /// no value.
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
   };
   std::string name;
-  std::vector<Region> regions;  ///< one entry for each region
+  std::vector<Region> regions;  ///< distributions of the band, one entry for each region
   /// heads that lend detail to the band, ascending
   std::optional<std::vector<Eigen::Index>> sources;
   /// factor (0 … 1) on the effect that ageing has on the band
@@ -137,13 +140,15 @@ enum class Mirroring {
 struct SamplingOptions {
   std::vector<WeightedHead> targets;  ///< possible targets, with their frequencies
   std::vector<Eigen::Index> sources;  ///< heads that lend detail, ascending
-  /// one entry for each region (one entry in total if there are no regions)
+  /// distributions of the regions, one entry for each region (one entry in total if there are no
+  /// regions)
   std::vector<RegionSampling> regions;
-  std::vector<BandSampling> bands;  ///< from coarse to fine; empty: all detail is one band
+  /// parameters of the bands, from coarse to fine; empty: all detail is one band
+  std::vector<BandSampling> bands;
   /// largest number of heads that may have weight in one band of one region; empty: no limit
   std::optional<int> max_sources;
   AgeRange age = {};         ///< range of the ages of sampled faces
-  Range asymmetry = {1, 1};  ///< see Recipe::asymmetry
+  Range asymmetry = {1, 1};  ///< range of the asymmetry factor; see Recipe::asymmetry
   Mirroring mirror = Mirroring::kNone;
   std::vector<Eigen::Index> heads_tagged_old;    ///< heads with the tag `old`, ascending
   std::vector<Eigen::Index> heads_tagged_young;  ///< heads with the tag `young`, ascending
@@ -184,7 +189,8 @@ struct Group {
   /// Maps a kind of attachments to the fraction of the group's faces that wear no item of this
   /// kind. This fraction replaces the crowd's fraction.
   std::map<std::string, double> fraction_without_item_by_kind = {};
-  /// fractions of hair colours, which replace the crowd's fractions
+  /// Maps the name of a hair colour to the fraction of the group's faces with this colour. Replaces
+  /// the crowd's fractions.
   std::map<std::string, double> hair_colours = {};
 };
 
@@ -194,7 +200,8 @@ struct ManualRecipe {
   /// The values of one band; empty values are random.
   struct Band {
     std::optional<PlanePoint> position;
-    /// weights of the heads that lend detail; empty: not given. Not together with `position`.
+    /// weights of the heads that lend detail; empty: the recipe gives no weights. A recipe cannot
+    /// give both weights and a `position`.
     std::vector<WeightedHead> weights;
     std::optional<SmoothnessDistribution> smoothness;
     std::optional<Range> extrapolation;
@@ -202,11 +209,11 @@ struct ManualRecipe {
   /// The values of a region, which apply to all bands that have no values of their own. Exception:
   /// the region's smoothness applies only to the first band.
   struct Region : Band {
-    std::vector<Band> bands;  ///< one entry for each band, or empty
+    std::vector<Band> bands;  ///< values of the bands, one entry for each band, or empty
   };
   std::string id;
   std::optional<Eigen::Index> target;
-  std::vector<Region> regions;  ///< one entry for each region
+  std::vector<Region> regions;  ///< values of the regions, one entry for each region
   /// heads whose textures are blended for the face; empty: not given
   std::vector<WeightedHead> colours = {};
   std::optional<AgeRange> age;  ///< range of the face's age; empty: as for sampled faces

@@ -23,10 +23,11 @@ std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether face `n` must be assigned to one of the shares. Share q must get at least ⌊q·m⌋
-/// of the first m faces. So face `n` must be assigned if there is an m from n to n + horizon for
-/// which all shares together still need more than m − n faces: only m − n of the first m faces
-/// follow face `n`.
+/// Returns whether face `n` must be assigned to a share (to any share), because otherwise a share
+/// would miss a deadline. A share with the fraction q must get at least ⌊q·m⌋ of the first m faces.
+/// Face `n` must be assigned if there is an m from n to n + horizon for which all shares together
+/// still need more than m − n faces, because only the m − n faces n + 1 to m follow face `n`.
+/// \param served  number of faces before face `n` that are assigned to shares
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {
@@ -37,8 +38,9 @@ bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::ui
   return false;
 }
 
-/// Returns whether all shares can still get their faces: at least ⌊q·m⌋ of the first m faces for
-/// share q, for all m from n to n + horizon.
+/// Returns whether the faces after face `n` are enough for all shares. For each m from n to n +
+/// horizon, a share with the fraction q must get at least ⌊q·m⌋ of the first m faces.
+/// \param served  for each share: number of the faces 1 to n that are assigned to the share
 bool can_serve(const std::vector<double>& shares, const std::vector<std::uint64_t>& served,
                std::uint64_t n, std::uint64_t horizon) {
   for (std::uint64_t m = n; m <= n + horizon; ++m) {

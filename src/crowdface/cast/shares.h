@@ -9,20 +9,21 @@
 
 namespace crowdface {
 
-/// Returns the index of the share that each face is assigned to, or −1 for no share. Of the first n
-/// faces, share q gets at least ⌊q·n⌋. If the deadlines of several shares fall on the same face,
-/// some or all of these shares get an earlier face. The first n entries do not depend on `count`.
+/// Returns the index of the share that each face is assigned to, or −1 for no share. A share with
+/// the fraction q gets at least ⌊q·n⌋ of the first n faces. If the deadlines of several shares fall
+/// on the same face, some or all of these shares get an earlier face. The first n entries do not
+/// depend on `count`.
 ///
 /// Faces are assigned as late as possible, in the order of their deadlines (earliest deadline
-/// first, Liu & Layland 1973): share q must have its m-th face by face ⌈m/q⌉. A face is assigned to
-/// a share only if some share would otherwise miss its deadline.
+/// first, Liu & Layland 1973): a share with the fraction q must have its m-th face by face ⌈m/q⌉. A
+/// face is assigned to a share only if some share would otherwise miss its deadline.
 ///
 /// \param shares  fractions of the faces; they sum to at most 1.
 std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_t count);
 
 /// Like schedule_shares, but in random order: each face is assigned at random to a share (or to no
-/// share), among the choices with which all shares can still get their faces. Of the first n faces,
-/// share q gets ⌊q·n⌋ or ⌈q·n⌉.
+/// share), among the choices with which all shares can still get their faces. A share with the
+/// fraction q gets ⌊q·n⌋ or ⌈q·n⌉ of the first n faces.
 ///
 /// \param shares   fractions of the faces; they sum to at most 1.
 /// \param purpose  Purpose of the random numbers; see random_uniform.

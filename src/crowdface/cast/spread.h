@@ -20,7 +20,7 @@ struct CandidatePool {
   std::vector<FacePlan> faces;
   std::vector<FaceSpace::Point> points;
   std::vector<int> group_indices;  ///< for each candidate: index of its group, or −1
-  RejectionCounts rejections;
+  RejectionCounts rejections;      ///< candidates that were rejected and are not in the pool
 };
 
 /// Generates a pool of at most `count` · `pool_size_factor` candidates. Groups have the same
@@ -41,7 +41,7 @@ class FarthestPoints {
  public:
   FarthestPoints(const CandidatePool& pool, const CrowdSoFar& crowd);
 
-  /// A candidate of the pool, and its distance.
+  /// A candidate of the pool, and its distance from the nearest face.
   struct Pick {
     Index candidate = -1;  ///< index of the candidate; −1: no candidate is left
     /// distance to the nearest picked or initial face; infinite if there is no such face

@@ -15,7 +15,8 @@ Index typical_head(const Recipe& recipe, const HeadTags& tags) {
       shares[tag] += part.weight;
     }
   }
-  // differences up to this value are only rounding errors
+  // scores or weights of two heads that differ by at most this value count as equal (rounding
+  // errors)
   constexpr double kTolerance = 1e-9;
   std::pair<double, double> best;
   Index typical = -1;

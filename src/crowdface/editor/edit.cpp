@@ -22,8 +22,8 @@ namespace {
   std::string where = "its address is not known yet";
   try {
     where = read_file(address);
-    // The address file belongs to another user, or the other editor has just started and has not
-    // written its address yet.
+    // The address file cannot be read: it belongs to another user, or the other editor has just
+    // started and has not written its address yet.
   } catch (const RecoverableError&) {
   }
   throw UsageError(concat(folder.parent_path().string(),
@@ -61,8 +61,8 @@ class EditorLock {
   FileLock lock_;
 };
 
-/// Returns the arguments of the `generate` run that makes the faces of the opened job. These
-/// include the overrides that the editor was started with.
+/// Returns the arguments of the `generate` run that makes the faces of the opened job. The
+/// arguments include the overrides that the editor was started with.
 std::vector<std::string> generate_arguments(const Config& config, const ConfigOverrides& overrides,
                                             const EditOptions& options) {
   std::vector<std::string> arguments = {"generate", config.file.string(), "--cache",

@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// Options of `crowdface edit`.
 struct EditOptions {
-  CacheFolder cache;  ///< folder of prepared heads
+  CacheFolder cache;  ///< folder that caches prepared heads
   int port = 0;       ///< port of the server; 0: any free port
   /// approximate maximum number of vertices of the mesh that the page shows
   std::size_t preview_vertices = 50'000;
@@ -29,10 +29,10 @@ struct EditOptions {
 void edit(const std::filesystem::path& config_or_crowd, const ConfigOverrides& overrides,
           const EditOptions& options, const std::function<void(const std::string&)>& started);
 
-/// Measures how long the editor takes to rebuild a face after a change of the position of one or of
-/// all regions, of the smoothness of one region, or of the target. Starts no server and writes no
-/// files. Returns a table of the times. For comparison, the table includes the frame time that the
-/// paper on Laplacian face blending reports.
+/// Measures how long the editor takes to rebuild a face after each of four changes: a new position
+/// of one region on the plane, new positions of all regions, a new smoothness of one region, and a
+/// new target. Starts no server and writes no files. Returns a table of the times. For comparison,
+/// the table includes the frame time that the paper on Laplacian face blending reports.
 std::string benchmark_edit(const std::filesystem::path& config_or_crowd,
                            const ConfigOverrides& overrides, const EditOptions& options);
 

@@ -92,21 +92,21 @@ class EditApi {
   bool is_outdated_request(const std::string& page, std::uint64_t request_number);
 
   const EditSession& session_;
-  bool may_edit_config_;  ///< see the constructor
+  bool may_edit_config_;  ///< whether requests may save recipes and regions to the job's config
   EditedFolder& folder_;
   GenerateRun& run_;
-  std::function<void()> reload_job_;
-  PageFiles page_;  ///< HTML, script and style of the page
+  std::function<void()> reload_job_;  ///< reloads the job and replaces this object
+  PageFiles page_;                    ///< HTML, script and style of the page
   EditPictures pictures_;
   EditAttachments attachments_;
   EditExpressions expressions_;
   DroppedFiles dropped_;     ///< files that the user drags from the desktop and drops on the page
-  RegionPainting painting_;  ///< guarded by `build_mutex_`
-  std::mutex build_mutex_;   ///< only one face is built at a time, because a build uses all cores
+  RegionPainting painting_;  ///< the painted regions of the job; guarded by `build_mutex_`
+  std::mutex build_mutex_;   ///< locked during a build of a face, which uses all cores
   /// Number of sampling attempts so far; each request continues from this number, so that it
   /// samples other faces.
   std::atomic<std::uint32_t> sampling_attempts_ = 0;
-  std::mutex newest_requests_mutex_;
+  std::mutex newest_requests_mutex_;  ///< guards `newest_requests_`
   /// maps the id of a page to the number of the page's newest request
   std::map<std::string, std::uint64_t> newest_requests_;
 };

@@ -20,8 +20,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Parses a word of the enumeration `Value`.
-/// \throws UsageError if the text is not a word of this enumeration.
+/// Returns the enumerator of `Value` whose word is the value of `key` in `body`.
+/// \throws UsageError if the value is not a word of this enumeration.
 template <class Value>
 Value word_in(const Json& body, const std::string& key) {
   const std::string text = text_in(body, key);

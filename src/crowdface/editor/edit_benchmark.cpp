@@ -27,7 +27,8 @@ void set_region_position(const CastingOptions& casting, Recipe& recipe, std::siz
                           casting.normalization, casting.sampling.max_sources);
 }
 
-/// The median time of several repetitions, in milliseconds.
+/// Returns the median time, in milliseconds, that a session takes to build a face and the page's
+/// data after a change of the recipe. Repeats the measurement several times.
 double median_ms(const EditSession& session, Recipe recipe, const Change& change) {
   constexpr int kRepetitions = 21;
   std::vector<double> times;

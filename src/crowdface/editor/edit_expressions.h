@@ -37,9 +37,10 @@ class EditExpressions {
  private:
   const Job& job_;
   std::mutex mutex_;
-  std::unique_ptr<const FaceShapes> shapes_;  ///< null until the first expression is requested
+  /// computes displacements; null until the first request
+  std::unique_ptr<const FaceShapes> shapes_;
   Positions cached_face_;  ///< the face for which `cached_displacements_` was computed
-  /// displacements of each expression at weight 1
+  /// for each expression: the vertex displacements of `cached_face_` at weight 1
   std::vector<Displacements> cached_displacements_;
 };
 

@@ -31,9 +31,11 @@ class EditPictures {
  private:
   const Job& job_;
   std::mutex mutex_;
+  /// renders thumbnails; null until the first thumbnail is requested
   std::unique_ptr<CrowdRenders> thumbnail_renders_;
-  std::map<Index, std::string> thumbnails_;  ///< maps a head to the PNG file of its thumbnail
-  std::unique_ptr<FaceTextures> textures_;
+  /// maps the index of a head to the PNG file of its thumbnail
+  std::map<Index, std::string> thumbnails_;
+  std::unique_ptr<FaceTextures> textures_;  ///< see textures(); null until the first call
 };
 
 }  // namespace crowdface

@@ -40,16 +40,16 @@ struct FaceMeasures {
   double nearest_head_distance_mm = 0;
   /// distance of the finished face, with the extrapolation factors of its recipe, to `nearest_head`
   double nearest_head_distance_with_extrapolation_mm = 0;
-  /// Index of the nearest face of the crowd. Ignores the measured face itself and the face from
-  /// which the user began the edit.
+  /// Index of the crowd's face that is nearest to the measured face. Ignores the measured face
+  /// itself and the face from which the user began the edit.
   std::optional<std::size_t> nearest_face;
-  double nearest_face_distance_mm = 0;
+  double nearest_face_distance_mm = 0;  ///< distance to `nearest_face`
   /// A measurement of the face.
   struct Trait {
     std::size_t trait = 0;            ///< index into measurements()
     double value = 0;                 ///< value on the face, in the unit of the measurement
     double difference_from_mean = 0;  ///< `value` minus the mean of the heads' values
-    double low = 0, high = 0;         ///< smallest and largest value of any head
+    double low = 0, high = 0;         ///< the heads' smallest and largest value of this measurement
   };
   std::vector<Trait> traits;  ///< all measurements that are available on these heads
   /// One sentence for each limit of the config that the face violates.
@@ -128,7 +128,8 @@ class EditSession {
   /// Roughness of a face at the preview's vertices, 0 … 255 for the range 0 … 1; empty if there is
   /// no roughness map.
   std::vector<std::uint8_t> preview_roughness(const TextureSet& texture_set) const;
-  /// Positions of the preview's vertices: three numbers for each preview vertex.
+  /// Positions of the preview's vertices on a face: three numbers for each preview vertex.
+  /// \param face  result of `build`
   std::vector<float> preview_points(const Positions& face) const;
 
  private:
@@ -155,13 +156,13 @@ class EditSession {
   /// For each head: the displacement fields from which the page computes smoothed shapes.
   std::vector<HeadSmoothing> preview_levels() const;
 
-  Job job_;
+  Job job_;  ///< the config, the input heads with their textures, and the smoothing operator
   TextureAtlas textures_;
   /// The preview mesh. A separate thread computes the preview mesh while the following members are
   /// constructed.
   std::future<PreviewMesh> preview_future_;
-  std::optional<std::vector<FacePlan>> crowd_;  ///< see crowd()
-  PreparedHeads prepared_;
+  std::optional<std::vector<FacePlan>> crowd_;  ///< the faces of the existing plan; see crowd()
+  PreparedHeads prepared_;                      ///< the heads, prepared for blending
   /// Set only with `levels: exact`: the heads prepared with `levels: basis`, because the page needs
   /// displacement fields.
   std::optional<PreparedHeads> preview_prepared_;
@@ -172,9 +173,9 @@ class EditSession {
   /// that differ from this face.
   mutable FaceBuilder::PreviousFace previous_face_;
   std::shared_future<JudgingData> judging_data_;
-  CastingOptions casting_;
+  CastingOptions casting_;  ///< inputs of casting, made from the config
   PreviewMesh preview_;
-  VertexFaces vertex_faces_;  ///< for each vertex of the heads: its polygons
+  VertexFaces vertex_faces_;  ///< for each vertex of the heads: the polygons at this vertex
   /// For each preview vertex: the visible fraction of the sky, for ambient occlusion. The
   /// computation takes about a second.
   std::shared_future<std::vector<float>> sky_visibility_;

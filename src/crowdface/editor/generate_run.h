@@ -14,11 +14,12 @@ namespace crowdface {
 
 /// Progress of a run, parsed from log lines such as "info: casting: 12/24, 3.1/s, 4 s left".
 struct RunProgress {
-  std::uint64_t done = 0, total = 0;  ///< finished items and all items of the current stage
-  double seconds_left = 0;            ///< estimated from the rate; 0 if unknown
-  std::string message;                ///< the last line of the log; a prefix "info: " is removed
+  /// number of finished tasks and of all tasks in the current stage, such as faces to cast
+  std::uint64_t done = 0, total = 0;
+  double seconds_left = 0;  ///< estimated time until the stage ends; 0 if unknown
+  std::string message;      ///< the last line of the log; a prefix "info: " is removed
 };
-/// Parses the last line of a log.
+/// Parses the last line of the log of a run.
 RunProgress read_progress(std::string_view log);
 
 /// Runs `crowdface generate` as a separate process, so that a crash of one process does not stop
@@ -52,10 +53,10 @@ class GenerateRun {
   std::mutex mutex_;
   State state_ = State::kIdle;
   bool was_stopped_ = false;  ///< whether `stop` was called during the newest run
-  pid_t process_ = 0;         ///< process of the newest run
+  pid_t process_ = 0;         ///< process id of the newest run
 };
 
-/// "idle", "running", "done", "failed" or "stopped".
+/// Returns the name of a state: "idle", "running", "done", "failed" or "stopped".
 std::string_view name_of(GenerateRun::State state);
 
 }  // namespace crowdface

@@ -30,8 +30,9 @@ class MeshFaults {
  private:
   /// The faults that a target head itself has. Faces built on this head may have the same faults.
   struct TargetFaults {
-    SkinCheck skin_check;      ///< compares the skin of faces with the head's skin
-    double exposed_parts_mm2;  ///< area of the head's parts that protrudes through the skin
+    SkinCheck skin_check;  ///< compares the skin of faces with the head's skin
+    /// area of teeth and other parts that protrude through the head's skin
+    double exposed_parts_mm2;
   };
   /// Returns the faults of a head; computed in the first call for this head.
   std::shared_ptr<const TargetFaults> target_faults(Index head) const;

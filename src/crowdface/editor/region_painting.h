@@ -18,7 +18,7 @@ namespace crowdface {
 /// A set of regions: the names of the regions, and each vertex's weights α for the regions.
 struct PaintedRegions {
   std::vector<std::string> names;
-  RegionWeights::Alpha alpha;  ///< #V by #names
+  RegionWeights::Alpha alpha;  ///< #V by #names: the weight of each vertex for each region
 };
 
 /// The painted regions of a job, for the editor's page. Not thread-safe.
@@ -83,7 +83,7 @@ class RegionPainting {
 
   EditSession& session_;
   HeadShape mean_head_;
-  std::optional<MaskPainter> painter_;  ///< created at the first stroke
+  std::optional<MaskPainter> painter_;  ///< paints the masks; created at the first stroke
   /// whether the painted masks have changed since the last call of `apply_masks`
   bool has_unapplied_paint_ = false;
   StrokeLog strokes_;

@@ -37,7 +37,8 @@ class StrokeLog {
   /// hash of the masks and of the preview on which the strokes are painted
   Digest preview_digest_;
   std::vector<nlohmann::ordered_json> strokes_;
-  std::unique_ptr<AppendFile> append_file_;  ///< open since the first call of `add`
+  /// appends to `file_`; null until the next call of `add`
+  std::unique_ptr<AppendFile> append_file_;
 };
 
 }  // namespace crowdface

@@ -12,7 +12,8 @@
 namespace crowdface {
 
 /// The textures of all materials and UDIM tiles of a head, combined in one image, because the page
-/// uses a single texture at a time. The layout is the same for all heads.
+/// uses a single texture at a time. Each texture has one cell of a grid. The layout is the same
+/// for all heads.
 class TextureAtlas {
  public:
   /// \param inputs  must outlive this object
@@ -48,11 +49,12 @@ class TextureAtlas {
                       Texel (*texel_of)(const LinearRgb&)) const;
 
   const Inputs& inputs_;
-  /// for each polygon: index of the cell, or TextureLayer::kNone; empty: no head has textures
+  /// For each polygon: index of the cell with the polygon's texture, or TextureLayer::kNone. Empty:
+  /// no head has textures.
   std::vector<std::uint32_t> cell_of_polygon_;
-  std::uint32_t cell_count_ = 0;  ///< number of cells; each shows one texture of a head
+  std::uint32_t cell_count_ = 0;  ///< number of cells with textures, one for each texture of a head
   int columns_ = 1, rows_ = 1;    ///< number of columns and rows of cells
-  int cell_px_ = 0;               ///< width and height of a cell
+  int cell_px_ = 0;               ///< width and height of a cell, in texels
 };
 
 }  // namespace crowdface

@@ -45,8 +45,8 @@ std::map<std::string, Eigen::Vector3d> landmarks_of_scan(
   }
 }
 
-/// Repeatedly removes the worst landmark, until a similarity transform fits all remaining landmarks
-/// to within kMaxFitDistanceMm.
+/// Repeatedly removes the worst landmark, until a similarity transform maps all remaining landmarks
+/// to within kMaxFitDistanceMm of the same landmarks of the template.
 void drop_outliers(const WrapTemplate& wrap_template, std::vector<WrapLandmark>& landmarks) {
   while (landmarks.size() > kMinLandmarks) {
     const Similarity back = inverse(pose_of_landmarks(wrap_template.positions, landmarks));

@@ -53,7 +53,8 @@ struct PickedLandmark {
   std::string name;
   /// vertex number from 0, if the landmark is on the template
   std::optional<std::uint32_t> template_vertex;
-  std::optional<Eigen::Vector3d> scan_point;  ///< in the unit of the scan's file
+  /// position on the scan, in the unit of the scan's file
+  std::optional<Eigen::Vector3d> scan_point;
   /// Scan vertex of the landmark, if the landmark file gives a vertex number instead of a point.
   std::optional<std::uint32_t> scan_vertex;
 };

@@ -114,8 +114,8 @@ void read_fcsv(std::string_view text, LandmarkList& list) {
   for (std::string_view line : split_lines(text)) {
     ++line_number;
     line = line.substr(0, line.find_last_not_of(" \t\r") + 1);
-    // Older versions of 3D Slicer write a number here, such as 0. In these versions, the mesh files
-    // have the same axes as the points.
+    // Older versions of 3D Slicer write a number in this line, such as 0. In these versions, the
+    // mesh files have the same axes as the points.
     if (line.starts_with("# CoordinateSystem")) is_ras = line.ends_with("RAS");
     if (line.empty() || line.starts_with('#')) continue;
     const std::vector<std::string_view> fields = split(line, ',');
@@ -185,11 +185,12 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
 
 /// The columns of a table whose header names the columns x, y and z, or the column vertex.
 struct TableColumns {
-  std::size_t count = 0;             ///< number of columns; 0 if there is no such header
-  std::vector<std::size_t> numbers;  ///< columns of x, y and z, or the column of the vertex
-  std::optional<std::size_t> name;
-  std::optional<std::size_t> placed;  ///< column that has 0 for points that were not placed
-  bool is_ras = false;                ///< whether the axes are right, anterior, superior
+  std::size_t count = 0;  ///< number of columns of the table; 0 if there is no such header
+  std::vector<std::size_t> numbers;  ///< indices of the columns x, y and z, or of the column vertex
+  std::optional<std::size_t> name;   ///< index of the column that has the names
+  /// index of the column that has 0 for points that were not placed
+  std::optional<std::size_t> placed;
+  bool is_ras = false;  ///< whether the axes x, y, z point right, anterior, superior
 };
 
 TableColumns columns_of(const std::vector<std::string_view>& header) {
@@ -358,7 +359,7 @@ std::vector<double> numbers_of_json(const ListJson& value) {
   return numbers;
 }
 
-/// \param is_ras  whether the axes are right, anterior, superior
+/// \param is_ras  whether the axes x, y, z point right, anterior, superior
 void read_json_item(const std::string& key, const ListJson& item, bool is_ras, LandmarkList& list) {
   if (item.is_null()) return;  // the landmark was not placed
   std::string name = key;

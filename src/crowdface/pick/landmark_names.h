@@ -11,7 +11,7 @@ namespace crowdface {
 /// A point that can be located on every face. Left and right are the head's own left and right.
 struct LandmarkDefinition {
   std::string_view name;
-  std::string_view location;  ///< where the landmark lies; a text for the user
+  std::string_view location;  ///< describes to the user where the landmark lies on a face
   /// Whether find_landmarks searches for the landmark on scans. Only landmarks on edges or grooves
   /// of the skin can be found precisely; the widest point of a nose, for example, cannot.
   bool is_found_on_scans = false;

@@ -24,7 +24,7 @@ struct Line {
   Fields fields;
 };
 
-/// The lines that are not empty.
+/// Returns the lines of a text that are not empty.
 std::vector<Line> lines_of(std::string_view text) {
   std::vector<Line> lines;
   std::size_t number = 0;
@@ -60,7 +60,7 @@ ListedLandmark read_landmark(const Line& line, double missing, const FailAtLine&
     is_missing = is_missing || !number || *number == missing;
     landmark.numbers.push_back(number.value_or(0));
   }
-  // The name may be a whole number.
+  // If a line has four numbers, the first may be a whole number that is the name of the landmark.
   if (landmark.numbers.size() == kDimensions + 1 && landmark.name.empty() &&
       parse_unsigned(line.fields[0])) {
     landmark.name = line.fields[0];

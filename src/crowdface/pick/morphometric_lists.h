@@ -12,9 +12,10 @@ namespace crowdface {
 
 /// A landmark as a file lists it.
 struct ListedLandmark {
-  std::string name;             ///< without a name in the file: the position in the list, from 1
-  std::vector<double> numbers;  ///< x, y, z
-  std::size_t line;             ///< line of the file, from 1
+  /// name of the landmark; if the file has no name: its position in the list, from 1
+  std::string name;
+  std::vector<double> numbers;  ///< coordinates x, y and z of the landmark
+  std::size_t line;             ///< number of the landmark's line in the file, from 1
 };
 
 /// Whether a field of a list stands for a missing value, such as NA or an empty field.

@@ -16,7 +16,7 @@ namespace crowdface {
 /// A reduced mesh for the page; encoded at the first request.
 struct ShownMesh {
   std::once_flag once;  ///< set by the first request, which computes `bytes`
-  std::string bytes;    ///< result of PickableMesh::encode_reduced
+  std::string bytes;    ///< the reduced mesh; see PickableMesh::encode_reduced
 };
 
 /// The scan that is open on the page, its session, and the meshes that the page shows.
@@ -53,7 +53,7 @@ class PickableScans {
   std::function<PickInputs(const Entry&)> read_inputs_;
   /// Guards the members below.
   mutable std::mutex mutex_;
-  std::shared_ptr<OpenScan> current_;  ///< the open scan
+  std::shared_ptr<OpenScan> current_;  ///< the scan that is open; see current()
   std::size_t current_index_ = 0;
 };
 

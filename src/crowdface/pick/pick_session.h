@@ -19,12 +19,13 @@ namespace crowdface {
 /// The template, the scan, and the landmark file to write.
 struct PickInputs {
   const WrapTemplate& wrap_template;
-  Positions template_positions;  ///< #V by 3, in millimetres
+  Positions template_positions;  ///< positions of the template's vertices, #V by 3, in millimetres
   /// #V by 3: positions of the template, in the unit of the template's file. The landmark file
   /// gives template points in this unit.
   Positions template_file_positions;
   Scan scan;
-  std::optional<PoseHint> hint;  ///< pose of the scan; estimated if not given
+  /// up and front directions of the scanned head; estimated if not given
+  std::optional<PoseHint> hint;
   std::filesystem::path template_file, scan_file, landmark_file;
   /// Path of another landmark file, for template landmarks that `landmark_file` lacks; may be
   /// empty.
@@ -51,9 +52,9 @@ class PickSession {
   /// at the start of the file.
   bool saving_deletes_comments() const;
 
-  /// The first point at which a ray hits the mesh. On the template, the result is a vertex. On the
-  /// scan, the result is a point whose coordinates are rounded to a power of ten that is at most a
-  /// millionth of the scan's size.
+  /// The first point at which a ray hits the template or the scan. On the template, the result is a
+  /// vertex. On the scan, the result is a point whose coordinates are rounded to a power of ten
+  /// that is at most a millionth of the scan's size.
   std::optional<PickedPlace> pick_on_template(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const;
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,
@@ -71,13 +72,15 @@ class PickSession {
 
   PickInputs inputs_;
   PickableMesh template_, scan_;
-  MirrorPlane symmetry_plane_;                              ///< symmetry plane of the template
-  std::map<std::string, std::uint32_t> proposed_vertices_;  ///< result of propose_landmarks
+  MirrorPlane symmetry_plane_;  ///< symmetry plane of the template
+  /// maps landmark names to template vertices; see propose_landmarks
+  std::map<std::string, std::uint32_t> proposed_vertices_;
   PoseHint scan_orientation_;
   /// Guards the members below.
   mutable std::mutex mutex_;
   std::vector<PickedLandmark> landmarks_;
-  std::string last_file_text_;  ///< content of the file when it was last read or written
+  /// content of the landmark file when this object last read or wrote the file
+  std::string last_file_text_;
 };
 
 }  // namespace crowdface

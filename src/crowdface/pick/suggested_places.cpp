@@ -39,8 +39,8 @@ bool determine_rotation(const Positions& places) {
   return values(1) > kMinRatio * values(0);
 }
 
-/// Fits a similarity transform to the pairs whose flag in `used` is set, except the pair with index
-/// `without`.
+/// Fits the similarity transform from template to scan to the landmark pairs whose flag in `used`
+/// is set, except the pair with index `without`.
 std::optional<Similarity> fit(const std::vector<Pair>& pairs, const std::vector<bool>& used,
                               std::size_t without) {
   std::vector<std::size_t> rows;

@@ -30,8 +30,8 @@ struct LandmarkPose {
   std::map<std::string, Residual> residuals;
 };
 
-/// Fits the similarity (Umeyama 1991) to landmark pairs. Removes outlier pairs one by one, and
-/// repeats the fit after each removal.
+/// Fits the similarity transform (Umeyama 1991) from template to scan to landmark pairs. Removes
+/// outlier pairs one by one, and repeats the fit after each removal.
 /// \return nothing if there are fewer than three pairs, or if the landmarks lie almost on a line.
 std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>& landmarks,
                                                const Positions& template_positions);
@@ -43,7 +43,7 @@ std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>
 struct SuggestedPlaces {
   std::map<std::string, PickedPlace> template_places;  ///< suggested positions on the template
   std::map<std::string, PickedPlace> scan_places;      ///< suggested positions on the scan
-  std::optional<LandmarkPose> pose;                    ///< result of fit_pose_to_picked
+  std::optional<LandmarkPose> pose;  ///< pose of the template on the scan; see fit_pose_to_picked
 };
 
 /// Suggests likely positions of the landmarks that are not picked yet.
