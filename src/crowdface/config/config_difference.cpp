@@ -34,8 +34,8 @@ void remove_keys(const std::set<std::string>& paths, YamlNode& node) {
   for (YamlNode& item : node.items) remove_keys(paths, item);
 }
 
-/// Adds the paths of all values that differ between `a` and `b`, or that are missing in one of the
-/// two.
+/// Adds to `paths` the paths of all values that differ between `a` and `b`, or that are missing in
+/// one of the two.
 ///
 /// \param defaults  values for keys that are missing in `a` because an older version wrote `a`; may
 ///                  be null.

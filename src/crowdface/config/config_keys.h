@@ -99,7 +99,8 @@ struct Key {
   }
   /// Returns a copy of this key with `affects_face_files` false. A new value of such a key does not
   /// make finished face files out of date. (Face files may still depend on the input files that the
-  /// key names, and on the recipes that the key affects. Other digests cover both.)
+  /// key names, and on the recipes that the key affects. Other digests cover these files and
+  /// recipes.)
   Key not_affecting_face_files() const {
     Key key = *this;
     key.affects_face_files = false;

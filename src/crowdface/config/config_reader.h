@@ -44,8 +44,10 @@ struct ConfigReading {
   /// If there were problems, use only the parts that the flags below declare valid.
   Config config;
   bool is_complete = false;  ///< true if there was no problem, so that the whole config is valid
-  bool are_heads_known = false;    ///< faces.files and faces.names are valid
-  bool are_regions_known = false;  ///< regions.names and regions.mask are valid
+  /// whether `config.faces.files` and `config.faces.names` are valid
+  bool are_heads_known = false;
+  /// whether `config.regions.names` and `config.regions.mask` are valid
+  bool are_regions_known = false;
   /// Warnings about keys that are overridden by other keys, if the config is complete; one line for
   /// each key.
   std::vector<std::string> warnings = {};

@@ -31,7 +31,7 @@ struct FaceMarks {
 struct HeadShape {
   Positions positions;        ///< vertex positions, #V by 3
   std::vector<bool> is_skin;  ///< whether each vertex is skin, #V
-  /// empty if the head has no eyeballs
+  /// centres of the eyeballs, if there are any
   std::vector<Eigen::Vector3d> eyeball_centres;
 };
 /// Returns the shape of the mean of all heads.

@@ -73,7 +73,8 @@ class FrameField {
   const Positions* neutral_ = nullptr;  ///< template at rest, #V by 3
   /// vertices of the skin that determine the similarity transform of the whole skin
   std::vector<std::uint32_t> sampled_skin_;
-  std::vector<double> equal_weights_;  ///< all 1, one per vertex of sampled_skin_
+  /// weights for fit_rigid_motion: 1 for each of sampled_skin_
+  std::vector<double> equal_weights_;
   std::vector<Node> nodes_;
   /// for each vertex: the nodes whose maps are interpolated there, with weights
   CompressedRows<NodeWeight> node_weights_;

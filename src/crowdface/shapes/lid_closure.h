@@ -66,22 +66,25 @@ class LidClosure {
     /// vertical distance from the section's point on the upper rim down to the lower rim
     double vertical_gap;
   };
-  /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
-  /// are known, and divided by the mesh's scale relative to the template.
+  /// The lengths that the lids of a face should have in the shape: gaps between the lids, and
+  /// distances of the lids from the eyeball. measure_targets measures these lengths on a mesh for
+  /// which the shape was made (the template or a head), and divides them by the scale of this mesh
+  /// relative to the template.
   struct LidTargets {
-    std::vector<Gap> gaps;  ///< one per section
+    std::vector<Gap> gaps;  ///< the gap between the lids at each section
     /// One entry per lid vertex. `ball_distances`: distance from the eyeball with the shape
     /// applied. `distance_changes`: the distance with the shape applied minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;
   };
-  /// Measures the targets on a mesh with known displacements.
+  /// Measures the targets on a mesh for which the shape was made: on the template or on a head.
   ///
-  /// \param mesh   #V by 3, at rest.
+  /// \param mesh   The template or the head at rest, #V by 3.
   /// \param face_motion  Motion from the template to the mesh.
   /// \param moves  The mesh's displacements in the shape, one row for each vertex of the shape.
   LidTargets measure_targets(const Positions& mesh, const FaceEye& eye,
                              const RigidMotion& face_motion, const Positions& moves) const;
-  /// Returns the weighted mean of the targets of several sets of shapes.
+  /// Returns the weighted mean of the targets measured for several sets of shapes: for the shapes
+  /// of several heads.
   static LidTargets mean_targets(std::span<const LidTargets> targets,
                                  std::span<const ShapeSetShare> shares);
   /// Returns whether the shape closes the lids.
@@ -176,7 +179,7 @@ class LidClosure {
   /// rest plus its target change, and min_ball_distance.
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
-  /// Returns the eye's axes on a face.
+  /// Returns the axes of the eye on the face that `face_motion` belongs to.
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
   /// Returns the highest point of a lower lid's profile (`sign` = 1), or the lowest point of an
   /// upper lid's profile (`sign` = −1), after the displacements `moves`.

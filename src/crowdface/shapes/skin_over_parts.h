@@ -22,8 +22,9 @@ struct DisplacementRow {
 class SkinOverParts {
  public:
   SkinOverParts() = default;
-  /// \param shaped  Template in the shape, #V by 3.
-  /// \param inner_vertices  Vertices that the skin may cover: gums and teeth.
+  /// \param shaped  Positions of the template's vertices with the shape applied, #V by 3.
+  /// \param inner_vertices  Vertices of gums and teeth. Those that lie behind the skin in `shaped`
+  ///            are kept behind the skin of faces.
   /// \param moved_vertices  Vertices that the shape moves, ascending.
   /// \param extent  Diagonal of the skin's bounding box.
   SkinOverParts(const Positions& shaped, const SkinTriangles& skin,

@@ -24,7 +24,8 @@ struct TraitBound {
 /// but reports then include the measurement.
 struct TraitLimit {
   std::size_t trait = 0;  ///< the measurement, as an index into measurements()
-  std::optional<TraitBound> at_least = {}, at_most = {};  ///< nothing: no such bound
+  /// the lower and the upper bound, if they exist
+  std::optional<TraitBound> at_least = {}, at_most = {};
   bool operator==(const TraitLimit&) const = default;
 };
 /// Limits sorted by trait, with at most one limit for each trait.
