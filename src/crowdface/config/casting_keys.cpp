@@ -50,10 +50,10 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
   return heads;
 }
 
-/// If `keep_listed` is true, keeps the items whose head is in `listed`. Otherwise keeps the items
-/// whose head is not in `listed`.
+/// Returns some of `items`: those whose head is in `listed` if `keep_listed` is true, otherwise
+/// those whose head is not in `listed`.
 ///
-/// \param head  returns the head of an item.
+/// \param head  head(item) returns the index of an item's head.
 template <class Items, class Head>
 Items select_by_head(Items items, const std::vector<Eigen::Index>& listed, bool keep_listed,
                      const Head& head) {

@@ -38,8 +38,8 @@ Codec<double> fraction() {
   return codec;
 }
 
-/// Makes a codec for a smoothness given as a size: the size, in mm, of the largest detail that
-/// smoothing removes. The size is at most `smoothing.max_size`.
+/// Makes a codec for a smoothness given as a size: smoothing halves relief of this wavelength. The
+/// size is in mm, and is at most `smoothing.max_size`.
 Codec<double> relief_size() {
   return restricted(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;

@@ -39,7 +39,7 @@ struct KeyRow {
 
 template <class Section>
 struct Key;
-/// Returns the documentation rows of `keys`.
+/// Returns the rows of the table in docs/config.md that describe `keys`.
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);
@@ -49,7 +49,8 @@ std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<S
 template <class Section>
 struct Key {
   std::string_view name;
-  /// Reads the value into the section. After a complaint, the section may be left unchanged.
+  /// Reads the key's value from a YAML node into the section. After a complaint, the section may be
+  /// left unchanged.
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
   /// Returns the value in the section as a text that can be passed to yaml_entry(). If the text is
   /// empty, the key is left out.

@@ -17,7 +17,7 @@ struct ConfigOverrides {
   /// `--set`: "key.path=value"; later values replace earlier values of the same key
   std::vector<std::string> assignments;
   std::optional<std::string> count;  ///< `--count`; replaces a value given by `--set crowd.count`
-  std::optional<std::string> seed;   ///< `--seed`
+  std::optional<std::string> seed;   ///< `--seed`, the seed of the random numbers
   std::optional<std::string> out;    ///< `--out`; a path relative to the working directory
   /// `--review`; paths relative to the working directory. Read after the files that the key
   /// `review` lists.

@@ -24,6 +24,7 @@ class YamlText {
   /// (line and column from 1, in characters).
   YamlPlace place(int line, int byte_column) const;
 
+  /// A problem of the text, and the place in the file where the problem is.
   struct Problem {
     YamlPlace place;
     std::string message;

@@ -59,8 +59,8 @@ class DepthMap {
 
   Eigen::AlignedBox2d box_;
   double cell_size_;
-  Index columns_ = 0, rows_ = 0;
-  std::vector<double> depths_;  ///< depth of each cell, row by row; kNoDepth: no surface
+  Index columns_ = 0, rows_ = 0;  ///< numbers of columns and of rows of cells
+  std::vector<double> depths_;    ///< depth of each cell, row by row; kNoDepth: no surface
 };
 
 }  // namespace crowdface

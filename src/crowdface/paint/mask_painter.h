@@ -45,6 +45,7 @@ class MaskPainter {
   MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
               Alpha alpha);
 
+  /// Returns the current weights, #V by #regions.
   const Alpha& alpha() const { return alpha_; }
   const SurfaceDistance& surface() const { return surface_; }
 
@@ -76,6 +77,7 @@ class MaskPainter {
   MirrorPlane mirror_;
   SurfaceDistance surface_;
   Alpha alpha_;
+  /// for each stroke that can be undone: the weights before the stroke
   std::vector<Step> undo_steps_;
 };
 

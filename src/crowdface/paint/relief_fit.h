@@ -37,7 +37,7 @@ constexpr double cell_height_mm(int cell) {
 /// the tip.
 double depth_of_mean_face_mm(int cell);
 
-/// Value of a depth in cells of a grid in which there is no surface.
+/// The depth of a grid cell that contains no surface.
 inline constexpr double kNoDepth = -std::numeric_limits<double>::infinity();
 /// The depth of a surface in each cell of the grid, row by row.
 using ReliefDepths = std::array<double, kReliefCells>;

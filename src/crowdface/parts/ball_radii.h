@@ -25,7 +25,7 @@ class BallRadii {
   /// Gap between the eyeball's surface and a point.
   struct Gap {
     double gap = 0;          ///< signed distance from the surface; negative: inside the eyeball
-    Eigen::Vector3d normal;  ///< outward unit normal of the eyeball's surface below the point
+    Eigen::Vector3d normal;  ///< outward unit normal of the eyeball, in the direction of the point
   };
   /// Returns the approximate gap between the surface and a point (exact to first order).
   ///

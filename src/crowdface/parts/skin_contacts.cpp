@@ -25,7 +25,8 @@ constexpr double kSideSmoothing = 0.006;  // width of the smoothing of the sides
 constexpr double kTolerance = 1e-5;       // tolerance of a gap
 constexpr double kMinWeight = 1e-3;       // vertices with smaller weights do not move
 constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices per parallel block
-// profile points per parallel block: their derivatives fit into a core's L1 cache
+// number of profile points in a parallel block; the derivatives of this many points fit into a
+// core's L1 cache
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;  // largest number of Gauss-Seidel sweeps in a round
 constexpr int kRounds = 3;    // largest number of rounds of fit_gaps

@@ -23,11 +23,12 @@ class SkinContacts {
   SkinContacts(const HeadSet& heads, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
+  /// Returns the number of sections.
   std::size_t size() const { return sections_.size(); }
   const GapSection& section(std::size_t i) const { return sections_[i]; }
-  /// Returns the gap at each section, in the heads' unit.
+  /// Returns the gap at each section of a mesh with these positions, in the heads' unit.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns a head's gap at each section, in the heads' unit.
+  /// Returns the gap at each section of the head with this index, in the heads' unit.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
@@ -126,7 +127,8 @@ class SkinContacts {
                                                       std::span<const Range> ranges,
                                                       double max_amplitude, Profiles& profiles,
                                                       std::vector<double>& amplitudes) const;
-  /// Updates the depths of all profile points of a group after changes of amplitudes.
+  /// Updates `depths`, the depths of all profile points of a group, after the amplitudes of
+  /// sections have changed.
   static void move_depths(const SectionGroup& section_group,
                           std::span<const AmplitudeChange> changes, std::vector<double>& depths);
   /// Displaces the skin by the kernels of the group, times the amplitudes.
@@ -135,7 +137,7 @@ class SkinContacts {
 
   double tolerance_ = 0;  ///< a gap may be outside its range by this length, in the heads' unit
   std::vector<GapSection> sections_;
-  std::vector<Clearance> clearances_;  ///< one per section
+  std::vector<Clearance> clearances_;  ///< for each of `sections_`: measures its gap
   std::vector<SectionGroup> section_groups_;
   std::vector<std::vector<double>> head_gaps_;  ///< for each head: its gap at each section
 };

@@ -43,7 +43,7 @@ class GapPreserver {
   /// `rest_gaps + gap_changes`.
   ///
   /// \param rest_gaps    Width of each gap on the face at rest.
-  /// \param gap_changes  Target change of each gap.
+  /// \param gap_changes  Wanted change of the width of each gap from rest to the shape.
   /// \param selection    Which gaps to adjust.
   /// \param shaped_face  The face with the blend shape applied, #V by 3; adjusted.
   void adjust(std::span<const double> rest_gaps, std::span<const double> gap_changes,

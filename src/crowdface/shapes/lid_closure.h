@@ -101,7 +101,8 @@ class LidClosure {
   void restore_closure(const Positions& face, const RigidMotion& face_motion,
                        const LidTargets& targets, Positions& moves) const;
 
-  /// Adjusts a shape until it meets the targets.
+  /// Adjusts the displacements of a face in the shape until its lids have the gaps and distances in
+  /// `targets`.
   ///
   /// \param face   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the face.
@@ -123,8 +124,10 @@ class LidClosure {
     EdgePoint edge;
     std::uint32_t row_a, row_b;
   };
-  /// A section across the eye's opening, where both lids are cut by a plane.
+  /// A section across the eye's opening, where a plane cuts both lids. A profile is the curve that
+  /// the plane cuts out of a lid.
   struct LidSection {
+    /// points of the lower and of the upper lid at which the plane cuts mesh edges
     std::vector<ProfilePoint> lower_profile, upper_profile;
     double along_opening;  ///< coordinate of the cutting plane along the head's side axis
     /// length by which the shape narrows the gap on the template
@@ -134,7 +137,7 @@ class LidClosure {
   struct EyeAxes {
     Eigen::Vector3d along, up;
   };
-  /// A point of a lid's rim, in the plane of EyeAxes.
+  /// A point of a lid's rim, given by two coordinates along the axes of EyeAxes.
   struct RimPoint {
     double along_opening;  ///< coordinate along EyeAxes::along
     double height;         ///< coordinate along EyeAxes::up
@@ -155,7 +158,8 @@ class LidClosure {
                     const Displacements& shape, const HeadAxes& axes);
   /// Reorders lid_vertices_: the vertices of the sections' profiles come first.
   void move_profile_vertices_to_front();
-  /// Returns the weights with which `lid_vertices_[lid]` follows each section.
+  /// Returns, for each section, the weight with which the vertical movement of `lid_vertices_[lid]`
+  /// follows the section's gain.
   std::span<const double> section_weights(std::size_t lid) const {
     return {section_weights_.data() + lid * sections_.size(), sections_.size()};
   }
@@ -195,8 +199,9 @@ class LidClosure {
                                 const Positions& moves) const;
 
   HeadAxes axes_;
-  double radius_ = 0;  ///< radius of the template's eyeball
-  std::vector<LidSection> sections_;
+  double radius_ = 0;                 ///< radius of the template's eyeball
+  std::vector<LidSection> sections_;  ///< the sections at which the shape closes the lids
+  /// the vertices around the eye that the shape moves; those of profiles come first
   std::vector<LidVertex> lid_vertices_;
   /// number of lid vertices that belong to profiles; these come first in lid_vertices_
   std::size_t profile_vertex_count_ = 0;

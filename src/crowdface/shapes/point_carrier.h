@@ -54,7 +54,8 @@ class PointCarrier {
     Triangle corners;
     std::array<double, 3> barycentric;  ///< barycentric coordinates
   };
-  /// What a point follows: a fixed position on a triangle, or the rigid motion of a vertex group.
+  /// What a point follows: a fixed position on a triangle, or the motion of a group of vertices (a
+  /// similarity transform).
   using Anchor = std::variant<TrianglePoint, Socket>;
 
   /// Returns the place of a point on the triangles; nothing if the point is not on the surface.

@@ -78,10 +78,10 @@ struct PreparedShape {
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
   std::vector<FloatPositions> head_moves;
-  std::vector<PreparedPart> parts;
-  std::vector<PreparedLids> lids;  ///< for each eye of the template: how the shape moves its lids
+  std::vector<PreparedPart> parts;  ///< for each rigid part that the shape moves: how it moves
+  std::vector<PreparedLids> lids;   ///< for each eye of the template: how the shape moves its lids
   std::vector<LidFollower> lid_followers;
-  SkinOverParts skin_over_parts;
+  SkinOverParts skin_over_parts;  ///< keeps skin in front of gums and teeth
   SkinCrossings::SearchedSkin searched_skin;
   bool moves_contacts = false;  ///< whether the shape moves skin at a gap, see GapPreserver
   /// #sets by #gaps: by how much the shape widens each gap, divided by the scale of the mesh
@@ -118,7 +118,7 @@ struct PreparedShapes {
   /// indices of the vertices behind the skin of lips and cheeks, such as gums and teeth: the
   /// vertices of all parts except eyeballs, without the vertices near an eye
   std::vector<std::uint32_t> inner_vertices;
-  SkinCrossings crossings;
+  SkinCrossings crossings;  ///< removes self-intersections of the skin from shapes
   /// Finds intersections on the face at rest, in the skin that at least one shape may bring into
   /// contact.
   CrossingSearch resting_face_search;
@@ -127,7 +127,7 @@ struct PreparedShapes {
   /// A face, with the local rotation and stretch of its skin relative to the template's skin.
   struct FaceFrames {
     const Positions& mesh;
-    FrameField::Frames frames;
+    FrameField::Frames frames;  ///< the motion and the linear maps from the template to the face
     std::vector<Eigen::Matrix3d> maps;  ///< linear map at each of PreparedShapes::moved_vertices
     std::vector<double> gaps;           ///< width of each gap on the face, see `gap_preserver`
     /// whether each vertex belongs to a triangle that intersects another triangle on the face at

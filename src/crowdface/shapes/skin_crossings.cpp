@@ -66,7 +66,7 @@ Index crossing_triangles(const std::vector<Pair>& pairs) {
 
 }  // namespace
 
-/// Repairs one shape of a face.
+/// Removes the self-intersections of the skin from one shape of one face.
 class SkinCrossings::Repair {
  public:
   Repair(const SkinCrossings& skin, const Face& face, const SearchedSkin& searched_skin,

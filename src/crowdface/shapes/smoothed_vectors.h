@@ -26,12 +26,12 @@ class SmoothedVectors {
   /// Returns whether a sample at this position can affect the result.
   bool affects(const Eigen::Vector3d& position) const;
 
-  /// A vector at a position.
+  /// A vector (`value`) at a position.
   struct Sample {
     std::uint32_t index;  ///< number that identifies the sample in the result of `changes`
     Eigen::Vector3d position, value;
   };
-  /// The vector to add to a sample's value.
+  /// The vector (`displacement`) to add to the value of a sample.
   struct Change {
     std::uint32_t index;  ///< Sample::index of the sample
     Eigen::Vector3d displacement;
