@@ -205,7 +205,8 @@ std::vector<KeyRow> config_key_rows();
 /// Returns the paths of the keys that are marked with Key::not_affecting_recipes, such as "output".
 std::set<std::string> keys_not_affecting_recipes();
 
-/// Writes a list whose items are sections with the same keys.
+/// Writes a list of sections as a YAML list of mappings. All sections of the list have the same
+/// keys.
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
                            const WriteContext& context) {
@@ -359,7 +360,7 @@ void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
                        ConfigDraft& draft);
 /// Reads the value of the key `colours`: the colour weights of the heads.
 void read_colours(const YamlNode& node, std::vector<WeightedHead>& weights, ConfigDraft& draft);
-/// Makes the key `colours` of a section: the heads that lend textures.
+/// Makes the key `colours` of a section: the heads that lend textures to a face, and their weights.
 template <class Section>
 Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
   return Key<Section>{

@@ -13,10 +13,11 @@ namespace crowdface {
 
 /// What the brush does to the weights of the painted region.
 enum class BrushMode : std::uint8_t {
-  kAdd,     ///< increases the weight of the region
-  kErase,   ///< decreases the weight of the region; the other regions' weights grow in proportion
+  kAdd,  ///< increases the weight of the painted region
+  /// decreases the weight of the painted region; the other regions' weights grow in proportion
+  kErase,
   kSmooth,  ///< smooths the weights of all regions
-  kGrow,    ///< moves the border of the region outwards
+  kGrow,    ///< moves the border of the painted region outwards
 };
 
 /// Settings of the brush with which the user paints weights.

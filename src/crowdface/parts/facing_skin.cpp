@@ -128,7 +128,8 @@ void agree_on_sides(FacingGroup& group) {
   }
 }
 
-/// Returns the mean length of the mesh edges at the low vertices of the pairs.
+/// Returns the mean length of the mesh edges that end at the low vertices of the pairs (see
+/// FacingPair).
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {

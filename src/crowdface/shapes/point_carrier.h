@@ -49,7 +49,7 @@ class PointCarrier {
   Positions place_points(Index target, const Positions& face) const;
 
  private:
-  /// A point on a triangle of the mesh.
+  /// A fixed place on a triangle of the mesh, given by barycentric coordinates.
   struct TrianglePoint {
     Triangle corners;
     std::array<double, 3> barycentric;  ///< barycentric coordinates
