@@ -40,8 +40,8 @@ std::string write_fitted_to(const Attachments& attachments, const WriteContext& 
   return attachments.file.empty() ? kMean : path("").write(attachments.file, context);
 }
 
-/// Reads the tags of an item. If no head has all of these tags, adds a complaint, because no face
-/// could wear the item.
+/// Reads the tags of an attachment. If no head has all of these tags, adds a complaint, because no
+/// face could wear the attachment.
 void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [female]").read(node, draft);
   if (!tags) return;
@@ -136,8 +136,8 @@ std::vector<std::string> kinds_of(const Attachments& attachments) {
   return kinds;
 }
 
-/// Reads the value of a key `none`: for kinds of attachments, the fraction of the faces that wear
-/// no item of the kind.
+/// Reads the value of a key `none`: a mapping from kinds of attachments to the fraction of the
+/// faces that wear no attachment of this kind.
 void read_fractions_without_item(const YamlNode& node, const Attachments& attachments,
                                  std::map<std::string, double>& fractions, ConfigDraft& draft) {
   draft.complaints.expect_map(node, "a mapping from kinds to shares, {hair: 0.1}");
@@ -167,8 +167,8 @@ void read_none_of_group(const YamlNode& node, Group& group, ConfigDraft& draft) 
   }
 }
 
-/// Returns the first item whose kind, name or colour is this word; null if there is no such item.
-/// A quota for the word applies to this item's kind.
+/// Returns the first attachment whose kind, name or colour is `word`; null if there is no such
+/// attachment. A quota for `word` applies to the kind of the returned attachment.
 const Attachment* first_item_matching(const Attachments& attachments, const std::string& word) {
   const auto found = std::ranges::find_if(attachments.items, [&](const Attachment& item) {
     return matches_kind_name_or_colour(item, word);
@@ -185,8 +185,8 @@ std::vector<std::string> words_of_items(const Attachments& attachments) {
   return words;
 }
 
-/// Scales the quotas of one kind, which may add up to slightly more than 1 because they are
-/// rounded.
+/// Scales the quotas for attachments of one kind to a sum of at most 1. The sum may be slightly
+/// larger before, because users round the quotas (see factor_of_rounded_shares).
 void scale_quotas(const std::string& kind, const std::vector<const YamlEntry*>& entries,
                   Attachments& attachments, ConfigDraft& draft) {
   std::vector<double> shares;
@@ -238,8 +238,8 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
     scale_quotas(of_kind.first, of_kind.second, attachments, draft);
 }
 
-/// Returns a function that writes a mapping from words to shares. For an empty mapping, the
-/// function returns an empty text, so that the key is left out.
+/// Returns the function Key::write for a member that maps words to fractions of the crowd. For an
+/// empty mapping, the function returns an empty text, so that the key is left out.
 template <class Section>
 auto write_shares(std::map<std::string, double> Section::*shares) {
   return [=](const Section& section, const WriteContext&) {
@@ -282,7 +282,7 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
   }
 }
 
-/// Returns whether at least one head may wear an item.
+/// Returns whether at least one head may wear the attachment.
 bool is_wearable(const Attachment& item, const Config::Faces& faces) {
   return std::ranges::any_of(faces.tags, [&](const std::vector<std::string>& tags) {
     return has_tags(tags, item.tags) &&

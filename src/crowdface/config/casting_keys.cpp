@@ -15,7 +15,7 @@ namespace crowdface {
 namespace {
 
 constexpr double kShareRounding = 1e-9;
-// largest number of vertices for which a starter config has `meshes: judge`
+// a starter config has `meshes: judge` only if each head has at most this number of vertices
 constexpr Eigen::Index kMaxJudged = 200'000;
 
 /// Reads the path of one image or of a set of UDIM tiles (several images that form one texture).
@@ -50,10 +50,10 @@ std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
   return heads;
 }
 
-/// If `keep_listed` is true, keeps the items whose head is in `listed`. Otherwise keeps the items
-/// whose head is not in `listed`.
+/// Returns some of `items`: those whose head is in `listed` if `keep_listed` is true, otherwise
+/// those whose head is not in `listed`.
 ///
-/// \param head  returns the head of an item.
+/// \param head  head(item) returns the index of an item's head.
 template <class Items, class Head>
 Items select_by_head(Items items, const std::vector<Eigen::Index>& listed, bool keep_listed,
                      const Head& head) {
@@ -204,8 +204,8 @@ const Keys<Config::Distance>& distance_keys() {
 
 namespace {
 
-/// Proposes a minimum distance that all faces of the starter config can keep without exceeding the
-/// config's believability limits.
+/// Proposes a value for `diversity.min_distance` that all faces of the starter config's crowd can
+/// keep without exceeding the config's believability limits.
 std::optional<StarterLines> min_distance_starter(const StarterFacts& facts) {
   const std::size_t in_group = head_count_of_rarer_sex(facts);
   const std::size_t heads = in_group > 0 ? in_group : facts.head_names.size();

@@ -38,7 +38,8 @@ Codec<double> fraction() {
   return codec;
 }
 
-/// Makes a codec for a size in millimetres that is at most `smoothing.max_size`.
+/// Makes a codec for a smoothness given as a size: smoothing halves relief of this wavelength. The
+/// size is in mm, and is at most `smoothing.max_size`.
 Codec<double> relief_size() {
   return restricted(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;
@@ -63,7 +64,8 @@ Codec<double> iteration_count() {
           "whole number"};
 }
 
-/// Makes a codec for a smoothness in this unit, given as one value or as a range.
+/// Makes a codec for a smoothness in this unit, given as one value or as a range. `one` is the
+/// codec for one value.
 Codec<SmoothnessDistribution> smoothness_in_unit(Unit unit, const Codec<double>& one) {
   const Codec<Range> ranges = range(one);
   return {[=](const YamlNode& node, ConfigDraft& draft) {

@@ -23,7 +23,7 @@ struct WriteContext {
   std::filesystem::path folder;  ///< an absolute path; written paths are relative to this folder
   WrittenKeys written_keys = WrittenKeys::kAll;
 
-  /// Returns the head's name as a YAML scalar.
+  /// Returns the name of the head with this index, as a YAML scalar.
   std::string head(Eigen::Index index) const;
 };
 

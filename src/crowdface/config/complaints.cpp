@@ -34,7 +34,8 @@ bool Complaints::expect_map(const YamlNode& node, const std::string& expected) {
 }
 
 void Complaints::report_to(Problems& problems) const {
-  // limited, because a longer list would push the first problems off the screen
+  // largest number of complaints in a report; a longer list would push the first problems off the
+  // screen
   constexpr std::size_t kMaxReportedComplaints = 100;
   std::vector<Complaint> sorted = complaints_;
   const auto key = [](const Complaint& c) {

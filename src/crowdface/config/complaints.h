@@ -13,12 +13,14 @@ namespace crowdface {
 /// Collects the problems of a config in any order and reports them in the order of the file.
 class Complaints {
  public:
+  /// A problem of a config, and the place in the config where the problem occurs.
   struct Complaint {
     YamlPlace place;
     std::string message;
     ExitCode exit_code;
   };
 
+  /// Adds a complaint about the value at this place of the config.
   void add(const YamlPlace& place, std::string message, ExitCode exit_code = ExitCode::kUsage);
   /// Adds the complaint "PATH: MESSAGE" at the node's place in the file, where PATH is the node's
   /// path of keys. Adds nothing if the node has the kind kRefused, because such a node already has

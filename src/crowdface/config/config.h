@@ -151,7 +151,8 @@ struct Config {
     /// largest number of smoothing iterations; if set, max_size_mm has no effect
     std::optional<std::uint64_t> max_iterations;
     Boundary boundary = Boundary::kFixed;  ///< whether smoothing moves open mesh boundaries
-    OperatorKind operator_kind = OperatorKind::kUmbrella;      ///< value of the key `operator`
+    /// how one iteration smooths (key `operator`)
+    OperatorKind operator_kind = OperatorKind::kUmbrella;
     LevelRepresentation levels = LevelRepresentation::kBasis;  ///< how smoothed heads are stored
     /// with `levels: basis`: largest distance between a vertex of a smoothed head and the vertex's
     /// approximation by displacement fields
@@ -169,7 +170,8 @@ struct Config {
   /// group, or as "component N".
   struct Parts {
     bool follow_skin = true;  ///< false with `parts: none`: everything is blended like skin
-    PartShape shape = PartShape::kTarget;  ///< where rigid parts get their shape from
+    /// whether the shape of a rigid part is the target's or blended
+    PartShape shape = PartShape::kTarget;
     /// Names of the components that are blended (skin), move rigidly (rigid), or have vertices that
     /// follow the skin (bound). crowdface classifies all other components.
     std::vector<std::string> skin, rigid, bound;
@@ -286,8 +288,8 @@ struct Config {
 
   /// A table of distributions of measurements, read from a file.
   struct TraitTable {
-    std::filesystem::path file;        ///< path of the file; empty: no table
-    std::vector<TraitTarget> targets;  ///< the file's content, sorted by measurement
+    std::filesystem::path file;        ///< path of the table's file; empty: no table
+    std::vector<TraitTarget> targets;  ///< the table's distributions, sorted by measurement
   };
   TraitTable population;  ///< distributions that the measurements of the sampled faces should have
   /// The table of the key `quantiles_of`. A limit of n % in `traits` is the n % quantile of the
@@ -296,11 +298,11 @@ struct Config {
 
   struct Reviews {
     std::vector<std::filesystem::path> files;  ///< the review files
-    /// the text of each file; the keys `count` and `min_distance` are added if they are missing and
-    /// their values are known
+    /// for each review file: its text; the keys `count` and `min_distance` are added if they are
+    /// missing and their values are known
     std::vector<std::string> texts;
-    std::vector<std::string> original_texts;  ///< the unchanged text of each file
-    std::vector<Review> reviews;              ///< the review read from each file
+    std::vector<std::string> original_texts;  ///< for each review file: its unchanged text
+    std::vector<Review> reviews;              ///< for each review file: the review in it
     /// whether the reviews stored in the crowd's folder are ignored
     bool ignores_stored_reviews = false;
   } review;
@@ -318,13 +320,15 @@ struct Config {
     double scale_mm = 6;  ///< distance that the last colour of the colour scale represents
   };
   struct ContactSheet {
-    int columns = 6, rows = 4;  ///< number of faces per row and per column of a page
-    int cell = 256;             ///< width and height of one view in pixels
+    /// number of faces per row and per column of a page of the contact sheet
+    int columns = 6, rows = 4;
+    int cell = 256;  ///< width and height of one view in pixels
     std::vector<View> views = {View::kFront};
     std::vector<SheetLabel> labels = {SheetLabel::kId};
     SheetOrder order = SheetOrder::kPlan;
     MeshComparison compare;  ///< the sheet shows the distance of each face from this mesh
-    std::vector<SheetFormat> formats = {SheetFormat::kPng};  ///< always contains kPng
+    /// formats of the contact sheet; always contains kPng
+    std::vector<SheetFormat> formats = {SheetFormat::kPng};
     /// number of faces whose expressions (blend shapes) are shown on separate pages
     int face_count_on_shape_pages = 0;
     SheetTexture texture = SheetTexture::kAuto;
@@ -342,7 +346,7 @@ struct Config {
     std::vector<double> lods;
     /// subdivision scheme that is declared in USD files
     Subdivision subdivision = Subdivision::kNone;
-    /// no value with `contact_sheet: none`
+    /// empty if the config has `contact_sheet: none`
     std::optional<ContactSheet> contact_sheet = ContactSheet{};
     Gallery gallery = Gallery::kAuto;
     /// Number of faces in each numbered subfolder of the folders meshes, renders, …. None or 0:

@@ -34,8 +34,8 @@ void remove_keys(const std::set<std::string>& paths, YamlNode& node) {
   for (YamlNode& item : node.items) remove_keys(paths, item);
 }
 
-/// Adds the paths of all values that differ between `a` and `b`, or that are missing in one of the
-/// two.
+/// Adds to `paths` the paths of all values that differ between `a` and `b`, or that are missing in
+/// one of the two.
 ///
 /// \param defaults  values for keys that are missing in `a` because an older version wrote `a`; may
 ///                  be null.
@@ -108,8 +108,8 @@ bool casts_one_by_one(const YamlNode& root) {
   return mode == nullptr || mode->text == word_of(DiversityOptions::Mode::kFirstFit);
 }
 
-/// Returns whether the crowd only grows: whether the faces of the smaller crowd are the first faces
-/// of the larger crowd.
+/// Returns whether a crowd with the config `old` only grows if its config becomes `root`: the old
+/// faces are then the first faces of the new crowd.
 bool only_grows(const YamlNode& old, const YamlNode& root) {
   const auto before = number_at(old, kCount), now = number_at(root, kCount);
   return casts_one_by_one(root) && before && now && *before <= *now;

@@ -20,11 +20,13 @@ struct ConfigDraft {
   Config config;                 ///< contains the sections read so far
   Complaints& complaints;        ///< receives every complaint about the config
   std::filesystem::path folder;  ///< folder of the config file; relative paths start here
-  std::vector<std::filesystem::path> stored_reviews;  ///< see ConfigOverrides
-  std::optional<std::uint64_t> former_face_count;     ///< see ConfigOverrides
-  std::optional<double> former_min_distance_mm;       ///< see ConfigOverrides
-  std::filesystem::path ignored_reviews_folder;       ///< see ConfigOverrides
-  std::vector<std::string> warnings;                  ///< see ConfigReading
+  std::vector<std::filesystem::path> stored_reviews;  ///< see ConfigOverrides::stored_reviews
+  std::optional<std::uint64_t> former_face_count;     ///< see ConfigOverrides::former_face_count
+  /// see ConfigOverrides::former_min_distance_mm
+  std::optional<double> former_min_distance_mm;
+  /// see ConfigOverrides::ignored_reviews_folder
+  std::filesystem::path ignored_reviews_folder;
+  std::vector<std::string> warnings;  ///< see ConfigReading
   /// Whether the sections for heads, tags, regions and smoothing are valid. A complaint about a
   /// section sets its flag to false. Values in other sections that refer to this section are then
   /// not checked, so that one mistake gives only one message.

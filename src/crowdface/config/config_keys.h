@@ -39,7 +39,7 @@ struct KeyRow {
 
 template <class Section>
 struct Key;
-/// Returns the documentation rows of `keys`.
+/// Returns the rows of the table in docs/config.md that describe `keys`.
 template <class Section>
 std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<Section>>& keys,
                              const Section& initial);
@@ -49,7 +49,8 @@ std::vector<KeyRow> key_rows(const std::string& section, const std::vector<Key<S
 template <class Section>
 struct Key {
   std::string_view name;
-  /// Reads the value into the section. After a complaint, the section may be left unchanged.
+  /// Reads the key's value from a YAML node into the section. After a complaint, the section may be
+  /// left unchanged.
   std::function<void(const YamlNode&, Section&, ConfigDraft&)> read;
   /// Returns the value in the section as a text that can be passed to yaml_entry(). If the text is
   /// empty, the key is left out.
@@ -99,7 +100,8 @@ struct Key {
   }
   /// Returns a copy of this key with `affects_face_files` false. A new value of such a key does not
   /// make finished face files out of date. (Face files may still depend on the input files that the
-  /// key names, and on the recipes that the key affects. Other digests cover both.)
+  /// key names, and on the recipes that the key affects. Other digests cover these files and
+  /// recipes.)
   Key not_affecting_face_files() const {
     Key key = *this;
     key.affects_face_files = false;
@@ -203,7 +205,8 @@ std::vector<KeyRow> config_key_rows();
 /// Returns the paths of the keys that are marked with Key::not_affecting_recipes, such as "output".
 std::set<std::string> keys_not_affecting_recipes();
 
-/// Writes a list whose items are sections with the same keys.
+/// Writes a list of sections as a YAML list of mappings. All sections of the list have the same
+/// keys.
 template <class Section>
 std::string write_sections(const Keys<Section>& keys, const std::vector<Section>& sections,
                            const WriteContext& context) {
@@ -357,7 +360,7 @@ void read_head_weights(const YamlNode& node, std::vector<WeightedHead>& weights,
                        ConfigDraft& draft);
 /// Reads the value of the key `colours`: the colour weights of the heads.
 void read_colours(const YamlNode& node, std::vector<WeightedHead>& weights, ConfigDraft& draft);
-/// Makes the key `colours` of a section: the heads that lend textures.
+/// Makes the key `colours` of a section: the heads that lend textures to a face, and their weights.
 template <class Section>
 Key<Section> colours_key(std::vector<WeightedHead> Section::*weights) {
   return Key<Section>{

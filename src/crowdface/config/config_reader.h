@@ -17,7 +17,7 @@ struct ConfigOverrides {
   /// `--set`: "key.path=value"; later values replace earlier values of the same key
   std::vector<std::string> assignments;
   std::optional<std::string> count;  ///< `--count`; replaces a value given by `--set crowd.count`
-  std::optional<std::string> seed;   ///< `--seed`
+  std::optional<std::string> seed;   ///< `--seed`, the seed of the random numbers
   std::optional<std::string> out;    ///< `--out`; a path relative to the working directory
   /// `--review`; paths relative to the working directory. Read after the files that the key
   /// `review` lists.
@@ -44,8 +44,10 @@ struct ConfigReading {
   /// If there were problems, use only the parts that the flags below declare valid.
   Config config;
   bool is_complete = false;  ///< true if there was no problem, so that the whole config is valid
-  bool are_heads_known = false;    ///< faces.files and faces.names are valid
-  bool are_regions_known = false;  ///< regions.names and regions.mask are valid
+  /// whether `config.faces.files` and `config.faces.names` are valid
+  bool are_heads_known = false;
+  /// whether `config.regions.names` and `config.regions.mask` are valid
+  bool are_regions_known = false;
   /// Warnings about keys that are overridden by other keys, if the config is complete; one line for
   /// each key.
   std::vector<std::string> warnings = {};

@@ -53,7 +53,7 @@ std::optional<std::string> read_text(const YamlNode& node, const std::string& ex
 /// example.
 std::optional<std::string> read_name(const YamlNode& node, Complaints& out);
 
-/// Returns text(item) for each item.
+/// Returns a list that contains the text `text(item)` for each of `items`.
 template <class Items, class Text>
 std::vector<std::string> texts_of(const Items& items, const Text& text) {
   std::vector<std::string> texts;
@@ -63,7 +63,8 @@ std::vector<std::string> texts_of(const Items& items, const Text& text) {
 
 /// Adds a complaint that lists the words that are accepted.
 void expect_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out);
-/// Reads one of the words, and returns the value that the word stands for.
+/// Reads a word. If the word is in `words`, returns the value that the word stands for. Otherwise,
+/// adds a complaint and returns nothing.
 template <class Value>
 std::optional<Value> read_choice(const YamlNode& node, const Words<Value>& words, Complaints& out) {
   const auto texts = texts_of(words, [](const Word<Value>& word) { return word.text; });

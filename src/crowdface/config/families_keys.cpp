@@ -132,8 +132,8 @@ void read_inherit(const YamlNode& node, FamilyOptions& family, ConfigDraft& draf
     draft.complaints.add_at(node, "expected inherit only in a family with parents; add parents");
   }
   if (!draft.are_regions_known && node.kind == YamlNode::Kind::kMap) return;
-  // Later names override earlier names: the name of a band overrides the names of regions, and a
-  // name such as "top/skin" overrides both.
+  // Read the names in this order, because later names override earlier names: the name of a band
+  // overrides the names of regions, and a name such as "top/skin" overrides both.
   std::vector<std::string> names = draft.config.region_names();
   for (const std::string& more : draft.config.plan_names().bands) names.push_back(more);
   for (const std::string& part : draft.config.region_band_names()) {

@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-/// Marks a group that has neither a share nor a count. Such groups divide the remaining faces
-/// equally.
+/// The value of Group::share for a group that has neither a share nor a count. These groups divide
+/// the remaining faces equally.
 constexpr double kUnsetShare = -1;
 
 /// Removes from the list of old heads, and from the list of young heads, the heads for which

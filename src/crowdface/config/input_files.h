@@ -36,8 +36,9 @@ std::string left_out_meshes_message(const std::filesystem::path& folder);
 /// two folders deep. Empty if no such pattern matches at least kMinHeads files.
 std::string suggested_head_pattern(const std::filesystem::path& folder);
 
-/// Advice for messages about a path that does not exist: the path has backslashes, or the folder
-/// has an entry whose name differs only in case or in Unicode's normal form. Otherwise empty.
+/// Returns advice for a message about a path that does not exist: the path has backslashes, or the
+/// folder has an entry whose name differs only in case or in Unicode's normal form. Returns an
+/// empty text in all other cases.
 std::string advice_on_path(const std::filesystem::path& path);
 
 /// Returns why a head cannot have this name: the name is invalid (see is_valid_name), reserved, or

@@ -204,8 +204,8 @@ std::string write_contact_sheet(const Output& output, const WriteContext& contex
   return yaml_block_map(write_keys(contact_sheet_keys(), *output.contact_sheet, context));
 }
 
-/// The first four keys of a contact sheet, which users change most often, with their default
-/// values.
+/// Returns the lines for the key `contact_sheet` in a starter config: the first four keys of a
+/// contact sheet, which users change most often, with their default values.
 StarterLines starter_sheet(const StarterFacts&) {
   std::vector<std::string> entries = write_keys(contact_sheet_keys(), Sheet{}, {Config{}, {}});
   entries.resize(4);

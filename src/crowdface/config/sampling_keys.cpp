@@ -250,7 +250,7 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
       }
       check_band_name(entry, sampling, draft);
       const bool first = sampling.bands.empty();
-      // if there are several bands, the first band (the coarsest) does not age by default
+      // if there are several bands, ageing does not change the first band (the coarsest) by default
       const bool is_coarsest = first && node.entries.size() > 1;
       band = sampling.bands.insert(band, {entry.key, {}, {}, is_coarsest ? 0.0 : 1.0});
       band->regions.resize(sampling.regions.size());

@@ -28,7 +28,8 @@ struct StarterFacts {
   std::string crowd_name = "crowd";
   std::string mask_file;  ///< region mask, relative to the config's folder; empty: none
   std::vector<std::string> regions = {"top", "middle", "bottom"};  ///< names of the mask's channels
-  std::vector<std::vector<std::string>> tags = {};  ///< the tags of each head, or empty
+  /// for each head: its tags; empty if the starter config has no tags
+  std::vector<std::vector<std::string>> tags = {};
   /// folder of attachments, relative to the config's folder; empty: there are no attachments that a
   /// head may wear
   std::filesystem::path attachments_folder = {};

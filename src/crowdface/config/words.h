@@ -25,7 +25,7 @@ struct Word {
 template <class Value>
 using Words = std::vector<Word<Value>>;
 
-/// Makes words from values; the word for a value is `name_of(value)`.
+/// Makes the words of an enumeration from its values; the word for a value is `name_of(value)`.
 template <class Values>
 auto words_by_name(const Values& values) {
   Words<typename Values::value_type> enum_words;

@@ -20,9 +20,11 @@ class YamlText {
   YamlText(std::string_view text, const std::string& source);
 
   std::string_view text() const { return text_; }
-  /// Converts a position of yaml-cpp.
+  /// Converts a position that yaml-cpp reports (line and byte column from 0) to a place in the file
+  /// (line and column from 1, in characters).
   YamlPlace place(int line, int byte_column) const;
 
+  /// A problem of the text, and the place in the file where the problem is.
   struct Problem {
     YamlPlace place;
     std::string message;
@@ -41,12 +43,12 @@ class YamlText {
  private:
   /// Returns the text from a position of yaml-cpp to the end of the file.
   std::string_view text_at_position(int line, int byte_column) const;
-  /// Converts an offset in bytes from the start of text().
+  /// Returns the place (line and column) of the byte at this offset in text().
   YamlPlace place_of(std::size_t offset) const;
 
   std::string_view text_;
   std::shared_ptr<const std::string> source_;
-  std::vector<std::size_t> line_starts_;  ///< offset of each line's first byte
+  std::vector<std::size_t> line_starts_;  ///< for each line: offset of its first byte in text()
   /// offsets of UTF-8 continuation bytes, ascending
   std::vector<std::size_t> continuation_byte_offsets_;
 };

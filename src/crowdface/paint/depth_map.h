@@ -16,7 +16,7 @@ namespace crowdface {
 class DepthMap {
  public:
   /// \param samples      #S by 3: points of the surface
-  /// \param cell_size  edge length of a cell
+  /// \param cell_size  edge length of a cell, in the unit of the samples
   DepthMap(const Positions& samples, const HeadAxes& axes, double cell_size);
 
   /// Reduces noise: replaces the depth of each cell by the mean of the known depths in the three by
@@ -24,7 +24,7 @@ class DepthMap {
   /// of the grid do not change.
   void smooth();
 
-  /// Bounds of the samples: coordinates along axes.side() and along axes.up.
+  /// Bounding rectangle of the samples, in coordinates along axes.side() and along axes.up.
   const Eigen::AlignedBox2d& box() const { return box_; }
 
   /// Places the mean face on the surface and compares their depths.
@@ -32,7 +32,7 @@ class DepthMap {
   /// \param scale, stretch  size of the mean face, see ReliefMatch
   ReliefFit fit(double lateral_position, double height, double scale, double stretch = 1) const;
 
-  /// Depth at a point; kNoDepth where the map shows no surface.
+  /// Returns the depth of the surface at a point; kNoDepth where the map shows no surface.
   double depth(double lateral_position, double height) const;
 
  private:
@@ -53,13 +53,14 @@ class DepthMap {
   /// cells if all four show the surface, otherwise the depth of the cell that contains the point.
   /// kNoDepth outside the grid.
   double depth_in_cells(const AxisCells& column, const AxisCells& row) const;
-  /// Index in `depths_` of the cell that contains a point.
+  /// Returns the index in `depths_` of the cell that contains a point. `x` is the point's
+  /// coordinate along axes.side(), and `y` its coordinate along axes.up.
   std::size_t cell_index(double x, double y) const;
 
   Eigen::AlignedBox2d box_;
   double cell_size_;
-  Index columns_ = 0, rows_ = 0;
-  std::vector<double> depths_;  ///< depth of each cell, row by row; kNoDepth: no surface
+  Index columns_ = 0, rows_ = 0;  ///< numbers of columns and of rows of cells
+  std::vector<double> depths_;    ///< depth of each cell, row by row; kNoDepth: no surface
 };
 
 }  // namespace crowdface

@@ -19,8 +19,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Coordinates along the axes of a head, in millimetres of a face of average size: across (0 in the
-/// symmetry plane, positive on the head's left), up and front.
+/// A point, given by coordinates along the axes of a head, in millimetres of a face of average
+/// size: across (0 in the symmetry plane, positive on the head's left), up and front.
 struct HeadPoint {
   double across = 0, up = 0, front = 0;
 };
@@ -52,11 +52,13 @@ class HeadRays {
     HeadPoint at;
     bool is_skin = false;
   };
-  /// The first surface point that a ray from the front meets.
+  /// Returns the first surface point that a ray from the front meets. The ray is parallel to the
+  /// front axis, at the coordinates `across` and `up`.
   std::optional<Hit> from_front(double across, double up) const {
     return trace(point_at({across, up, 0}), -marks_.axes.front, marks_.axes.front);
   }
-  /// The first surface point that a ray from the left (`left` is 1) or from the right (−1) meets.
+  /// Returns the first surface point that a ray from the left (`left` is 1) or from the right (−1)
+  /// meets. The ray is parallel to the side axis, at the coordinates `up` and `front`.
   std::optional<Hit> from_side(int left, double up, double front) const {
     const Eigen::Vector3d outwards = left * side_;
     return trace(point_at({0, up, front}), -outwards, outwards);
@@ -219,7 +221,7 @@ class LandmarkSearch {
   /// The opening between the lids of an eye.
   struct EyeOpening {
     std::vector<HeadPoint> points;  ///< points of the eyeball between the lids
-    double radius = 0;              ///< radius of the eyeball
+    double radius = 0;              ///< radius of the eyeball, in mm of an average face
   };
   EyeOpening opening_of(const ComponentShape& ball) const {
     constexpr double kStep = 0.25, kFar = 1.2;

@@ -38,7 +38,8 @@ class Profile {
     step_ = (high - low_) / static_cast<double>(kHeights - 1);
     front_.assign(kHeights, kNoSkin);
     if (!(step_ > 0)) return;
-    // Take the median over several parallel planes, so that small holes and noise have no effect.
+    // Take the median of the front coordinates over several parallel planes, so that small holes
+    // and noise have no effect.
     constexpr std::array<double, 5> kBesideMm = {-6, -3, 0, 3, 6};
     std::array<std::vector<double>, kBesideMm.size()> fronts;
     for (std::size_t i = 0; i < fronts.size(); ++i) {
@@ -63,7 +64,8 @@ class Profile {
     const double t = x - static_cast<double>(bin);
     return (1 - t) * front_[bin] + t * front_[bin + 1];
   }
-  /// Fills hollows of the profile that are narrower than `width`, such as a slightly open mouth.
+  /// Returns a copy of the profile in which hollows are filled that are narrower than `width` (in
+  /// the unit of the positions), such as a slightly open mouth.
   Profile without_slits(double width) const {
     Profile closed = *this;
     const auto reach = static_cast<std::ptrdiff_t>(width / (2 * step_));
@@ -82,13 +84,13 @@ class Profile {
     closed.front_ = extreme(extreme(front_, highest), lowest);
     return closed;
   }
-  /// The depth of the profile at `height`, measured from the straight line between the profile's
-  /// points at `height` + `half_width` and `height` − `half_width`. Negative where the profile is
-  /// convex.
+  /// Returns the depth of the profile at `height`, measured from the straight line between the
+  /// profile's points at `height` + `half_width` and `height` − `half_width`. Negative where the
+  /// profile is convex.
   double hollow(double height, double half_width) const {
     return (at(height + half_width) + at(height - half_width)) / 2 - at(height);
   }
-  /// The height between `from` and `to` at which `measure` is largest.
+  /// Returns the height between `from` and `to` at which `measure(height)` is largest.
   template <class Measure>
   double best(double from, double to, const Measure& measure) const {
     double best = from, most = -std::numeric_limits<double>::infinity();
@@ -155,8 +157,8 @@ class Profile {
       }
     }
   }
-  /// Binomial smoothing.
-  /// \param width  standard deviation
+  /// Smooths the profile with a binomial filter.
+  /// \param width  standard deviation of the filter, in the unit of the positions
   void smooth(double width) {
     const auto rounds = static_cast<int>(std::ceil(2 * (width / step_) * (width / step_)));
     for (int round = 0; round < rounds; ++round) {

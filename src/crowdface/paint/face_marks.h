@@ -22,8 +22,8 @@ struct FaceMarks {
   double mouth_height = 0;     ///< height of the line between the lips
   double chin_height = 0;      ///< height of the most convex point of the profile of the chin
   double chin_front = 0;       ///< front coordinate of the chin, along axes.front
-  /// Height of the eyes above the mouth, about 65 mm on a face of average size. Many lengths are
-  /// defined as multiples of this height.
+  /// Returns the height of the eyes above the mouth, about 65 mm on a face of average size. Many
+  /// lengths are defined as multiples of this height.
   double eye_to_mouth() const { return eyes_height - mouth_height; }
 };
 
@@ -31,7 +31,7 @@ struct FaceMarks {
 struct HeadShape {
   Positions positions;        ///< vertex positions, #V by 3
   std::vector<bool> is_skin;  ///< whether each vertex is skin, #V
-  /// empty if the head has no eyeballs
+  /// centre of each eyeball; empty if the head has no eyeballs
   std::vector<Eigen::Vector3d> eyeball_centres;
 };
 /// Returns the shape of the mean of all heads.

@@ -248,8 +248,9 @@ class Refinement {
     if (score_ <= kWorst) best_ = next;
   }
 
-  /// Differences between the depths at points to the left of the plane through `middle` and at
-  /// their mirror images to the right, seen along `axes`.
+  /// Returns the differences between the depths at points of the left half of the face and at their
+  /// mirror images on the right half. The mirror plane contains `middle` and is perpendicular to
+  /// `axes.side()`.
   std::vector<double> asymmetry(const HeadAxes& axes, const Eigen::Vector3d& middle) const {
     constexpr double kHighMm = 40, kLowMm = -100, kAsideMm = 60, kStepMm = 4;
     DepthMap map(nearby_samples_, axes, cell_size_);

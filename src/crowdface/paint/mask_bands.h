@@ -34,8 +34,8 @@ inline constexpr std::array<std::pair<std::string_view, MaskBand>, 5> kMaskBandN
 
 /// Both ears of a head: their vertices, and their extent along the head's axes.
 struct Ears {
-  double bottom = 0, top = 0;           ///< heights of the lowest and the highest point
-  double back = 0, front = 0;           ///< range of the coordinate along HeadAxes::front
+  double bottom = 0, top = 0;           ///< heights of the lowest and the highest point of the ears
+  double back = 0, front = 0;           ///< range of the ears' coordinates along HeadAxes::front
   std::vector<std::uint32_t> vertices;  ///< vertices of both ears, ascending; at least one
 };
 /// Finds the ears: the parts of the skin that protrude at both sides of the head, between the

@@ -87,8 +87,8 @@ double edge_length(const Positions& positions, const std::vector<BrushedVertex>&
   return neighbours.items.empty() ? 1 : sum / static_cast<double>(neighbours.items.size());
 }
 
-/// Returns the number of rounds of smoothing or growing: `edges`, rounded up and limited to
-/// 1 … kMaxRounds.
+/// Returns the number of rounds of smoothing or growing: `edges` (a number of edge lengths) rounded
+/// up and limited to 1 … kMaxRounds.
 int rounds(double edges) {
   return static_cast<int>(std::clamp(std::ceil(edges), 1.0, double{kMaxRounds}));
 }

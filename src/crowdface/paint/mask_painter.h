@@ -13,10 +13,11 @@ namespace crowdface {
 
 /// What the brush does to the weights of the painted region.
 enum class BrushMode : std::uint8_t {
-  kAdd,     ///< increases the weight of the region
-  kErase,   ///< decreases the weight of the region; the other regions' weights grow in proportion
+  kAdd,  ///< increases the weight of the painted region
+  /// decreases the weight of the painted region; the other regions' weights grow in proportion
+  kErase,
   kSmooth,  ///< smooths the weights of all regions
-  kGrow,    ///< moves the border of the region outwards
+  kGrow,    ///< moves the border of the painted region outwards
 };
 
 /// Settings of the brush with which the user paints weights.
@@ -45,6 +46,7 @@ class MaskPainter {
   MaskPainter(const Topology& topology, const Positions& positions, const MirrorPlane& mirror,
               Alpha alpha);
 
+  /// Returns the current weights, #V by #regions.
   const Alpha& alpha() const { return alpha_; }
   const SurfaceDistance& surface() const { return surface_; }
 
@@ -76,6 +78,7 @@ class MaskPainter {
   MirrorPlane mirror_;
   SurfaceDistance surface_;
   Alpha alpha_;
+  /// for each stroke that can be undone: the weights before the stroke
   std::vector<Step> undo_steps_;
 };
 

@@ -13,7 +13,9 @@ namespace crowdface {
 inline constexpr int kReliefRows = 17;
 /// Number of columns on one side of the face, including the middle column.
 inline constexpr int kHalfReliefColumns = 6;
+/// Number of columns of the grid, on both sides of the face.
 inline constexpr int kReliefColumns = 2 * kHalfReliefColumns - 1;
+/// Number of cells of the grid.
 inline constexpr int kReliefCells = kReliefRows * kReliefColumns;
 /// Distance between neighbouring rows and columns of the grid.
 inline constexpr double kReliefSpacingMm = 8;
@@ -35,7 +37,7 @@ constexpr double cell_height_mm(int cell) {
 /// the tip.
 double depth_of_mean_face_mm(int cell);
 
-/// Depth of a cell without a surface.
+/// The depth of a grid cell that contains no surface.
 inline constexpr double kNoDepth = -std::numeric_limits<double>::infinity();
 /// The depth of a surface in each cell of the grid, row by row.
 using ReliefDepths = std::array<double, kReliefCells>;

@@ -30,7 +30,7 @@ class SurfaceDistance {
   std::vector<ReachedVertex> vertices_within(const std::vector<SurfacePoint>& points,
                                              double reach) const;
 
-  /// The point on the surface that is nearest to `point`.
+  /// Returns the point on the surface that is nearest to `point`.
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
   const Positions& positions() const { return positions_; }

@@ -55,13 +55,15 @@ class Anchors {
   bool is_unmoved(std::size_t triangle_index, const Positions& before,
                   const Positions& after) const;
 
-  std::vector<std::uint32_t> bound_vertices_;  ///< vertex indices, ascending
+  /// indices of the bound vertices in the mesh, ascending
+  std::vector<std::uint32_t> bound_vertices_;
   /// per bound vertex: the skin triangle of its anchor, as an index into `skin_triangles_`
   std::vector<std::uint32_t> triangle_indices_;
   /// per bound vertex: barycentric coordinates of its anchor
   std::vector<std::array<double, 3>> barycentric_;
-  std::vector<Triangle> skin_triangles_;  ///< triangles of the skin, as vertex indices
-  CompressedRows<RingVertex> rings_;      ///< the skin around each of `skin_triangles_`
+  std::vector<Triangle> skin_triangles_;  ///< the triangles of the skin to which vertices are bound
+  /// for each of `skin_triangles_`: the skin vertices around it, with weights
+  CompressedRows<RingVertex> rings_;
 };
 
 /// The weights with which bound vertices follow the motions of nearby rigid parts. For example,

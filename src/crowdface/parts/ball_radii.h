@@ -25,7 +25,7 @@ class BallRadii {
   /// Gap between the eyeball's surface and a point.
   struct Gap {
     double gap = 0;          ///< signed distance from the surface; negative: inside the eyeball
-    Eigen::Vector3d normal;  ///< outward unit normal of the eyeball's surface at the gap
+    Eigen::Vector3d normal;  ///< outward unit normal of the eyeball, in the direction of the point
   };
   /// Returns the approximate gap between the surface and a point (exact to first order).
   ///
@@ -52,7 +52,7 @@ class BallRadii {
   Eigen::Vector3d side_ = Eigen::Vector3d::Zero(), centre_ = Eigen::Vector3d::Zero();
   /// `radius_`: the constructor's parameter. `max_radius_`: the largest radius in any direction.
   double radius_ = 0, max_radius_ = 0;
-  /// kNodesPerSide by kNodesPerSide; x, along the side axis, varies fastest
+  /// radius at each node of the grid; the node's x, along the side axis, varies fastest
   std::vector<float> radii_;
 };
 

@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// Largest number of vertices of a part that are used; a part with more vertices is subsampled
-/// evenly.
+/// Largest number of a part's vertices that are tested for contact with the skin; a part with more
+/// vertices is subsampled evenly.
 constexpr std::size_t kMaxVertices = 2500;
 /// Largest number of pairs in a cluster.
 constexpr std::size_t kClusterPairs = 16;
@@ -273,7 +273,7 @@ bool PartContact::step(const Positions& target, const RigidMotion& start,
     program.add_target(kShift + i, -shifted(static_cast<Index>(i)), 1);
     program.add_target(kTurn + i, 0, kRotationCost);
   }
-  // Keep the total change of size small, and within fixed limits.
+  // Keep the total change of the part's size small, and within fixed limits.
   program.add_target(kSize, -grown, kSizeCost);
   program.add_bounds(kSize, -kMaxShrink * radius - grown, kMaxGrowth * radius - grown);
   program.add_slack(kOutsideSlack, kOutsidePenalty * reach_);

@@ -32,7 +32,7 @@ class PartContact {
   /// The height of a vertex of the part above the skin of a head.
   struct Height {
     double height = 0;        ///< signed distance from the skin; negative: inside the skin
-    Eigen::Vector3d outward;  ///< outward unit normal of the skin
+    Eigen::Vector3d outward;  ///< outward unit normal of the skin near the vertex
   };
   /// Returns the height of a point of the part above the nearest skin.
   ///
@@ -53,6 +53,7 @@ class PartContact {
   RigidMotion keep_out_of_skin(const Positions& target, const RigidMotion& motion,
                                const Positions& moved_face, double margin) const;
 
+  /// Returns the number of pairs.
   std::size_t size() const { return pairs_.size(); }
 
  private:
@@ -103,7 +104,7 @@ class PartContact {
   double radius_ = 0;       ///< root mean square distance of the part's vertices from `middle_`
   /// middle of the part on the head where the pairs were found
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
-  std::vector<Pair> pairs_;  ///< ordered by cluster
+  std::vector<Pair> pairs_;  ///< all pairs, ordered by cluster
   std::vector<Cluster> clusters_;
 };
 

@@ -224,11 +224,11 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
     program.add_lower_bound(of.a, missing - kMeanGapTolerance * radius);
     program.add_lower_bound(less, -missing - kMeanGapTolerance * radius);
   }
-  // Keep the total shift small.
+  // Keep the total translation of the eyeball small.
   for (std::size_t i = 0; i < 3; ++i) {
     program.add_target(kBallShift + i, -shifted(static_cast<Index>(i)), kTranslationCost);
   }
-  // Keep the total change of size small.
+  // Keep the total change of the eyeball's size small.
   program.add_target(kBallSize, size_mode == SizeMode::kFree ? -grown : 0, kBallSizeCost);
   if (size_mode == SizeMode::kFree) {
     program.add_bounds(kBallSize, -kMaxBallShrink * radius - grown,

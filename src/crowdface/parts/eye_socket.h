@@ -16,7 +16,7 @@ namespace crowdface {
 /// directions around the eye's axis, the vertex nearest to the axis belongs to the rim.
 struct Lids {
   std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh, ascending
-  std::vector<std::uint32_t> rim;       ///< indices into `vertices`, ascending
+  std::vector<std::uint32_t> rim;       ///< the rim vertices, as ascending indices into `vertices`
   std::vector<bool> is_upper;  ///< for each entry of `rim`: whether it belongs to the upper lid
 };
 
@@ -71,8 +71,9 @@ class EyeSocket {
     std::uint32_t index;    ///< index into `Lids::vertices`
   };
   /// Returns `motion` improved by one step of the optimisation.
-  /// \param far  The function removes lid points whose distance from the eyeball is larger than
-  ///             this fraction of the radius.
+  /// \param far   The function removes from `lids` the points whose distance from the eyeball is
+  ///              larger than this fraction of the eyeball's radius.
+  /// \param lids  The lid vertices to check.
   RigidMotion step(std::size_t target, const RigidMotion& skin_motion, const RigidMotion& motion,
                    double far, SizeMode size_mode, std::vector<LidPoint>& lids) const;
   /// Repeats `step` until the eyeball hardly moves; starts from `motion`.
@@ -81,7 +82,7 @@ class EyeSocket {
 
   Lids lids_;
   std::vector<BallRadii> ball_radii_;      ///< for each head: the radii of the eyeball in the head
-  std::vector<std::vector<double>> gaps_;  ///< for each head: see gaps()
+  std::vector<std::vector<double>> gaps_;  ///< for each head: the result of gaps()
   std::vector<double> smallest_gaps_;      ///< for each lid vertex: its smallest gap in all heads
   /// for each lid vertex: its index in Lids::rim; kNoIndex if the vertex is not on the rim
   std::vector<std::uint32_t> rim_indices_;

@@ -23,7 +23,7 @@ namespace crowdface {
 namespace {
 
 // Lengths are fractions of the skin's extent, about 43 cm.
-constexpr double kReach = 0.008;    // largest distance of skin that nearly touches
+constexpr double kReach = 0.008;    // largest distance between vertices of skin that nearly touches
 constexpr double kSpacing = 0.003;  // spacing of the subsampled vertices
 // Largest overlap of facing skin, as a fraction of the skin's extent. An overlap is allowed because
 // touching lips overlap a little on the mean head. The limit is less than the thickness of an
@@ -46,8 +46,9 @@ constexpr double kSideways = 0.75;  // largest sideways offset, as a fraction of
 /// that search along the surface.
 constexpr Index kBlock = 1024, kSearches = 16;
 
-/// Returns the vertex with the lowest index in each cell of a grid; the result is in ascending
-/// order.
+/// Thins out the vertices of the skin: of all skin vertices in a cell of a grid, returns only the
+/// vertex with the lowest index. The result is in ascending order. `width` is the edge length of a
+/// cell.
 std::vector<std::uint32_t> thinned(const Positions& positions, std::span<const std::uint32_t> skin,
                                    double width) {
   using Cell = std::array<double, 3>;
@@ -127,7 +128,8 @@ void agree_on_sides(FacingGroup& group) {
   }
 }
 
-/// Returns the mean length of the mesh edges at the low vertices of the pairs.
+/// Returns the mean length of the mesh edges that end at the low vertices of the pairs (see
+/// FacingPair).
 double mean_edge(const Adjacency& adjacency, const Positions& positions, const FacingGroup& pairs) {
   double sum = 0, count = 0;
   for (const FacingPair& pair : pairs) {

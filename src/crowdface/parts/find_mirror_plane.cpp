@@ -9,7 +9,7 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kPoints = 4000;  ///< number of skin vertices that determine the plane
+constexpr std::size_t kPoints = 4000;  ///< number of skin vertices that determine the mirror plane
 constexpr int kSteps = 30;
 
 using Vertices = std::vector<std::uint32_t>;

@@ -41,7 +41,7 @@ std::vector<double> vertex_areas(const Topology& topology, const Positions& posi
   return areas;
 }
 
-/// Returns whether the vertices have exactly the same positions.
+/// Returns whether the given vertices have exactly the same positions in `before` and `after`.
 bool have_same_positions(const Positions& before, const Positions& after,
                          std::span<const std::uint32_t> vertices) {
   return std::ranges::all_of(vertices,
@@ -50,7 +50,8 @@ bool have_same_positions(const Positions& before, const Positions& after,
 
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  std::vector<double> equal_weights;  ///< all 1, one per vertex; for fits of the part's shape
+  /// weights for fit_rigid_motion: 1 for each vertex of the part
+  std::vector<double> equal_weights;
   Socket socket;
   bool is_eyeball = false;
   EyeSocket eye;        ///< used if the part is an eyeball
@@ -66,7 +67,7 @@ struct SkinOfMean {
   std::vector<double> areas;            ///< area of each vertex, #V
   std::vector<std::uint32_t> vertices;  ///< vertices that belong to a polygon but to no part
   PointGrid grid;                       ///< grid of `vertices`
-  double extent;                        ///< extent of the largest component
+  double extent;                        ///< diagonal of the bounding box of the largest component
 };
 
 /// Returns the skin around a rigid part. The reach doubles until there is enough skin, so that a
@@ -123,7 +124,8 @@ struct PartFollower::State {
   double extent;  ///< diagonal of the skin's bounding box
   std::vector<RigidPart> rigid;
   Anchors anchors;
-  std::vector<std::vector<Eigen::Vector3d>> offsets;  ///< per head: Anchors::measure_offsets
+  /// for each head: the result of Anchors::measure_offsets
+  std::vector<std::vector<Eigen::Vector3d>> offsets;
   PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
 
   struct PartMotion {

@@ -73,15 +73,17 @@ class Clearance {
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
-    /// Two neighbouring points of the low profile (see GapSection), as indices into the list of all
-    /// profile points: first the points of the low profile, then those of the high profile.
+    /// The two neighbouring points of the low profile between which the point on the low profile
+    /// lies. They are given by their indices in the list of all profile points (see `points_`).
     std::array<std::uint32_t, 2> low_indices;
-    /// two neighbouring points of the high profile, likewise
+    /// The two neighbouring points of the high profile between which the point on the high profile
+    /// lies, as indices in the same list.
     std::array<std::uint32_t, 2> high_indices;
-    std::array<double, 2> low_weights, high_weights;  ///< interpolation weights, with sum one
+    /// weights of `low_indices` and of `high_indices`; each pair sums to one
+    std::array<double, 2> low_weights, high_weights;
 
     /// Returns the height of the high point above the low point.
-    /// \param heights  Heights of all points.
+    /// \param heights  Heights of all profile points, from heights().
     double gap(std::span<const double> heights) const {
       return high_weights[0] * heights[high_indices[0]] +
              high_weights[1] * heights[high_indices[1]] - low_weights[0] * heights[low_indices[0]] -
@@ -93,7 +95,7 @@ class Clearance {
   /// smallest at one of these pairs. If no segments overlap in depth, returns the two points that
   /// are nearest in depth.
   ///
-  /// \param depths  Depths of all points.
+  /// \param depths  Depths of all profile points, from depths().
   std::vector<OppositePoints> opposite_points(std::span<const double> depths) const;
   /// Returns the coordinates of all profile points along the section's `up`. The points of the low
   /// profile come first.
@@ -120,8 +122,9 @@ class Clearance {
   std::vector<double> coordinates(const Eigen::Vector3d& direction,
                                   const Positions& positions) const;
 
-  std::vector<EdgePoint> points_;    ///< points of the low profile, then of the high profile
-  std::vector<Segment> low_, high_;  ///< segments of the two profiles
+  /// all profile points: first those of the low profile, then those of the high profile
+  std::vector<EdgePoint> points_;
+  std::vector<Segment> low_, high_;  ///< segments of the low and of the high profile
   Eigen::Vector3d up_, inward_;      ///< directions of the section, see GapSection
 };
 

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// How a connected component of a mesh moves when a face is blended.
 enum class PartClass : std::uint8_t {
-  kSkin,   ///< blended (Eq. 7)
+  kSkin,   ///< the positions of its vertices are blended (Eq. 7)
   kRigid,  ///< moves as a whole with the skin around it: eyeballs, teeth
   kBound,  ///< each vertex moves with the nearest skin: lashes, tear lines
 };
@@ -22,8 +22,8 @@ enum class PartClass : std::uint8_t {
 struct Part {
   PartClass part_class = PartClass::kRigid;
   bool is_eyeball = false;                  ///< whether the part is round and as large as an eye
-  std::vector<std::uint32_t> components;    ///< indices of components, ascending
-  std::vector<std::uint32_t> vertices;      ///< vertices of all components, ascending
+  std::vector<std::uint32_t> components;    ///< indices of the part's components, ascending
+  std::vector<std::uint32_t> vertices;      ///< vertices of all the part's components, ascending
   std::uint32_t ball_component = kNoIndex;  ///< only for an eyeball: the largest of `components`
   /// only for an eyeball: the vertices of `ball_component`
   std::vector<std::uint32_t> ball_vertices;
@@ -31,8 +31,8 @@ struct Part {
 
 /// The parts of a mesh.
 struct PartList {
-  std::vector<ComponentShape> shapes;  ///< one per component
-  std::vector<PartClass> classes;      ///< one per component
+  std::vector<ComponentShape> shapes;  ///< for each component of the mesh: its shape
+  std::vector<PartClass> classes;      ///< for each component of the mesh: how it moves
   /// ordered by their first components; the skin is not a part
   std::vector<Part> parts;
 };

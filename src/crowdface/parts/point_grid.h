@@ -49,10 +49,11 @@ class PointGrid {
   }
 
   const Positions& positions_;
-  Eigen::Vector3d min_corner_;                      ///< smallest coordinates of all vertices
-  double cell_width_ = 1;                           ///< edge length of a cell
-  Cell cell_counts_ = {1, 1, 1};                    ///< number of cells along x, y, z
-  CompressedRows<std::uint32_t> vertices_by_cell_;  ///< vertices, ascending within each cell
+  Eigen::Vector3d min_corner_;    ///< smallest coordinates of all vertices
+  double cell_width_ = 1;         ///< edge length of a cell
+  Cell cell_counts_ = {1, 1, 1};  ///< number of cells along x, y, z
+  /// for each cell: the vertices in it, ascending
+  CompressedRows<std::uint32_t> vertices_by_cell_;
 };
 
 }  // namespace crowdface

@@ -52,8 +52,8 @@ class QuadraticProgram {
   };
   std::size_t unknowns_;
   std::array<Vector, kMaxUnknowns> quadratic_ = {};  ///< Q of the objective ½ xᵀ Q x − linear·x
-  Vector linear_ = {};  ///< `linear` of the same objective as for `quadratic_`
-  std::vector<Bound> bounds_;
+  Vector linear_ = {};         ///< `linear` of the objective ½ xᵀ Q x − linear·x
+  std::vector<Bound> bounds_;  ///< all constraints
 };
 
 }  // namespace crowdface

@@ -27,13 +27,13 @@ struct RigidMotion {
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero(), moved_pivot = Eigen::Vector3d::Zero();
 
   Eigen::Vector3d apply(const Eigen::Vector3d& point) const;
-  /// Inverse of `apply`.
+  /// Applies the inverse of the motion to a point.
   Eigen::Vector3d apply_inverse(const Eigen::Vector3d& point) const;
-  /// Rotates and scales a direction.
+  /// Rotates and scales a direction as the motion does; does not translate the direction.
   Eigen::Vector3d apply_to_direction(const Eigen::Vector3d& direction) const;
 };
 
-/// Moves all rows of positions.
+/// Applies the motion to each point (row) of `positions`.
 void move_rows(const RigidMotion& motion, Positions& positions);
 /// Returns the inverse motion.
 RigidMotion inverse(const RigidMotion& motion);

@@ -25,7 +25,8 @@ constexpr double kSideSmoothing = 0.006;  // width of the smoothing of the sides
 constexpr double kTolerance = 1e-5;       // tolerance of a gap
 constexpr double kMinWeight = 1e-3;       // vertices with smaller weights do not move
 constexpr std::size_t kRowsPerBlock = 8192, kMovedPerBlock = 1024;  // vertices per parallel block
-// profile points per parallel block: their derivatives fit into a core's L1 cache
+// number of profile points in a parallel block; the derivatives of this many points fit into a
+// core's L1 cache
 constexpr std::size_t kPointsPerBlock = 256;
 constexpr int kSweeps = 200;  // largest number of Gauss-Seidel sweeps in a round
 constexpr int kRounds = 3;    // largest number of rounds of fit_gaps
@@ -232,12 +233,13 @@ std::vector<std::uint32_t> SkinContacts::movable_vertices() const {
   return vertices;
 }
 
-/// Solves for the amplitudes of all sections, starting from the previous amplitudes. A section has
-/// a positive amplitude only if its gap would otherwise be too narrow, and a negative amplitude
-/// only if its gap would otherwise be too wide. So neighbours rarely counteract each other. This is
-/// a linear complementarity problem, solved by projected Gauss-Seidel (Cottle, Pang & Stone 1992,
-/// chapter 5). The smallest gap of a section may move to another pair of opposite points during the
-/// iteration, so each step computes the gap again.
+/// Solves for the amplitudes (the sizes of the corrections) of all sections of a group, starting
+/// from the previous amplitudes. A section has a positive amplitude only if its gap would otherwise
+/// be too narrow, and a negative amplitude only if its gap would otherwise be too wide. So
+/// neighbours rarely counteract each other. This is a linear complementarity problem, solved by
+/// projected Gauss-Seidel (Cottle, Pang & Stone 1992, chapter 5). The smallest gap of a section may
+/// move to another pair of opposite points during the iteration, so each step computes the gap
+/// again.
 std::vector<SkinContacts::AmplitudeChange> SkinContacts::find_kernel_amplitudes(
     const SectionGroup& section_group, std::span<const Range> ranges, double max_amplitude,
     Profiles& profiles, std::vector<double>& amplitudes) const {
@@ -297,8 +299,9 @@ void SkinContacts::move(const SectionGroup& section_group, std::span<const doubl
   });
 }
 
-/// Solves for the amplitudes in up to kRounds rounds. The solution of a round changes the depths of
-/// the profile points, so the next round determines again which points lie opposite each other.
+/// For each group of sections, determines the amplitudes of the sections' corrections in up to
+/// kRounds rounds, and then displaces the skin. The corrections of a round change the depths of the
+/// profile points, so the next round determines again which profile points lie opposite each other.
 void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions) const {
   for (const SectionGroup& section_group : section_groups_) {
     Profiles profiles;
@@ -311,7 +314,7 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
     std::vector<AmplitudeChange> changes;
     double max_amplitude = 0;
     for (int round = 0; round < kRounds; ++round) {
-      // Update the depths, and find the opposite points again.
+      // Update the depths of the profile points, and find the opposite points again.
       move_depths(section_group, changes, profiles.depths);
       double largest_deviation = 0;
       profiles.opposite_pairs.clear();
@@ -325,9 +328,9 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
             std::max(largest_deviation, std::abs(std::clamp(gap, least, widest) - gap));
       }
       if (largest_deviation <= tolerance_) break;
-      // The first round sets the largest allowed amplitude for all rounds.
+      // The first round sets the largest allowed amplitude of a correction for all rounds.
       if (round == 0) max_amplitude = kMaxAmplitudeFactor * largest_deviation;
-      // Solve for the amplitudes with these opposite points.
+      // Determine the amplitudes of the sections' corrections with these opposite points.
       changes = find_kernel_amplitudes(section_group, ranges, max_amplitude, profiles, amplitudes);
     }
     if (max_amplitude > 0) move(section_group, amplitudes, positions);

@@ -23,11 +23,12 @@ class SkinContacts {
   SkinContacts(const HeadSet& heads, const Adjacency& adjacency,
                std::span<const std::uint32_t> skin);
 
+  /// Returns the number of sections.
   std::size_t size() const { return sections_.size(); }
   const GapSection& section(std::size_t i) const { return sections_[i]; }
-  /// Returns the gap at each section, in the heads' unit.
+  /// Returns the gap at each section of a mesh with these positions, in the heads' unit.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns a head's gap at each section, in the heads' unit.
+  /// Returns the gap at each section of the head with this index, in the heads' unit.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
@@ -55,30 +56,32 @@ class SkinContacts {
   /// the kernels of all sections, each multiplied by an amplitude.
   struct KernelValue {
     std::uint32_t section;
-    double weight;  ///< positive on the high side, negative on the low side
+    /// value of the kernel: positive on the gap's high side, negative on its low side
+    double weight;
   };
   /// Derivatives of the heights and depths of a group's profile points with respect to the
   /// amplitude of one section. The points have the same order as in Profiles.
   struct PointMotions {
-    std::vector<double> heights, depths;  ///< one derivative per profile point
+    std::vector<double> heights, depths;  ///< one derivative for each profile point
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {
     /// the group consists of `sections_[begin]` to `sections_[end - 1]`
     std::size_t begin = 0, end = 0;
-    std::vector<std::uint32_t> vertices;  ///< vertices that move, ascending
+    std::vector<std::uint32_t> vertices;  ///< vertices that the corrections move, ascending
     /// for each vertex: the kernels of the nearby sections, evaluated at the vertex
     CompressedRows<KernelValue> kernels;
-    std::vector<PointMotions> point_motions;  ///< one per section of the group
+    /// for each section of the group: how its amplitude moves the profile points
+    std::vector<PointMotions> point_motions;
   };
 
   /// The current positions of the profile points of all sections of a group. Each section has two
   /// profiles, see GapSection.
   struct Profiles {
-    /// coordinates of all points: first the points of the group's first section, then the points of
-    /// its second section, and so on
+    /// heights and depths of all profile points: first the points of the group's first section,
+    /// then the points of its second section, and so on
     std::vector<double> heights, depths;
-    std::vector<std::size_t> begins;  ///< for each section: index of its first point
+    std::vector<std::size_t> begins;  ///< for each section: index of its first point in `heights`
     /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposite_pairs;
 
@@ -124,18 +127,19 @@ class SkinContacts {
                                                       std::span<const Range> ranges,
                                                       double max_amplitude, Profiles& profiles,
                                                       std::vector<double>& amplitudes) const;
-  /// Updates the depths of all profile points of a group after changes of amplitudes.
+  /// Updates `depths`, the depths of all profile points of a group, after the amplitudes of
+  /// sections have changed.
   static void move_depths(const SectionGroup& section_group,
                           std::span<const AmplitudeChange> changes, std::vector<double>& depths);
   /// Displaces the skin by the kernels of the group, times the amplitudes.
   void move(const SectionGroup& section_group, std::span<const double> amplitudes,
             Positions& positions) const;
 
-  double tolerance_ = 0;  ///< tolerance of a gap, in the heads' unit
+  double tolerance_ = 0;  ///< a gap may be outside its range by this length, in the heads' unit
   std::vector<GapSection> sections_;
-  std::vector<Clearance> clearances_;  ///< one per section
+  std::vector<Clearance> clearances_;  ///< for each of `sections_`: measures its gap
   std::vector<SectionGroup> section_groups_;
-  std::vector<std::vector<double>> head_gaps_;  ///< for each head: the gap at each section
+  std::vector<std::vector<double>> head_gaps_;  ///< for each head: its gap at each section
 };
 
 }  // namespace crowdface

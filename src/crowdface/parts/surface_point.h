@@ -12,10 +12,10 @@ namespace crowdface {
 /// A point on a triangle of a mesh. Larger polygons are triangulated as fans from their first
 /// corner.
 struct SurfacePoint {
-  Triangle corners = {};                   ///< vertex indices of the triangle
-  std::array<double, 3> barycentric = {};  ///< barycentric coordinates
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  double distance = 0;  ///< distance from the query point
+  Triangle corners = {};                               ///< vertex indices of the triangle
+  std::array<double, 3> barycentric = {};              ///< barycentric coordinates
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< position of the point
+  double distance = 0;                                 ///< distance from the query point
 };
 
 /// Returns the point with these barycentric coordinates on a triangle.

@@ -37,7 +37,7 @@ struct LoadedMask {
   std::map<int, LoadedTile> tiles;
   /// set if the mask is a file of vertex weights; then `tiles` is empty
   std::optional<VertexWeights> weights;
-  std::vector<std::string> names;  ///< one name per channel; empty if the file has no channel names
+  std::vector<std::string> names;  ///< for each channel: its name; empty if no channel has a name
 
   std::size_t channels() const {
     if (weights) return weights->rows.width();

@@ -14,7 +14,8 @@ namespace crowdface {
 /// The weight of each region at every vertex: the masks α_k of Eq. 7.
 struct RegionWeights {
   using Alpha = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  Alpha alpha;  ///< #V by #R, not negative, rows sum to one
+  /// weight of each region at each vertex, #V by #R; not negative; each row sums to one
+  Alpha alpha;
   /// Number of vertices that need masks (see `is_needed` of region_weights), but at which all masks
   /// are zero. These vertices belong to the last region.
   Index uncovered_vertex_count = 0;

@@ -14,7 +14,7 @@ namespace crowdface {
 /// A texture coordinate at which a mask is sampled for a vertex.
 struct UvSample {
   int tile = 0;  ///< UDIM number
-  double u = 0;  ///< texture coordinate as in the mesh file, not relative to the tile
+  double u = 0;  ///< `u` and `v`: texture coordinate as in the mesh file, not relative to the tile
   double v = 0;
   auto operator<=>(const UvSample&) const = default;  // NOLINT(modernize-use-nullptr)
 };

@@ -120,7 +120,7 @@ void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, cons
     far.emplace_back(corners, single, max_facing_distance / 2);
     normals.emplace_back(corners, single);
   }
-  // position of each triangle in the order of the leaves
+  // for each triangle: its index in the order of the leaves; kNoIndex if no leaf contains it
   std::vector<std::uint32_t> place(numbered.size(), kNoIndex);
   for (std::uint32_t i = 0; i < tree_.order.size(); ++i) place[tree_.order[i]] = i;
   Rings rings(numbered, points.rows());

@@ -70,7 +70,7 @@ class CrossingSearch {
   /// Computes the boxes and normals of one leaf from `boxes.points`.
   void measure_leaf(std::size_t leaf, Boxes& boxes) const;
 
-  std::vector<Triangle> triangles_;
+  std::vector<Triangle> triangles_;  ///< the triangles to search, with vertex indices of the mesh
   /// vertex indices of the mesh, ascending: the vertices of the triangles
   std::vector<std::uint32_t> vertices_;
   TriangleTree tree_;  ///< tree over `triangles_`; its vertex indices are rows of `vertices_`

@@ -39,7 +39,7 @@ class FrameField {
   Eigen::Matrix3d map_at(std::size_t i, const Frames& frames) const;
 
  private:
-  /// A vertex of the skin around a node.
+  /// A vertex of the skin around a node; the map of the node is fitted to such vertices.
   struct Sample {
     std::uint32_t vertex;
     Eigen::Vector3d weight_vector;  ///< the vector w in the sum Σ d·wᵀ, see Node
@@ -53,7 +53,7 @@ class FrameField {
   struct Node {
     Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
-    std::vector<Sample> samples;
+    std::vector<Sample> samples;  ///< the vertices to which the map of the node is fitted
     /// the matrix W in the term R·W
     Eigen::Matrix3d similarity_weight_matrix;
   };
@@ -73,8 +73,9 @@ class FrameField {
   const Positions* neutral_ = nullptr;  ///< template at rest, #V by 3
   /// vertices of the skin that determine the similarity transform of the whole skin
   std::vector<std::uint32_t> sampled_skin_;
-  std::vector<double> equal_weights_;  ///< all 1, one per vertex of sampled_skin_
-  std::vector<Node> nodes_;
+  /// weights for fit_rigid_motion: 1 for each of sampled_skin_
+  std::vector<double> equal_weights_;
+  std::vector<Node> nodes_;  ///< the nodes, which are a few centimetres apart on the template
   /// for each vertex: the nodes whose maps are interpolated there, with weights
   CompressedRows<NodeWeight> node_weights_;
 };

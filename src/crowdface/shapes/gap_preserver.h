@@ -11,7 +11,8 @@ namespace crowdface {
 
 /// Preserves the gap between the lips in shapes that keep the lips closed or equally far apart. The
 /// linear maps of FrameField alone would change the gap, because the two lips get different maps:
-/// the lips are far from each other along the skin.
+/// the lips are far from each other along the skin. The width of a gap is measured at several
+/// sections (see SkinContacts). Below, each section counts as one gap.
 class GapPreserver {
  public:
   /// \param skin  Vertices of the skin, ascending.
@@ -21,7 +22,8 @@ class GapPreserver {
   /// Returns whether any of these vertices (ascending) belongs to skin that nearly touches other
   /// skin.
   bool is_affected_by(std::span<const std::uint32_t> vertices) const;
-  /// Returns one vertex beside each gap, in the order of the gaps.
+  /// Returns, for each gap, one vertex of the skin beside the gap. The order is the order of
+  /// measure_gaps.
   std::vector<std::uint32_t> contact_vertices() const;
 
   /// Returns the vertices that `adjust` may move.
@@ -41,7 +43,7 @@ class GapPreserver {
   /// `rest_gaps + gap_changes`.
   ///
   /// \param rest_gaps    Width of each gap on the face at rest.
-  /// \param gap_changes  Target change of each gap.
+  /// \param gap_changes  Wanted change of the width of each gap from rest to the shape.
   /// \param selection    Which gaps to adjust.
   /// \param shaped_face  The face with the blend shape applied, #V by 3; adjusted.
   void adjust(std::span<const double> rest_gaps, std::span<const double> gap_changes,

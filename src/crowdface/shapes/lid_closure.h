@@ -66,22 +66,25 @@ class LidClosure {
     /// vertical distance from the section's point on the upper rim down to the lower rim
     double vertical_gap;
   };
-  /// The gaps and distances that a face's lids should have: measured on a mesh whose displacements
-  /// are known, and divided by the mesh's scale relative to the template.
+  /// The lengths that the lids of a face should have in the shape: gaps between the lids, and
+  /// distances of the lids from the eyeball. measure_targets measures these lengths on a mesh for
+  /// which the shape was made (the template or a head), and divides them by the scale of this mesh
+  /// relative to the template.
   struct LidTargets {
-    std::vector<Gap> gaps;  ///< one per section
+    std::vector<Gap> gaps;  ///< the gap between the lids at each section
     /// One entry per lid vertex. `ball_distances`: distance from the eyeball with the shape
     /// applied. `distance_changes`: the distance with the shape applied minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;
   };
-  /// Measures the targets on a mesh with known displacements.
+  /// Measures the targets on a mesh for which the shape was made: on the template or on a head.
   ///
-  /// \param mesh   #V by 3, at rest.
+  /// \param mesh   The template or the head at rest, #V by 3.
   /// \param face_motion  Motion from the template to the mesh.
   /// \param moves  The mesh's displacements in the shape, one row for each vertex of the shape.
   LidTargets measure_targets(const Positions& mesh, const FaceEye& eye,
                              const RigidMotion& face_motion, const Positions& moves) const;
-  /// Returns the weighted mean of the targets of several sets of shapes.
+  /// Returns the weighted mean of the targets measured for several sets of shapes: for the shapes
+  /// of several heads.
   static LidTargets mean_targets(std::span<const LidTargets> targets,
                                  std::span<const ShapeSetShare> shares);
   /// Returns whether the shape closes the lids.
@@ -98,7 +101,8 @@ class LidClosure {
   void restore_closure(const Positions& face, const RigidMotion& face_motion,
                        const LidTargets& targets, Positions& moves) const;
 
-  /// Adjusts a shape until it meets the targets.
+  /// Adjusts the displacements of a face in the shape until its lids have the gaps and distances in
+  /// `targets`.
   ///
   /// \param face   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the face.
@@ -120,8 +124,10 @@ class LidClosure {
     EdgePoint edge;
     std::uint32_t row_a, row_b;
   };
-  /// A section across the eye's opening, where both lids are cut by a plane.
+  /// A section across the eye's opening, where a plane cuts both lids. A profile is the curve that
+  /// the plane cuts out of a lid.
   struct LidSection {
+    /// points of the lower and of the upper lid at which the plane cuts mesh edges
     std::vector<ProfilePoint> lower_profile, upper_profile;
     double along_opening;  ///< coordinate of the cutting plane along the head's side axis
     /// length by which the shape narrows the gap on the template
@@ -131,7 +137,7 @@ class LidClosure {
   struct EyeAxes {
     Eigen::Vector3d along, up;
   };
-  /// A point of a lid's rim, in the plane of EyeAxes.
+  /// A point of a lid's rim, given by two coordinates along the axes of EyeAxes.
   struct RimPoint {
     double along_opening;  ///< coordinate along EyeAxes::along
     double height;         ///< coordinate along EyeAxes::up
@@ -152,7 +158,8 @@ class LidClosure {
                     const Displacements& shape, const HeadAxes& axes);
   /// Reorders lid_vertices_: the vertices of the sections' profiles come first.
   void move_profile_vertices_to_front();
-  /// Returns the weights with which `lid_vertices_[lid]` follows each section.
+  /// Returns, for each section, the weight with which the vertical movement of `lid_vertices_[lid]`
+  /// follows the section's gain.
   std::span<const double> section_weights(std::size_t lid) const {
     return {section_weights_.data() + lid * sections_.size(), sections_.size()};
   }
@@ -176,7 +183,7 @@ class LidClosure {
   /// rest plus its target change, and min_ball_distance.
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
-  /// Returns the eye's axes on a face.
+  /// Returns the axes of the eye on the face that `face_motion` belongs to.
   EyeAxes eye_axes(const RigidMotion& face_motion) const;
   /// Returns the highest point of a lower lid's profile (`sign` = 1), or the lowest point of an
   /// upper lid's profile (`sign` = −1), after the displacements `moves`.
@@ -192,8 +199,9 @@ class LidClosure {
                                 const Positions& moves) const;
 
   HeadAxes axes_;
-  double radius_ = 0;  ///< radius of the template's eyeball
-  std::vector<LidSection> sections_;
+  double radius_ = 0;                 ///< radius of the template's eyeball
+  std::vector<LidSection> sections_;  ///< the sections at which the shape closes the lids
+  /// the vertices around the eye that the shape moves; those of profiles come first
   std::vector<LidVertex> lid_vertices_;
   /// number of lid vertices that belong to profiles; these come first in lid_vertices_
   std::size_t profile_vertex_count_ = 0;

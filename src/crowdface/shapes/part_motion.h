@@ -15,7 +15,7 @@ namespace crowdface {
 /// A rigid part of the template: an eyeball, or the teeth of a jaw.
 struct RigidPart {
   std::vector<std::uint32_t> vertices;
-  /// the subset of `vertices` to which motions are fitted
+  /// the subset of `vertices` to which the part's motion is fitted
   std::vector<std::uint32_t> fitted_vertices;
   /// all 1, one per fitted vertex; for fit_rigid_motion
   std::vector<double> equal_weights;
@@ -35,7 +35,8 @@ struct PartMotion {
   std::vector<Eigen::Vector3d> residuals;
 };
 
-/// The position of a rigid part on a face.
+/// A rigid part on a face at rest, with the motion and the local linear map from the template to
+/// the face.
 struct PlacedPart {
   /// \param neutral  Template at rest, #V by 3.
   /// \param mesh     The face at rest, #V by 3.

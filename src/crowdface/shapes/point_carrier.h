@@ -49,12 +49,13 @@ class PointCarrier {
   Positions place_points(Index target, const Positions& face) const;
 
  private:
-  /// A point on a triangle of the mesh.
+  /// A fixed place on a triangle of the mesh, given by barycentric coordinates.
   struct TrianglePoint {
     Triangle corners;
     std::array<double, 3> barycentric;  ///< barycentric coordinates
   };
-  /// What a point follows: a fixed position on a triangle, or the rigid motion of a vertex group.
+  /// What a point follows: a fixed position on a triangle, or the motion of a group of vertices (a
+  /// similarity transform).
   using Anchor = std::variant<TrianglePoint, Socket>;
 
   /// Returns the place of a point on the triangles; nothing if the point is not on the surface.

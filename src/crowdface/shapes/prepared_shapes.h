@@ -24,14 +24,14 @@ namespace crowdface {
 
 /// An eye of the template, and the same eyeball in each head.
 struct PreparedEye {
-  std::size_t part;  ///< index into the rigid parts
+  std::size_t part;  ///< index into PreparedShapes::rigid_parts
   TemplateEye template_eye;
   std::vector<BallRadii> balls;  ///< for each head: the radii of this eyeball in the head
 };
 
 /// How a shape moves one rigid part.
 struct PreparedPart {
-  std::size_t part;                           ///< index into the rigid parts
+  std::size_t part;                           ///< index into PreparedShapes::rigid_parts
   std::vector<std::uint32_t> moved_vertices;  ///< vertices of the part that the shape moves
   /// the row of each of `moved_vertices` in the shape's displacements
   std::vector<std::uint32_t> displacement_rows;
@@ -41,7 +41,7 @@ struct PreparedPart {
 /// How a shape moves the lids of one eye.
 struct PreparedLids {
   LidClosure lids;
-  std::vector<LidClosure::LidTargets> targets;  ///< one entry per set of shapes
+  std::vector<LidClosure::LidTargets> targets;  ///< for each set of shapes: the targets of the lids
 };
 
 /// A vertex of a lash, or of another part that is bound to the skin of a lid. When LidClosure
@@ -78,10 +78,10 @@ struct PreparedShape {
   /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
   /// all heads use one set
   std::vector<FloatPositions> head_moves;
-  std::vector<PreparedPart> parts;
-  std::vector<PreparedLids> lids;  ///< one per eye
+  std::vector<PreparedPart> parts;  ///< for each rigid part that the shape moves: how it moves
+  std::vector<PreparedLids> lids;   ///< for each eye of the template: how the shape moves its lids
   std::vector<LidFollower> lid_followers;
-  SkinOverParts skin_over_parts;
+  SkinOverParts skin_over_parts;  ///< keeps skin in front of gums and teeth
   SkinCrossings::SearchedSkin searched_skin;
   bool moves_contacts = false;  ///< whether the shape moves skin at a gap, see GapPreserver
   /// #sets by #gaps: by how much the shape widens each gap, divided by the scale of the mesh
@@ -115,10 +115,10 @@ struct PreparedShapes {
   RegionWeights::Alpha contact_region_weights;  ///< region weights at each gap, #gaps by #regions
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the bounding box of the template's skin
-  /// vertex indices of gums and teeth: of all parts except eyeballs, without the vertices near an
-  /// eye
+  /// indices of the vertices behind the skin of lips and cheeks, such as gums and teeth: the
+  /// vertices of all parts except eyeballs, without the vertices near an eye
   std::vector<std::uint32_t> inner_vertices;
-  SkinCrossings crossings;
+  SkinCrossings crossings;  ///< removes self-intersections of the skin from shapes
   /// Finds intersections on the face at rest, in the skin that at least one shape may bring into
   /// contact.
   CrossingSearch resting_face_search;
@@ -127,7 +127,7 @@ struct PreparedShapes {
   /// A face, with the local rotation and stretch of its skin relative to the template's skin.
   struct FaceFrames {
     const Positions& mesh;
-    FrameField::Frames frames;
+    FrameField::Frames frames;  ///< the motion and the linear maps from the template to the face
     std::vector<Eigen::Matrix3d> maps;  ///< linear map at each of PreparedShapes::moved_vertices
     std::vector<double> gaps;           ///< width of each gap on the face, see `gap_preserver`
     /// whether each vertex belongs to a triangle that intersects another triangle on the face at

@@ -57,7 +57,7 @@ Displacements mean_displacements(const std::vector<std::vector<OwnShape>>& head_
 
 /// The weight of one set of shapes in a blend of several sets.
 struct ShapeSetShare {
-  std::uint32_t set;    ///< index of the set of shapes
+  std::uint32_t set;    ///< index of the set of shapes (the head that has these shapes)
   double blend_weight;  ///< weight of this set, 0 to 1
 };
 using ShapeSetShares = std::vector<ShapeSetShare>;

@@ -99,7 +99,8 @@ class FaceShape {
   const Positions& rest_;
   Positions& mesh_;
   Displacements result_;
-  std::vector<LidClosure::LidTargets> targets_;  ///< one per eye
+  /// for each eye of the face: the targets of its lids
+  std::vector<LidClosure::LidTargets> targets_;
   Index crossing_ = 0;
 };
 

@@ -66,7 +66,7 @@ Index crossing_triangles(const std::vector<Pair>& pairs) {
 
 }  // namespace
 
-/// Repairs one shape of a face.
+/// Removes the self-intersections of the skin from one shape of one face.
 class SkinCrossings::Repair {
  public:
   Repair(const SkinCrossings& skin, const Face& face, const SearchedSkin& searched_skin,
@@ -290,7 +290,7 @@ class SkinCrossings::Repair {
   Positions& mesh_;
   Displacements& shape_;
   CrossingSearch::Boxes boxes_;
-  std::vector<Pair> pairs_;    ///< intersecting pairs
+  std::vector<Pair> pairs_;    ///< the pairs of skin triangles that intersect after the last change
   std::vector<bool> changed_;  ///< whether each vertex moved in this round
   double best_ = HUGE_VAL;
   Positions best_moves_;

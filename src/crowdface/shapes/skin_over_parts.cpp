@@ -68,7 +68,8 @@ std::optional<double> ahead_of(const Eigen::Vector3d& point, const Corners& corn
   return ahead / (shares[0] + shares[1] + shares[2]);
 }
 
-/// A grid of triangles, seen from the front.
+/// The triangles of the skin in a grid, as seen from the front. Finds the foremost triangle that
+/// overlaps a point.
 class FrontView {
  public:
   FrontView(const Positions& positions, std::span<const Triangle> triangles, const HeadAxes& axes,

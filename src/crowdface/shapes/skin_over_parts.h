@@ -22,8 +22,9 @@ struct DisplacementRow {
 class SkinOverParts {
  public:
   SkinOverParts() = default;
-  /// \param shaped  Template in the shape, #V by 3.
-  /// \param inner_vertices  Vertices that the skin may cover: gums and teeth.
+  /// \param shaped  Positions of the template's vertices with the shape applied, #V by 3.
+  /// \param inner_vertices  Vertices of gums and teeth. Those that lie behind the skin in `shaped`
+  ///            are kept behind the skin of faces.
   /// \param moved_vertices  Vertices that the shape moves, ascending.
   /// \param extent  Diagonal of the skin's bounding box.
   SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
@@ -50,10 +51,10 @@ class SkinOverParts {
     Triangle covering_triangle;
     /// triangles near `covering_triangle`; on a generated face, any of them may cover the vertex
     std::vector<Triangle> candidates;
-    double depth;  ///< wanted depth of the vertex below the skin
+    double depth;  ///< depth below the skin that the vertex should have, on the template's scale
   };
 
-  /// A displacement of the skin at a position.
+  /// A point of the skin, and the displacement by which to push the skin there.
   struct Push {
     Eigen::Vector3d position, displacement;
   };
@@ -69,6 +70,7 @@ class SkinOverParts {
 
   HeadAxes axes_;
   double extent_ = 0;
+  /// the vertices of gums and teeth that the skin covers in this shape
   std::vector<CoveredVertex> covered_vertices_;
 };
 

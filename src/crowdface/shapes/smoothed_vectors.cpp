@@ -34,7 +34,8 @@ class CellMeans {
       node.weight += weight;
     });
   }
-  /// Returns the average at a position. Requires a sample in the grid cell of this position.
+  /// Returns the average of the vectors around a position. Requires a sample in the grid cell of
+  /// this position.
   Eigen::Vector3d at(const Eigen::Vector3d& place) const {
     Node mean;
     visit(place, [&](std::size_t at, double weight) {

@@ -26,12 +26,12 @@ class SmoothedVectors {
   /// Returns whether a sample at this position can affect the result.
   bool affects(const Eigen::Vector3d& position) const;
 
-  /// A vector at a position.
+  /// A vector (`value`) at a position.
   struct Sample {
     std::uint32_t index;  ///< number that identifies the sample in the result of `changes`
     Eigen::Vector3d position, value;
   };
-  /// The vector to add to a sample's value.
+  /// The vector (`displacement`) to add to the value of a sample.
   struct Change {
     std::uint32_t index;  ///< Sample::index of the sample
     Eigen::Vector3d displacement;
@@ -42,14 +42,16 @@ class SmoothedVectors {
   std::vector<Change> changes(std::span<const Sample> samples) const;
 
  private:
-  /// Returns whether a centre may be nearer than `reach`; a fast conservative test.
+  /// Returns whether one of the centres may be nearer to `position` than `reach`. The test is fast;
+  /// it sometimes returns true although no centre is so near.
   bool may_be_near_centre(const Eigen::Vector3d& position, double reach) const;
   /// Returns the distance to the nearest centre.
   double distance_to_centre(const Eigen::Vector3d& position) const;
 
   std::vector<Eigen::Vector3d> centres_;
-  Eigen::AlignedBox3d box_;                    ///< bounding box of the centres
-  double cell_, inner_radius_, outer_radius_;  ///< see the constructor
+  Eigen::AlignedBox3d box_;  ///< bounding box of the centres
+  /// the constructor's parameters `cell`, `inner_radius` and `outer_radius`
+  double cell_, inner_radius_, outer_radius_;
 };
 
 }  // namespace crowdface

@@ -21,7 +21,7 @@ struct SkinTriangles {
 /// skin that both may touch on some face.
 ///
 /// \param neutral  Template at rest, #V by 3.
-/// \param shaped   Template in the shape, #V by 3.
+/// \param shaped   Positions of the template's vertices with the shape applied, #V by 3.
 /// \param extent   Diagonal of the skin's bounding box.
 std::vector<bool> skin_that_may_touch(const SkinTriangles& skin, const Positions& neutral,
                                       const Positions& shaped, double extent);

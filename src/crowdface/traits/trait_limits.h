@@ -24,7 +24,8 @@ struct TraitBound {
 /// but reports then include the measurement.
 struct TraitLimit {
   std::size_t trait = 0;  ///< the measurement, as an index into measurements()
-  std::optional<TraitBound> at_least = {}, at_most = {};  ///< nothing: no such bound
+  /// the lower and the upper bound, if they exist
+  std::optional<TraitBound> at_least = {}, at_most = {};
   bool operator==(const TraitLimit&) const = default;
 };
 /// Limits sorted by trait, with at most one limit for each trait.
@@ -32,8 +33,9 @@ using TraitLimits = std::vector<TraitLimit>;
 
 /// The normal distribution of one measurement, as a table gives it.
 struct TraitTarget {
-  std::size_t trait = 0;           ///< the measurement, as an index into measurements()
-  double mean = 0, deviation = 0;  ///< mean and standard deviation, in the measurement's unit
+  std::size_t trait = 0;  ///< the measurement, as an index into measurements()
+  /// mean and standard deviation of the distribution, in the measurement's unit
+  double mean = 0, deviation = 0;
   bool operator==(const TraitTarget&) const = default;
 };
 

@@ -170,7 +170,8 @@ std::uint64_t SkinCheck::memory_bytes() const {
 }
 
 std::uint64_t SkinCheck::comparison_memory_bytes() const {
-  // A comparison of 2.4 million triangles used 120 bytes per triangle; add a margin.
+  // A measured comparison of skins with 2.4 million triangles used 120 bytes of temporary memory
+  // per triangle; add a margin.
   constexpr std::uint64_t kBytesPerTriangle = 150;
   return kBytesPerTriangle * triangles_.size();
 }

@@ -20,7 +20,7 @@ struct ViewSetup {
 
 /// Defects of a face's skin compared with its target's skin.
 struct SkinDefects {
-  LocalDefects local;  ///< defects of single triangles
+  LocalDefects local;  ///< flipped and stretched triangles of the skin
   /// number of triangles that take part in intersections which the target does not have
   Index intersecting_triangle_count = 0;
   /// How much the gap at a contact of the skin (such as between the lips) exceeds the widest gap of

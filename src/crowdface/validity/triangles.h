@@ -41,7 +41,8 @@ class TargetTriangles {
     Eigen::Vector3d normal;  ///< the length of this vector is twice the triangle's area
     double length, apex_x, apex_y;
   };
-  std::vector<PlanarTriangle> planar_triangles_;  ///< one for each triangle that is not degenerate
+  /// the triangles of the target that are not degenerate
+  std::vector<PlanarTriangle> planar_triangles_;
 };
 
 /// The positions of a triangle's corners.

@@ -34,7 +34,8 @@ Eigen::Vector2d eyeball_disc_point(const Eigen::RowVector2d& uv);
 double strip_v(double units_below_cap);
 
 /// Maps a ring coordinate (0 … 4, one unit per side) to the point on the outline of the square
-/// [−1, 1]², with x outward and y up.
+/// [−1, 1]². The x axis points away from the symmetry plane of the face, and the y axis up. 0 is
+/// the upper corner next to the symmetry plane, and 1 the corner below it.
 Eigen::Vector2d point_on_square(double around);
 /// Returns the point of the unit circle in the direction of point_on_square(around).
 inline Eigen::Vector2d point_on_circle(double around) {
