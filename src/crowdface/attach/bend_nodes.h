@@ -23,7 +23,7 @@ struct BendNodes {
 
   /// The weight of one node's motion in the motion of one point.
   struct NodeWeight {
-    std::uint32_t node;  ///< index of the node
+    std::uint32_t node;  ///< index of the node in `patches`
     /// weight of the motion; the weights of all nodes in one point do not sum to one
     float weight;
   };

@@ -15,12 +15,15 @@ namespace crowdface {
 
 /// The point of the skin that is nearest to a given point.
 struct NearestSkinPoint {
-  std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
-  /// signed distance of the given point from the skin; negative if the point is inside
+  /// index, in the mesh, of a corner of the skin triangle that contains `position`
+  std::uint32_t vertex = 0;
+  /// signed distance of the given point from the skin; negative if the given point is inside the
+  /// head
   double height = 0;
-  /// unit normal at the nearest point, interpolated between the normals of the vertices
+  /// unit normal of the skin at `position`, interpolated between the normals of the vertices
   Eigen::Vector3d outward_normal = Eigen::Vector3d::Zero();
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest point on the skin
+  /// the point of the skin that is nearest to the given point
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
 /// The skin of the mesh to which attachments were fitted, with queries for any face of the same
@@ -56,7 +59,8 @@ class FittedSkin {
     /// for each vertex: the area of skin that the vertex represents, times a factor that falls to 0
     /// at the distance `radius` from the centre of the patch
     std::vector<double> weights;
-    double radius = 0;  ///< vertices at this distance or farther have no weight
+    /// distance from the centre of the patch at and beyond which vertices have no weight
+    double radius = 0;
   };
   /// Returns the patch of skin around a point. For a point on the skin, the radius is a few
   /// millimetres. The radius grows with the point's distance from the skin. Weights and radius are
@@ -86,14 +90,14 @@ class FittedSkin {
     std::vector<double> areas;
     PointGrid grid;  ///< the level's vertices, for nearest-vertex queries
   };
-  /// Adds a level to `levels_`, see Level.
+  /// Adds a level of detail to `levels_`. The parameters become the members of Level.
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   /// Adds a level that contains one skin vertex from each cell of a cubic grid with edge length
   /// `spacing`.
   void add_coarser_level(double spacing);
   /// Returns Patch::radius for the patch around a point.
   double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
-  /// Adds to `patch` the vertices of a level that are inside the patch.
+  /// Adds to `patch` the vertices of a level of detail that lie inside the patch around `point`.
   /// \param share  Factor on the weights of the added vertices.
   void add_patch_vertices(const Level& level, const Eigen::Vector3d& point, double share,
                           Patch& patch) const;

@@ -34,7 +34,7 @@ class FilteredTexture {
   /// numbers are the mean values over the covered area, multiplied by this fraction.
   struct Level {
     int width = 0, height = 0;
-    std::vector<Eigen::Array4f> texels;  ///< height by width
+    std::vector<Eigen::Array4f> texels;  ///< the texels of the level, row by row: height by width
   };
 
   /// The value of a texel of the texture, covered or not.

@@ -14,7 +14,7 @@ namespace crowdface {
 /// A head and its weight in a blend. For heads that lend detail, the weights are the normalised
 /// weights ω̂.
 struct SourceWeight {
-  Index head = 0;  ///< index in the HeadSet
+  Index head = 0;  ///< index of the head in the HeadSet
   double weight = 0;
   bool operator==(const SourceWeight&) const = default;
 };
@@ -80,7 +80,7 @@ double mirror_image_weight(const Recipe& recipe);
 /// A smoothing level, and the weighted heads whose sum is smoothed to this level; see
 /// weights_by_level.
 struct LevelWeights {
-  std::uint64_t level = 0;  ///< number of smoothing iterations
+  std::uint64_t level = 0;  ///< L_b, the level as a number of smoothing iterations
   /// the weights s_h of the heads in the sum G_b (see weights_by_level), in the order of summation;
   /// a head may occur twice
   std::vector<SourceWeight> weights;

@@ -24,7 +24,7 @@ namespace crowdface {
 struct LedgerEntry {
   struct File {
     std::string name;    ///< path relative to the crowd's folder, with '/' separators
-    FileDigest content;  ///< size and hash
+    FileDigest content;  ///< size and hash of the file's content
     bool operator==(const File&) const = default;
   };
   std::string item;         ///< name of the item, such as "faces/market_0001"

@@ -14,8 +14,8 @@ namespace crowdface {
 /// The part of a crowd that one machine makes: every `count`-th face, starting with face number
 /// `index` (counted from 1).
 struct Shard {
-  std::uint64_t index = 1;  ///< counted from 1
-  std::uint64_t count = 1;  ///< number of shards; 1: the shard is the whole crowd
+  std::uint64_t index = 1;  ///< number of this shard, counted from 1
+  std::uint64_t count = 1;  ///< number of all shards; 1: the shard is the whole crowd
 
   bool is_whole_crowd() const { return count == 1; }
   /// Whether the shard makes the face whose index in the plan (counted from 0) is `face_index`.

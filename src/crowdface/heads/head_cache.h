@@ -25,7 +25,8 @@ struct StoredLevels {
   /// For `levels: basis`: coefficients of the level functions φ_p(L), one row per node and one
   /// column per function (see LevelBasis::function_coefficients).
   Eigen::MatrixXd function_coefficients;
-  BasisError error;  ///< error of the fitted levels; only for `levels: basis`
+  /// distances between the fitted levels and the exact filter; only for `levels: basis`
+  BasisError error;
 };
 
 /// The cached data of a head: the trajectories of the sample points during smoothing, and the
@@ -39,7 +40,7 @@ struct PreparedHead {
 struct HeadCacheSizes {
   Index vertex_count = 0;  ///< number of vertices of the head
   Index sample_count = 0;  ///< number of sample points with a trajectory
-  /// number of levels per trajectory
+  /// number of smoothing levels at which each trajectory is stored
   Index levels_per_smoothing_trajectory = 0;
   /// number of levels at which the level functions are interpolated (LevelNodes); unused unless
   /// `levels` is kBasis

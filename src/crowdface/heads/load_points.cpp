@@ -17,7 +17,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxPoints = 1000;
-constexpr double kFarthest = 1e7;  ///< largest absolute coordinate; heads have the same limit
+/// largest absolute value that a point's coordinate may have; the same limit holds for heads
+constexpr double kFarthest = 1e7;
 
 std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints& complaints) {
   Eigen::RowVector3d position;

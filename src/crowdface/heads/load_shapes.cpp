@@ -23,7 +23,8 @@
 namespace crowdface {
 namespace {
 
-/// The source of shape meshes, and the topology that they must have.
+/// The parameters for reading shape meshes: the config, the topology that the meshes must have, and
+/// the cache.
 struct ShapeSource {
   const Config& config;
   const Topology& topology;

@@ -12,7 +12,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kBandMm = 20;  ///< height of the band above the ring, along the skin
+/// height of the band of skin above the neck's ring, measured along the skin
+constexpr double kBandMm = 20;
 
 /// The optical densities of a head's texture around each vertex, #vertices by 3: the mean of one
 /// sample from each polygon at the vertex. No rows if some vertex has no textured polygon.

@@ -15,7 +15,7 @@ namespace crowdface {
 /// The fields of one head at one tile of vertices.
 struct TileFields {
   std::size_t count = 0;                           ///< number of fields
-  const float* quantization_steps = nullptr;       ///< quantization step of each field
+  const float* quantization_steps = nullptr;       ///< quantization step of each field of the tile
   const std::int16_t* quantized_values = nullptr;  ///< #count by kTileValues, in quantization steps
 };
 
