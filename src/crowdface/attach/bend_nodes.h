@@ -24,7 +24,8 @@ struct BendNodes {
   /// The weight of one node's motion in the motion of one point.
   struct NodeWeight {
     std::uint32_t node;  ///< index of the node in `patches`
-    /// weight of the motion; the weights of all nodes in one point do not sum to one
+    /// weight of the node's motion in the point's motion; the weights of one point do not sum to
+    /// one
     float weight;
   };
   std::vector<FittedSkin::Patch> patches;  ///< for each node: the patch of skin that it follows

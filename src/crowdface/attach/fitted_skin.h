@@ -55,7 +55,7 @@ class FittedSkin {
 
   /// A patch of skin around a point: vertex indices of the mesh, and a weight for each vertex.
   struct Patch {
-    std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh
+    std::vector<std::uint32_t> vertices;  ///< the vertices of the patch, as indices in the mesh
     /// for each vertex: the area of skin that the vertex represents, times a factor that falls to 0
     /// at the distance `radius` from the centre of the patch
     std::vector<double> weights;
@@ -85,7 +85,8 @@ class FittedSkin {
   /// level has one vertex in each occupied cell of a cubic grid.
   struct Level {
     double spacing;  ///< edge length of the grid's cells; in the finest level, vertex_spacing()
-    std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh, ascending
+    /// the vertices of the level, as ascending indices in the mesh
+    std::vector<std::uint32_t> vertices;
     /// one per mesh vertex: area of skin that the vertex represents in this level
     std::vector<double> areas;
     PointGrid grid;  ///< the level's vertices, for nearest-vertex queries
@@ -103,11 +104,12 @@ class FittedSkin {
                           Patch& patch) const;
 
   const Topology& topology_;
-  Positions positions_;                       ///< #V by 3: vertex positions of the mesh
-  std::vector<std::uint32_t> skin_vertices_;  ///< vertex indices of the mesh, ascending
-  double units_per_mm_;                       ///< length of one millimetre in the mesh's unit
-  VertexFaces vertex_faces_;                  ///< the polygons at each vertex of the mesh
-  NormalFans fans_;         ///< for each vertex, the polygons that determine the vertex's normal
+  Positions positions_;  ///< #V by 3: vertex positions of the mesh to which attachments were fitted
+  /// indices, in the mesh, of the skin's vertices, ascending
+  std::vector<std::uint32_t> skin_vertices_;
+  double units_per_mm_;       ///< length of one millimetre in the mesh's unit
+  VertexFaces vertex_faces_;  ///< the polygons at each vertex of the mesh
+  NormalFans fans_;           ///< for each vertex, the polygons that determine the vertex's normal
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
   std::vector<double> areas_;  ///< the area of skin around each vertex of the mesh
   /// all levels, from fine to coarse; the spacing doubles from level to level

@@ -34,7 +34,7 @@ class RigidPlacement {
   Positions moved_points(const RigidMotion& motion) const;
 
   const FittedSkin& skin_;
-  const Positions& points_;  ///< #P by 3: the attachment on the fitted mesh
+  const Positions& points_;  ///< #P by 3: the attachment's vertices on the fitted mesh
   /// distances of the attachment's vertices from the skin of the fitted mesh
   const SkinGaps& gaps_;
   Socket socket_;  ///< the skin near the attachment, whose motion the attachment follows

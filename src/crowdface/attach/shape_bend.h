@@ -31,7 +31,7 @@ class ShapeBend {
   ///
   /// \param face   #V by 3, at rest.
   /// \param placed  #P by 3, the attachment on that face at rest.
-  /// \param shape  Displacements of the face.
+  /// \param shape  Displacements of the face's vertices in the expression.
   Displacements shape_displacements(const Positions& face, const Positions& placed,
                                     const Displacements& shape) const;
 

@@ -63,8 +63,8 @@ class BakeTemplate {
   std::vector<PictureName> picture_names_;  ///< the name of each picture
   /// for each baked material, the index of a picture that shows the material
   std::map<std::string, std::size_t> pictures_by_material_;
-  std::vector<SurfaceTexels> texels_;             ///< for each picture: the triangle at each texel
-  MeshMaps maps_;                                 ///< the template's colour textures
+  std::vector<SurfaceTexels> texels_;  ///< for each picture: the triangle that covers each texel
+  MeshMaps maps_;                      ///< the template's colour textures
   std::vector<const FilteredTexture*> textures_;  ///< for each picture: the result of `texture()`
   std::vector<std::uint32_t> skin_rows_;          ///< result of `skin_rows()`
   std::vector<PictureVertex> picture_vertices_;   ///< result of `picture_vertices()`

@@ -119,8 +119,9 @@ class ScanBake {
   const BakeTemplate& template_;
   const ScanSurface& surface_;  ///< the scan in the template's frame
   const ScanColours& colours_;
-  Positions positions_, normals_;  ///< #skin by 3: vertices and normals of the wrapped skin
-  double scan_spacing_mm_;         ///< mean distance between neighbouring vertices of the scan
+  /// #skin by 3: positions and normals of the vertices of the wrapped skin
+  Positions positions_, normals_;
+  double scan_spacing_mm_;  ///< mean distance between neighbouring vertices of the scan
   /// one per skin vertex: 0 at the edge of the scan's data, 1 far from this edge
   std::vector<double> edge_weights_;
   /// #skin by 3: smooth difference of optical densities, scan minus template

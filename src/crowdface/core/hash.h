@@ -17,7 +17,7 @@ struct Digest {
   std::uint64_t high = 0;  ///< the upper 64 bits
   std::uint64_t low = 0;   ///< the lower 64 bits
   bool operator==(const Digest&) const = default;
-  /// 32 lower-case hexadecimal digits.
+  /// The digest as 32 lower-case hexadecimal digits.
   std::string hex() const;
 };
 

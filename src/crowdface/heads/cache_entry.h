@@ -29,7 +29,7 @@ inline constexpr std::string_view kCacheExtension = ".cfcache";
 /// both parts, so that a renamed entry is detected.
 struct CacheKey {
   std::string_view kind;  ///< kind of the entry, for example "mesh"; part of the file name
-  Digest digest;          ///< hash of everything that the arrays depend on
+  Digest digest;          ///< hash of everything that the entry's arrays depend on
 };
 
 /// Path of the file of a cache entry.

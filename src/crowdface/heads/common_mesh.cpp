@@ -108,6 +108,8 @@ std::optional<Vertices> match_vertices_by_uvs(const HeadFile& first, const Topol
   return vertices;
 }
 
+/// Whether matching vertices of two meshes have the same range of texture coordinates. True if one
+/// of the meshes has no texture coordinates.
 /// \param vertices  the vertex of `found` for each vertex of `first`
 bool has_same_uvs(const HeadMesh& first, const Topology& found, const TextureCoordinates& uvs,
                   const Vertices& vertices) {

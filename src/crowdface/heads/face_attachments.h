@@ -45,8 +45,8 @@ class FaceAttachments {
   /// Binds the attachments that these faces wear, unless they are already bound.
   void bind(std::span<const FacePlan> faces);
 
-  /// The attachments of a face, in the order of its recipe. They must be bound. The result
-  /// refers to the inputs.
+  /// Places the attachments of a face, in the order of the face's recipe. The attachments must be
+  /// bound. The result refers to the inputs.
   /// \param positions  the face's vertices, #V by 3
   /// \param moves      displacements of the face's vertices, one item for each shape (expression)
   ///                   of the inputs; empty: the face at rest
@@ -75,7 +75,8 @@ class FaceAttachments {
   /// attachment
   std::unique_ptr<const FittedSkin> skin_;
   std::vector<BoundMesh> bound_meshes_;  ///< all bound meshes, without duplicates
-  /// for each attachment of the inputs: an index into `bound_meshes_`; nothing if it is not bound
+  /// for each attachment of the inputs: the index of its mesh in `bound_meshes_`; nothing if the
+  /// mesh is not bound
   std::vector<std::optional<std::size_t>> mesh_of_item_;
 };
 

@@ -17,6 +17,7 @@ struct Edges {
   std::vector<std::uint32_t> faces;  ///< #E: number of polygons at each edge
 };
 
+/// Finds the edges of all polygons; an edge joins two indices of successive corners.
 /// \param indices  the vertex or the texture coordinate of each corner.
 Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& indices) {
   struct Side {

@@ -71,7 +71,7 @@ struct PatchArrays {
   std::span<const float> quantization_steps, weights;
   /// FieldPatch::quantized_values of all patches, one patch after the other
   std::span<const std::int16_t> quantized_values;
-  std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
+  std::shared_ptr<const void> memory_owner;  ///< owns the memory of all lists
 };
 
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all

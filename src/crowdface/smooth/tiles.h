@@ -43,8 +43,8 @@ struct Tile {
 /// A mesh cut into tiles. Rows are ordered tile by tile. The division into tiles affects the speed
 /// of computations, not the results.
 struct Tiling {
-  std::vector<std::uint32_t> vertex_of_row;  ///< #V: the vertex of each row
-  std::vector<std::uint32_t> row_of_vertex;  ///< #V: the row of each vertex
+  std::vector<std::uint32_t> vertex_of_row;  ///< #V: for each row of the tiling's order, its vertex
+  std::vector<std::uint32_t> row_of_vertex;  ///< #V: for each vertex, its row in the tiling's order
   std::vector<Tile> tiles;
   int ring_count = 0;  ///< number of neighbour rings in each tile's halo
 };
