@@ -43,8 +43,8 @@ void add_product(const MatrixRows<float>& rows, std::span<const float* const> co
 
 /// A range of vertices of the mesh with consecutive numbers.
 struct VertexRun {
-  std::uint32_t first = 0;  ///< index of the first vertex
-  std::uint32_t count = 0;  ///< number of vertices
+  std::uint32_t first = 0;  ///< index of the run's first vertex
+  std::uint32_t count = 0;  ///< number of vertices in the run
 };
 
 /// Writes results = base + added at the vertices of the runs. Uses streaming stores, which bypass

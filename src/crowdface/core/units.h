@@ -53,8 +53,8 @@ std::optional<double> parse_length_mm(std::string_view text);
 
 /// A signed coordinate axis, such as +Y.
 struct Axis {
-  int index = 1;  ///< 0: x, 1: y, 2: z
-  int sign = 1;   ///< +1 or −1
+  int index = 1;  ///< number of the axis: 0 for x, 1 for y, 2 for z
+  int sign = 1;   ///< direction along the axis: +1 or −1
   bool operator==(const Axis&) const = default;
 };
 /// Parses "+X", "-Z" or "y"; nothing if the text is not an axis.

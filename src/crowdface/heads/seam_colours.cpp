@@ -47,7 +47,8 @@ Positions sampled_densities(const TextureSet& textures, const HeadSet& heads,
   return densities;
 }
 
-/// Returns the low frequencies of a head's texture at vertices: #vertices by 3 optical densities.
+/// Returns the optical densities of a head's texture at some vertices, without fine detail (the low
+/// frequencies only): #vertices by 3.
 Positions coarse_densities(const TextureBlender& blender, std::size_t head,
                            const std::vector<std::uint32_t>& vertices) {
   Positions densities(static_cast<Index>(vertices.size()), 3);

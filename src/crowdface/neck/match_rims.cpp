@@ -56,7 +56,8 @@ double root_mean_square(const Positions& rows) {
 /// How well the best rigid motion maps one rim to another: its rotation angle and the remaining
 /// distance.
 struct RigidFit {
-  double degrees = 0, rms_mm = 0;  ///< rotation angle; rms distance after the motion
+  /// rotation angle of the motion; rms distance of corresponding rim vertices after the motion
+  double degrees = 0, rms_mm = 0;
 };
 
 RigidFit rigid_fit(const Positions& from, const Positions& to) {

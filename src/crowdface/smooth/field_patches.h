@@ -25,7 +25,7 @@ struct HeadSmoothing {
 
 /// The fields of all heads at the vertices of one patch. A patch is a group of nearby vertices.
 struct FieldPatch {
-  /// vertex indices of the mesh, ascending
+  /// the vertices of the patch, as ascending indices in the mesh
   std::span<const std::uint32_t> vertices;
   /// for each head: number of its leading fields that the patch stores
   std::span<const std::uint32_t> field_counts;

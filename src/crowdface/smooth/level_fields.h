@@ -56,7 +56,8 @@ struct LevelFields {
 struct QuantizedTiles {
   std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
   std::vector<float> quantization_steps;    ///< quantization step of each stored field of each tile
-  std::vector<std::int16_t> quantized_values;  ///< for each stored field, kTileValues integers
+  /// quantized values of the fields: kTileValues integers for each stored field
+  std::vector<std::int16_t> quantized_values;
 
   /// Quantizes and appends the fields of one tile.
   /// \param values  `count` fields by kTileValues, finite; further values are ignored.
