@@ -28,7 +28,8 @@ struct BendNodes {
     /// one
     float weight;
   };
-  std::vector<FittedSkin::Patch> patches;  ///< for each node: the patch of skin that it follows
+  /// for each node: the patch of skin that the node follows
+  std::vector<FittedSkin::Patch> patches;
   /// for each point of the attachment: the nodes that influence the point
   CompressedRows<NodeWeight> node_weights;
 

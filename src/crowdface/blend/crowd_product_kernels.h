@@ -33,7 +33,7 @@ struct MatrixRows {
 /// \param columns, products  1 to kMaxColumns; as many columns as products.
 void multiply(const MatrixRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
-/// Like the overload above, but multiplies quantized values.
+/// Computes the same products as `multiply` for floats, but from the quantized values of the rows.
 void multiply(const MatrixRows<std::int16_t>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 

@@ -175,8 +175,8 @@ void load_heads(const ShapeSource& source, Inputs& inputs, Problems& problems) {
   }
 }
 
-/// Removes shapes that move no vertex of any head. Such a shape is the neutral pose, or a head
-/// model lists it without data.
+/// Removes shapes that move no vertex of any head. Such a shape is the neutral pose, or a shape
+/// that a head model lists without data.
 void remove_shapes_without_motion(Inputs& inputs) {
   ShapeSet& set = inputs.shapes;
   for (std::size_t s = set.shapes.size(); s-- > 0;) {
