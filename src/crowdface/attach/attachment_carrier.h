@@ -36,10 +36,11 @@ class AttachmentCarrier {
   std::size_t memory_bytes() const;
 
  private:
-  std::unique_ptr<const SkinGaps> gaps_;  ///< distances between attachment and fitted skin
-  /// only for a bending attachment; otherwise null
+  /// distances of the attachment's vertices from the skin of the fitted mesh
+  std::unique_ptr<const SkinGaps> gaps_;
+  /// moves the vertices of a bending attachment; null if the attachment is rigid
   std::unique_ptr<const SmoothBend> bend_;
-  /// only for a rigid attachment; otherwise null
+  /// moves the vertices of a rigid attachment; null if the attachment bends
   std::unique_ptr<const RigidPlacement> rigid_placement_;
 };
 

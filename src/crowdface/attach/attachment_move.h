@@ -5,8 +5,9 @@ namespace crowdface {
 
 /// The way in which an attachment moves with the skin of a new face.
 enum class AttachmentMove {
-  kBend,   ///< each point follows the surrounding skin smoothly: hair, brows, beard
-  kRigid,  ///< the whole attachment rotates, translates and scales: glasses
+  /// each point of the attachment follows the surrounding skin smoothly, as for hair and beards
+  kBend,
+  kRigid,  ///< the attachment rotates, translates and scales as a whole, as for glasses
 };
 
 }  // namespace crowdface

@@ -23,11 +23,13 @@ struct BendNodes {
 
   /// The weight of one node's motion in the motion of one point.
   struct NodeWeight {
-    std::uint32_t node;  ///< index of the node
-    /// weight of the motion; the weights of all nodes in one point do not sum to one
+    std::uint32_t node;  ///< index of the node in `patches`
+    /// weight of the node's motion in the point's motion; the weights of one point do not sum to
+    /// one
     float weight;
   };
-  std::vector<FittedSkin::Patch> patches;  ///< for each node: the patch of skin that it follows
+  /// for each node: the patch of skin that the node follows
+  std::vector<FittedSkin::Patch> patches;
   /// for each point of the attachment: the nodes that influence the point
   CompressedRows<NodeWeight> node_weights;
 

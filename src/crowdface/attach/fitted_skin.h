@@ -15,12 +15,15 @@ namespace crowdface {
 
 /// The point of the skin that is nearest to a given point.
 struct NearestSkinPoint {
-  std::uint32_t vertex = 0;  ///< a corner of the nearest triangle
-  /// signed distance of the given point from the skin; negative if the point is inside
+  /// index, in the mesh, of a corner of the skin triangle that contains `position`
+  std::uint32_t vertex = 0;
+  /// signed distance of the given point from the skin; negative if the given point is inside the
+  /// head
   double height = 0;
-  /// unit normal at the nearest point, interpolated between the normals of the vertices
+  /// unit normal of the skin at `position`, interpolated between the normals of the vertices
   Eigen::Vector3d outward_normal = Eigen::Vector3d::Zero();
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< nearest point on the skin
+  /// the point of the skin that is nearest to the given point
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
 /// The skin of the mesh to which attachments were fitted, with queries for any face of the same
@@ -52,11 +55,12 @@ class FittedSkin {
 
   /// A patch of skin around a point: vertex indices of the mesh, and a weight for each vertex.
   struct Patch {
-    std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh
+    std::vector<std::uint32_t> vertices;  ///< the vertices of the patch, as indices in the mesh
     /// for each vertex: the area of skin that the vertex represents, times a factor that falls to 0
     /// at the distance `radius` from the centre of the patch
     std::vector<double> weights;
-    double radius = 0;  ///< vertices at this distance or farther have no weight
+    /// distance from the centre of the patch at and beyond which vertices have no weight
+    double radius = 0;
   };
   /// Returns the patch of skin around a point. For a point on the skin, the radius is a few
   /// millimetres. The radius grows with the point's distance from the skin. Weights and radius are
@@ -81,29 +85,31 @@ class FittedSkin {
   /// level has one vertex in each occupied cell of a cubic grid.
   struct Level {
     double spacing;  ///< edge length of the grid's cells; in the finest level, vertex_spacing()
-    std::vector<std::uint32_t> vertices;  ///< vertex indices of the mesh, ascending
+    /// the vertices of the level, as ascending indices in the mesh
+    std::vector<std::uint32_t> vertices;
     /// one per mesh vertex: area of skin that the vertex represents in this level
     std::vector<double> areas;
     PointGrid grid;  ///< the level's vertices, for nearest-vertex queries
   };
-  /// Adds a level to `levels_`, see Level.
+  /// Adds a level of detail to `levels_`. The parameters become the members of Level.
   void add_level(double spacing, std::vector<std::uint32_t> vertices, std::vector<double> areas);
   /// Adds a level that contains one skin vertex from each cell of a cubic grid with edge length
   /// `spacing`.
   void add_coarser_level(double spacing);
   /// Returns Patch::radius for the patch around a point.
   double patch_radius_at(const Eigen::Vector3d& point, double min_radius) const;
-  /// Adds to `patch` the vertices of a level that are inside the patch.
+  /// Adds to `patch` the vertices of a level of detail that lie inside the patch around `point`.
   /// \param share  Factor on the weights of the added vertices.
   void add_patch_vertices(const Level& level, const Eigen::Vector3d& point, double share,
                           Patch& patch) const;
 
   const Topology& topology_;
-  Positions positions_;                       ///< #V by 3: vertex positions of the mesh
-  std::vector<std::uint32_t> skin_vertices_;  ///< vertex indices of the mesh, ascending
-  double units_per_mm_;                       ///< length of one millimetre in the mesh's unit
-  VertexFaces vertex_faces_;                  ///< the polygons at each vertex of the mesh
-  NormalFans fans_;         ///< for each vertex, the polygons that determine the vertex's normal
+  Positions positions_;  ///< #V by 3: vertex positions of the mesh to which attachments were fitted
+  /// indices, in the mesh, of the skin's vertices, ascending
+  std::vector<std::uint32_t> skin_vertices_;
+  double units_per_mm_;       ///< length of one millimetre in the mesh's unit
+  VertexFaces vertex_faces_;  ///< the polygons at each vertex of the mesh
+  NormalFans fans_;           ///< for each vertex, the polygons that determine the vertex's normal
   double normal_sign_ = 1;  ///< −1 if the polygons' winding makes the normals point inwards, else 1
   std::vector<double> areas_;  ///< the area of skin around each vertex of the mesh
   /// all levels, from fine to coarse; the spacing doubles from level to level

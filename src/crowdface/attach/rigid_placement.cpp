@@ -19,8 +19,9 @@ constexpr double kSocketRadiusMm = 15;
 constexpr std::size_t kMinSocketVertices = 12;
 /// Maximum number of steps that move the attachment out of the skin.
 constexpr int kMaxPushSteps = 8;
-/// Weight of each squared unknown of the motion in a least-squares step that moves the attachment
-/// out of the skin. The weights of all vertices that are too near to the skin sum to 1.
+/// A least-squares step moves the attachment out of the skin by a small motion. The step minimises
+/// the squared remaining violations, with weights that sum to 1, plus the squared unknowns of the
+/// motion, each with the weight kMotionWeight.
 constexpr double kMotionWeight = 0.02;
 
 }  // namespace

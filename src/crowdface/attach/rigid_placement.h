@@ -34,11 +34,13 @@ class RigidPlacement {
   Positions moved_points(const RigidMotion& motion) const;
 
   const FittedSkin& skin_;
-  const Positions& points_;  ///< #P by 3: the attachment on the fitted mesh
-  const SkinGaps& gaps_;     ///< distances of the points from the skin of the fitted mesh
-  Socket socket_;            ///< the skin near the attachment, whose motion the attachment follows
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< mean of the points
-  double radius_ = 1;  ///< root mean square distance of the points from `centre_`
+  const Positions& points_;  ///< #P by 3: the attachment's vertices on the fitted mesh
+  /// distances of the attachment's vertices from the skin of the fitted mesh
+  const SkinGaps& gaps_;
+  Socket socket_;  ///< the skin near the attachment, whose motion the attachment follows
+  /// mean of the attachment's vertices on the fitted mesh
+  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();
+  double radius_ = 1;  ///< root mean square distance of the attachment's vertices from `centre_`
 };
 
 }  // namespace crowdface

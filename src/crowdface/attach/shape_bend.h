@@ -31,16 +31,16 @@ class ShapeBend {
   ///
   /// \param face   #V by 3, at rest.
   /// \param placed  #P by 3, the attachment on that face at rest.
-  /// \param shape  Displacements of the face.
+  /// \param shape  Displacements of the face's vertices in the expression.
   Displacements shape_displacements(const Positions& face, const Positions& placed,
                                     const Displacements& shape) const;
 
   std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
-  /// Removes vertices whose distance along the surface exceeds `limit`, unless too few vertices
-  /// would remain.
-  /// \param along  distances along the surface from the root of the patch's node
+  /// Removes from `patch` the vertices whose distance from a root (the skin point that the patch's
+  /// node follows) along the surface exceeds `limit`, unless too few vertices would remain.
+  /// \param along  distances along the surface from the root
   static void remove_distant_vertices(const EdgeDistances& along, double limit,
                                       FittedSkin::Patch& patch);
 

@@ -11,15 +11,17 @@
 namespace crowdface {
 namespace {
 
-/// Gaps wider than kFarMm plus two vertex spacings of the skin are not corrected.
+/// The gap of a vertex is its distance from the skin. restore_gaps does not correct the gap of a
+/// vertex whose original gap, on the fitted mesh, is wider than kFarMm plus two vertex spacings of
+/// the skin.
 constexpr double kFarMm = 25;
-/// Vertices up to kCloseMm from the skin get exactly their original gap. For vertices farther away,
-/// the correction decreases linearly and is zero at kLooseMm.
+/// A vertex whose original gap is at most kCloseMm gets exactly this gap again. For vertices with
+/// wider original gaps, the correction decreases linearly and is zero at kLooseMm.
 constexpr double kCloseMm = 2, kLooseMm = 6;
 /// A vertex outside the skin keeps at least this distance from the skin. If the vertex's original
 /// gap is smaller, the original gap is the minimum.
 constexpr double kMinGapMm = 2;
-/// Number of rounds in which pushed vertices move their neighbours.
+/// Number of rounds in which vertices with a corrected gap move their neighbours too.
 constexpr int kRounds = 8;
 constexpr std::uint32_t kGapsPerBlock = 512;
 constexpr double kNoGap = std::numeric_limits<double>::infinity();

@@ -20,9 +20,9 @@ class SkinGaps {
 
   /// A vertex that is too near to the skin or inside the skin.
   struct Violation {
-    std::uint32_t vertex;            ///< index of the attachment's vertex
-    double height;                   ///< distance by which the vertex must move outwards
-    Eigen::Vector3d outward_normal;  ///< unit normal at the nearest point of the skin
+    std::uint32_t vertex;  ///< index of the attachment's vertex
+    double height;         ///< distance by which the vertex must move along `outward_normal`
+    Eigen::Vector3d outward_normal;  ///< unit normal of the skin at the point nearest to the vertex
   };
   /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the
   /// face's skin than their minimum distance. The minimum distance of a vertex is its original

@@ -17,7 +17,7 @@ constexpr Index kPointsPerBlock = 1024;
 
 /// Chooses nodes among the points, in the order of the points: a point becomes a node if no earlier
 /// node is near (see BendNodes::kNodeSpacing). Adds the patch of each node to `patches`.
-/// \return the points that are nodes.
+/// \return the indices of the points that are nodes.
 std::vector<std::uint32_t> find_nodes(const FittedSkin& skin, const Positions& points,
                                       const PointGrid& grid,
                                       std::vector<FittedSkin::Patch>& patches) {

@@ -27,7 +27,7 @@ class SmoothBend {
 
  private:
   const FittedSkin& skin_;
-  const Positions& points_;  ///< #P by 3: the attachment on the fitted mesh
+  const Positions& points_;  ///< #P by 3: the attachment's vertices on the fitted mesh
   BendNodes nodes_;          ///< the nodes, and their weights in the motion of each point
 };
 

@@ -46,11 +46,13 @@ class BakeTemplate {
 
   /// A picture that shows a vertex, and the vertex's texture coordinates in this picture.
   struct PictureVertex {
-    std::uint32_t picture = kNoIndex;  ///< index of the picture; kNoIndex: none shows the vertex
+    /// index of the picture; kNoIndex if no picture shows the vertex
+    std::uint32_t picture = kNoIndex;
     Eigen::Vector2d uv = Eigen::Vector2d::Zero();
-    double uv_per_mm = 0;  ///< length in texture coordinates per millimetre of skin
+    /// length in texture space that corresponds to one millimetre of skin at the vertex
+    double uv_per_mm = 0;
   };
-  /// One entry per vertex of the skin.
+  /// For each vertex of the skin: where a picture shows the vertex.
   const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:
@@ -58,10 +60,11 @@ class BakeTemplate {
   void find_picture_vertices(const ObjFile& file, const TextureLayout& layout);
 
   const WrapTemplate& wrap_template_;
-  std::vector<PictureName> picture_names_;                   ///< the name of each picture
-  std::map<std::string, std::size_t> pictures_by_material_;  ///< material name → picture index
-  std::vector<SurfaceTexels> texels_;             ///< for each picture: the triangle at each texel
-  MeshMaps maps_;                                 ///< the template's colour textures
+  std::vector<PictureName> picture_names_;  ///< the name of each picture
+  /// for each baked material, the index of a picture that shows the material
+  std::map<std::string, std::size_t> pictures_by_material_;
+  std::vector<SurfaceTexels> texels_;  ///< for each picture: the triangle that covers each texel
+  MeshMaps maps_;                      ///< the template's colour textures
   std::vector<const FilteredTexture*> textures_;  ///< for each picture: the result of `texture()`
   std::vector<std::uint32_t> skin_rows_;          ///< result of `skin_rows()`
   std::vector<PictureVertex> picture_vertices_;   ///< result of `picture_vertices()`

@@ -14,7 +14,7 @@ namespace crowdface {
 namespace {
 
 constexpr int kBlockSide = 4;
-/// Largest number of samples along one side of the parallelogram in mean_at.
+/// FilteredTexture::mean_at takes at most kMaxTaps samples along each side of its parallelogram.
 constexpr int kMaxTaps = 6;
 constexpr int kLevelRows = 16;
 
@@ -31,7 +31,7 @@ constexpr int kLobes = 3;
 using LanczosWeights = std::array<float, 2 * kLobes>;
 
 /// Lanczos weights of the six texels around a position (Duchon 1979).
-/// \param t  distance of the position from the third texel
+/// \param t  distance, in texels, from the centre of the third texel to the position; 0 to 1
 LanczosWeights lanczos_weights(double t) {
   LanczosWeights weights;
   float sum = 0;

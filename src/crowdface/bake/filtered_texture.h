@@ -34,7 +34,7 @@ class FilteredTexture {
   /// numbers are the mean values over the covered area, multiplied by this fraction.
   struct Level {
     int width = 0, height = 0;
-    std::vector<Eigen::Array4f> texels;  ///< height by width
+    std::vector<Eigen::Array4f> texels;  ///< the texels of the level, row by row: height by width
   };
 
   /// The value of a texel of the texture, covered or not.
@@ -50,7 +50,8 @@ class FilteredTexture {
   Eigen::Array4f sample_linear(std::size_t level, double x, double y) const;
   /// Interpolates the texture with Lanczos weights, or linearly near uncovered texels and borders.
   Eigen::Array4f sample_lanczos(double x, double y) const;
-  /// The value of the nearest texel of the texture, covered or not.
+  /// The value of the texture's texel nearest to (x, y), whether or not the surface covers this
+  /// texel.
   Eigen::Array3f nearest_texel(double x, double y) const;
 
   TextureMap map_;  ///< the texture itself

@@ -49,7 +49,8 @@ std::pair<Eigen::Vector3d, Eigen::Vector3d> tangents_of(const Eigen::Vector3d& n
   return {one, normal.cross(one)};
 }
 
-/// Real spherical harmonics up to degree 2, up to constant factors.
+/// The nine real spherical harmonics of degrees 0, 1 and 2 in one direction, without their constant
+/// factors.
 using Harmonics = Eigen::Matrix<double, 9, 1>;
 Harmonics harmonics_of(const Eigen::Vector3d& n) {
   Harmonics values;
@@ -114,8 +115,9 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
   ScanSurface::ClosestPoint place = surface_.nearest(skin_point.position, skin_point.normal,
                                                      kMinNormalCosine, kMaxDistanceMm, guess);
   if (place.triangle == kNoIndex) return seen;
-  // Approximate the point at which the normal hits the scan. If the closest point is farther away
-  // than kCloseMm, take one step of a fixed-point iteration that starts at the closest point.
+  // Approximate the point at which the normal hits the scan. If the closest point of the scan is
+  // farther than kCloseMm from the skin point, take one step of a fixed-point iteration that starts
+  // at the closest point.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
     const double height = (place.point - skin_point.position).dot(skin_point.normal);

@@ -23,7 +23,7 @@ struct BakeOptions {
 /// A baked texture image in the layout of the template.
 struct BakedPicture {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> srgb;  ///< height by width by 3
+  std::vector<std::uint8_t> srgb;  ///< sRGB values of the texels: height by width by 3
   /// height by width: fraction of the texel's colour that does not come from the scan, as 0 … 255
   std::vector<std::uint8_t> mask_without_scan;
   double share_without_scan = 0;  ///< mean of `mask_without_scan` over the covered texels, 0 to 1
@@ -53,7 +53,7 @@ class ScanBake {
  private:
   /// The point in which the line along a skin point's normal meets the scan.
   struct ScanPoint {
-    ScanArea area;  ///< the point, and the area around it that a texel covers
+    ScanArea area;  ///< the point of the scan, and the area around this point that one texel covers
     /// 0 to 1: how reliably this point of the scan shows the skin point. 0 if the point is too far
     /// away, faces another direction, or lies at a hole of the scan.
     double confidence = 0;
@@ -98,14 +98,17 @@ class ScanBake {
     const SurfaceTexels::Triangle* triangle = nullptr;  ///< the triangle that covers the texel
     /// skin vertices at the corners of the triangle, as row indices of `positions_`
     std::array<std::uint32_t, 3> rows = {};
-    Eigen::Vector3d to_right_texel;  ///< vector to the next texel on the right
-    Eigen::Vector3d to_lower_texel;  ///< vector to the next texel below
+    /// vector on the wrapped skin from this texel's centre to its right neighbour, in mm
+    Eigen::Vector3d to_right_texel;
+    /// vector on the wrapped skin from this texel's centre to its lower neighbour, in mm
+    Eigen::Vector3d to_lower_texel;
   };
   /// The colour of a texel, as optical densities, and the fraction of the colour that comes from
   /// the template instead of the scan.
   struct Colour {
-    Eigen::Vector3d density = Eigen::Vector3d::Zero();  ///< the optical density of each channel
-    double share_without_scan = 1;  ///< fraction that comes from the template, 0 to 1
+    /// optical density of the texel in each colour channel
+    Eigen::Vector3d density = Eigen::Vector3d::Zero();
+    double share_without_scan = 1;  ///< fraction of the colour that comes from the template, 0 to 1
   };
   /// Returns the baked colour of a texel.
   /// \param x, y   column and row of the texel in the picture
@@ -116,8 +119,9 @@ class ScanBake {
   const BakeTemplate& template_;
   const ScanSurface& surface_;  ///< the scan in the template's frame
   const ScanColours& colours_;
-  Positions positions_, normals_;  ///< #skin by 3: vertices and normals of the wrapped skin
-  double scan_spacing_mm_;         ///< mean distance between neighbouring vertices of the scan
+  /// #skin by 3: positions and normals of the vertices of the wrapped skin
+  Positions positions_, normals_;
+  double scan_spacing_mm_;  ///< mean distance between neighbouring vertices of the scan
   /// one per skin vertex: 0 at the edge of the scan's data, 1 far from this edge
   std::vector<double> edge_weights_;
   /// #skin by 3: smooth difference of optical densities, scan minus template

@@ -35,8 +35,9 @@ MeshMaps read_mesh_maps(const HeadTextureFiles& textures, TextureKind kind,
 
 /// A point of a scan, and the parallelogram around this point that one texel covers.
 struct ScanArea {
-  std::uint32_t triangle = 0;              ///< index of a triangle of the scan
-  std::array<double, 3> barycentric = {};  ///< barycentric coordinates of the point
+  std::uint32_t triangle = 0;  ///< index of the scan's triangle that contains the point
+  /// barycentric coordinates of the point in this triangle
+  std::array<double, 3> barycentric = {};
   /// Vectors from the texel to its right neighbour and to its lower neighbour, in the scan's frame.
   Eigen::Vector3d to_right_texel, to_lower_texel;
 };
@@ -63,7 +64,7 @@ class ScanColours {
  private:
   /// A triangle of the file: a polygon, and the numbers of three corners within this polygon.
   struct TriangleCorners {
-    std::uint32_t face = 0;  ///< index of the polygon
+    std::uint32_t face = 0;  ///< index of the file's polygon from which the triangle was cut
     std::uint32_t first = 0, second = 0, third = 0;
   };
 

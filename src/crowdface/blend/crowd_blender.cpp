@@ -359,7 +359,8 @@ class CrowdBlender::PatchBlender {
   FieldPatch patch_;
   std::span<const std::uint32_t> regions_;
   std::vector<std::uint32_t> fields_, used_;
-  std::vector<float> scaled_coefficients_;  ///< coefficients times quantization steps
+  /// for each region and each field of the patch: coefficient times quantization step
+  std::vector<float> scaled_coefficients_;
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
   /// kMaxColumns by values_per_field(): sums at the skeleton vertices

@@ -33,7 +33,7 @@ struct MatrixRows {
 /// \param columns, products  1 to kMaxColumns; as many columns as products.
 void multiply(const MatrixRows<float>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
-/// Like the overload above, but multiplies quantized values.
+/// Computes the same products as `multiply` for floats, but from the quantized values of the rows.
 void multiply(const MatrixRows<std::int16_t>& rows, std::span<const float* const> columns,
               std::span<float* const> products);
 
@@ -43,8 +43,8 @@ void add_product(const MatrixRows<float>& rows, std::span<const float* const> co
 
 /// A range of vertices of the mesh with consecutive numbers.
 struct VertexRun {
-  std::uint32_t first = 0;  ///< index of the first vertex
-  std::uint32_t count = 0;  ///< number of vertices
+  std::uint32_t first = 0;  ///< index of the run's first vertex
+  std::uint32_t count = 0;  ///< number of vertices in the run
 };
 
 /// Writes results = base + added at the vertices of the runs. Uses streaming stores, which bypass

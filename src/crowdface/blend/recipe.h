@@ -14,7 +14,7 @@ namespace crowdface {
 /// A head and its weight in a blend. For heads that lend detail, the weights are the normalised
 /// weights ω̂.
 struct SourceWeight {
-  Index head = 0;  ///< index in the HeadSet
+  Index head = 0;  ///< index of the head in the HeadSet
   double weight = 0;
   bool operator==(const SourceWeight&) const = default;
 };
@@ -26,10 +26,14 @@ struct BandRecipe {
   /// m_k: the position on the weight plane from which `weights` were computed; empty if there is
   /// none
   std::optional<PlanePoint> position;
-  std::vector<SourceWeight> weights;  ///< ω̂_ki, by ascending head; no weight is zero
-  double smoothness = 0;              ///< L_k/L_max, the level as a fraction
-  std::uint64_t iterations = 0;       ///< L_k, the level as a number of smoothing iterations
-  double extrapolation = 1;           ///< e_k, the extrapolation factor of Fig. 6
+  /// ω̂_ki: the weights of the heads that lend the detail, by ascending head; no weight is zero
+  std::vector<SourceWeight> weights;
+  /// L_k/L_max: the level at which the band begins, as a fraction of the largest level
+  double smoothness = 0;
+  /// L_k: the level at which the band begins, as a number of smoothing iterations
+  std::uint64_t iterations = 0;
+  /// e_k: the extrapolation factor of Fig. 6, which is the strength of the band's detail
+  double extrapolation = 1;
 };
 
 /// The recipe of one region. The base class is the region's coarsest band (the only band in Eq. 7).
@@ -56,7 +60,8 @@ struct Recipe {
   /// `target` is the head of the mixture from which the face takes its parts and the layout of its
   /// file.
   Index target = 0;
-  std::vector<RegionRecipe> regions;  ///< one recipe for each region of the mask
+  /// for each region of the mask: which heads lend detail, and how much
+  std::vector<RegionRecipe> regions;
   /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, not zero, summing to one. If
   /// empty, B is the target alone. Eq. 2 is linear in B, so its result is also linear in the heads
   /// of the mixture.
@@ -80,7 +85,7 @@ double mirror_image_weight(const Recipe& recipe);
 /// A smoothing level, and the weighted heads whose sum is smoothed to this level; see
 /// weights_by_level.
 struct LevelWeights {
-  std::uint64_t level = 0;  ///< number of smoothing iterations
+  std::uint64_t level = 0;  ///< L_b, the level as a number of smoothing iterations
   /// the weights s_h of the heads in the sum G_b (see weights_by_level), in the order of summation;
   /// a head may occur twice
   std::vector<SourceWeight> weights;

@@ -14,10 +14,10 @@ namespace crowdface {
 /// A 128-bit XXH3 digest. It detects accidental changes of content but is not cryptographically
 /// secure.
 struct Digest {
-  std::uint64_t high = 0;  ///< the upper 64 bits
-  std::uint64_t low = 0;   ///< the lower 64 bits
+  std::uint64_t high = 0;  ///< the upper 64 bits of the digest
+  std::uint64_t low = 0;   ///< the lower 64 bits of the digest
   bool operator==(const Digest&) const = default;
-  /// 32 lower-case hexadecimal digits.
+  /// The digest as 32 lower-case hexadecimal digits.
   std::string hex() const;
 };
 

@@ -16,7 +16,8 @@ struct InputLimits {
   std::uint64_t image_bytes = 1ULL << 32U;   ///< memory for the pixels of all images together
   std::uint64_t textures = 1000;             ///< number of textures of one head
   std::uint64_t yaml_bytes = 1ULL << 20U;    ///< size of a config or review file
-  std::uint64_t yaml_depth = 64;             ///< nesting depth of lists and mappings
+  /// nesting depth of lists and mappings in a config or review file
+  std::uint64_t yaml_depth = 64;
 };
 
 /// The current limits.

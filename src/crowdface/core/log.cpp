@@ -42,8 +42,9 @@ struct Sinks {
     if (!failure) failure = what;
   }
 
-  /// Runs a direct call to a log sink, and notes the error if the call throws. (Calls to the logger
-  /// do not throw: the logger passes errors to the error handler above.)
+  /// Runs `work`, which calls a log sink directly. If `work` throws, passes the message to
+  /// note_failure. (Calls to the logger do not throw: the logger passes its errors to its error
+  /// handler.)
   template <class Work>
   void guarded(const Work& work) {
     try {

@@ -40,7 +40,7 @@ class LogBuffer {
 
  private:
   struct Lines;
-  std::unique_ptr<Lines> lines_;  ///< the kept lines
+  std::unique_ptr<Lines> lines_;  ///< the last 1000 log lines
 };
 
 /// Log one or more lines, with unprintable characters escaped (see `printable`).

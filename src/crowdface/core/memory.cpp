@@ -69,7 +69,8 @@ std::optional<std::uint64_t> control_group_memory_limit_bytes(
   lower("memory", "");
   std::ifstream lines(groups_file);
   for (std::string line; std::getline(lines, line);) {
-    // Version 1: "4:memory:/group". Version 2 lists no controllers: "0::/group".
+    // A line of the file names a control group. With version 1 of control groups, the line is
+    // "4:memory:/group". With version 2, it names no controller: "0::/group".
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (second == line.npos) continue;
     lower(line.substr(first + 1, second - first - 1), line.substr(second + 1));

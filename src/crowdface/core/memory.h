@@ -33,7 +33,7 @@ bool is_out_of_memory();
 /// Parses "4 GiB", "512 MiB" or "3 GB" as bytes; nothing if the text is not a size with a unit.
 std::optional<std::uint64_t> parse_bytes(std::string_view text);
 
-/// "3.2 GiB", "47 MiB", "98 KiB", "512 bytes".
+/// Formats a number of bytes as "3.2 GiB", "47 MiB", "98 KiB" or "512 bytes".
 std::string format_bytes(std::uint64_t bytes);
 
 }  // namespace crowdface

@@ -19,7 +19,8 @@ class ThreadLimit {
 
  private:
   struct Control;
-  std::unique_ptr<Control> control_;  ///< TBB's limit; null: no limit
+  /// TBB's limit on the number of threads; null if there is no limit
+  std::unique_ptr<Control> control_;
 };
 
 /// Number of threads that parallel loops currently use.

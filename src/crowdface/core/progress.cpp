@@ -21,7 +21,8 @@ bool on_terminal() {
 
 std::atomic<bool> has_listener = false;
 std::mutex listener_mutex;
-ProgressListener progress_listener;  ///< guarded by listener_mutex
+/// the function that receives all progress; guarded by listener_mutex
+ProgressListener progress_listener;
 
 void tell_listener(const std::string& stage, std::size_t finished_steps, std::size_t total) {
   if (!has_listener) return;

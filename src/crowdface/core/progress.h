@@ -55,7 +55,7 @@ class Progress {
   double start_seconds_;  ///< time of the construction on `clock_`
   std::atomic<std::size_t> finished_steps_{0};
   mutable std::mutex mutex_;
-  StepRate rate_;  ///< guarded by mutex_
+  StepRate rate_;  ///< estimates the steps per second; guarded by mutex_
   /// time of the last output on `clock_`; start_seconds_ before the first output
   double last_shown_seconds_;
   bool has_shown_ = false;  ///< whether `show` has written a line

@@ -19,9 +19,9 @@ std::optional<double> parse_double(std::string_view text);
 /// trailing characters, or if the number overflows.
 std::optional<std::uint64_t> parse_unsigned(std::string_view text);
 
-/// The shortest decimal text that reads back as exactly `value`.
+/// Formats a number as the shortest decimal text that reads back as exactly `value`.
 std::string format_number(double value);
-/// Fixed-point notation with `decimals` digits after the point.
+/// Formats a number in fixed-point notation with `decimals` digits after the point.
 std::string format_fixed(double value, int decimals);
 
 /// Pads with zeros to at least `digits` digits: "0007".
@@ -86,7 +86,7 @@ std::vector<std::string_view> split_lines(std::string_view text);
 /// The words of a text, separated by blanks, tabs and carriage returns.
 std::vector<std::string> words_of(std::string_view text);
 
-/// Joins words: "a, b, c".
+/// Concatenates words with the separator between them: "a, b, c".
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 namespace detail {

@@ -23,9 +23,9 @@ using TextPieces = std::function<void(const TextSink& take)>;
 /// returned function throws Interrupted after a signal.
 TextPieces text_of_items(std::size_t count, std::function<std::string(std::size_t)> item);
 
-/// The whole text in memory.
+/// Returns the whole text as one string.
 std::string whole_text(const TextPieces& text);
-/// Size and hash of the text.
+/// Returns the size and the hash of the text.
 FileDigest digest_of(const TextPieces& text);
 /// Writes the whole text to a file atomically, like `write_file`. \return size and hash of the
 /// file.

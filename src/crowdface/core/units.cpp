@@ -63,8 +63,9 @@ LengthUnit fitting_unit(double length, double typical_mm) {
   if (mm <= kNear * kPoser.mm && mm >= kPoser.mm / kNear) return kPoser;
   const double step = std::pow(10, std::floor(std::log10(mm)) - 1);
   const double digits = std::round(mm / step);
-  // If the step is below 1, divide by 1/step, which is a whole number; multiplying by 0.1 would
-  // give 2.3000000000000003 instead of 2.3.
+  // The result is a multiple of `step`, the unit of the second significant digit. If `step` is
+  // below 1, divide by 1/step, which is a whole number; multiplying by 0.1 would give
+  // 2.3000000000000003 instead of 2.3.
   return {step < 1 ? digits / std::round(1 / step) : digits * step};
 }
 

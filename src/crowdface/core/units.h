@@ -35,7 +35,8 @@ inline constexpr std::string_view kUnitChoices = "mm, cm, m, in, ft, or a length
 inline double mm_per(LengthUnit unit) {
   return unit.mm;
 }
-/// "mm", "cm", "m", "in" or "ft". For a unit without a name, its length, such as "2438.4 mm".
+/// The name of a unit: "mm", "cm", "m", "in" or "ft". For a unit without a name, its length, such
+/// as "2438.4 mm".
 std::string name_of(LengthUnit unit);
 /// Parses the name of a unit or a length with a unit, such as "243.84 cm"; nothing if the text is
 /// neither of these, or if the length is outside 1e-6 mm … 1e9 mm.
@@ -52,13 +53,13 @@ std::optional<double> parse_length_mm(std::string_view text);
 
 /// A signed coordinate axis, such as +Y.
 struct Axis {
-  int index = 1;  ///< 0: x, 1: y, 2: z
-  int sign = 1;   ///< +1 or −1
+  int index = 1;  ///< number of the axis: 0 for x, 1 for y, 2 for z
+  int sign = 1;   ///< direction along the axis: +1 or −1
   bool operator==(const Axis&) const = default;
 };
 /// Parses "+X", "-Z" or "y"; nothing if the text is not an axis.
 std::optional<Axis> parse_axis(std::string_view text);
-/// Sign and letter: "+Y".
+/// The name of an axis: its sign and its letter, such as "+Y".
 std::string name_of(Axis axis);
 
 }  // namespace crowdface

@@ -129,7 +129,8 @@ class TemporaryFile {
   fs::path path_;
   FileDescriptor file_{-1}, lock_{-1};
   std::size_t written_ = 0;
-  std::size_t bytes_in_writeback_ = 0;  ///< bytes for which writing back to disk has started
+  /// number of bytes, from the start of the file, whose writing to disk has been started
+  std::size_t bytes_in_writeback_ = 0;
 };
 
 fs::path folder_of(const fs::path& file) {

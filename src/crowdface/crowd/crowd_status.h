@@ -51,7 +51,7 @@ struct CrowdStatus {
 struct TaskEnd {
   /// exit code of the task; nothing if the task has not ended
   std::optional<std::uint64_t> exit_code;
-  std::string reason;        ///< last error in the log
+  std::string reason;        ///< last error in the task's log
   bool is_requeued = false;  ///< whether the task has asked Slurm for another run
 };
 /// Finds the end of the last attempt in the text of a task's log.

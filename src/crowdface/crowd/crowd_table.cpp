@@ -19,7 +19,7 @@
 namespace crowdface {
 namespace {
 
-/// A column of the table.
+/// A column of crowd.csv, the table of all faces.
 struct TableColumn {
   std::string name;
   std::function<std::string(const FacePlan& face)> value;
@@ -49,8 +49,8 @@ std::string weights_text(const std::vector<SourceWeight>& weights, const PlanNam
   return join(parts, ";");
 }
 
-/// Adds the columns of one band of a region. Faces without this band have empty fields in these
-/// columns.
+/// Adds the columns of crowd.csv for one band of a region. Faces without this band have empty
+/// fields in these columns.
 void add_band(const std::string& start, std::size_t region, std::size_t band,
               const PlanNames& names, TableColumns& columns) {
   const auto add = [&](const char* name, const auto& value) {
@@ -72,7 +72,7 @@ void add_band(const std::string& start, std::size_t region, std::size_t band,
   add("extrapolation", [](const BandRecipe& own) { return format_number(own.extrapolation); });
 }
 
-/// Adds the columns with the colour of the skin at the neck.
+/// Adds the columns of crowd.csv that hold the colour of each face's skin at the neck.
 /// \param colours  the parameter `neck_colours` of table_text
 void add_neck_colours(const std::vector<FacePlan>& crowd,
                       const std::vector<Eigen::Array3d>& colours, TableColumns& columns) {
@@ -143,7 +143,7 @@ bool has_any_tag(const HeadTags& tags) {
   return std::ranges::any_of(tags, [](const auto& own) { return !own.empty(); });
 }
 
-/// Adds the columns with the identity of a face, such as id, family and role.
+/// Adds the columns of crowd.csv that identify a face, such as id, family and role.
 void add_identity_columns(const std::vector<FacePlan>& crowd, const PlanNames& names,
                           const HeadTagsAndAttachmentKinds& facts, TableColumns& columns) {
   using Face = const FacePlan&;

@@ -26,8 +26,8 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
   return json;
 }
 
-/// Stores the values of the first band directly in the region's object, and the values of each
-/// further band under `bands` and the band's name.
+/// Converts the recipe of a region to a JSON object. Stores the values of the first band directly
+/// in this object, and the values of each further band under `bands` and the band's name.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);
   for (const SourceWeight& part : region.colours) {

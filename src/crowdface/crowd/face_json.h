@@ -9,7 +9,7 @@
 
 namespace crowdface {
 
-/// One line of the plan as a JSON value.
+/// Returns a face as the JSON value that the face's line in the plan contains.
 nlohmann::ordered_json face_to_json(const FacePlan& face, const PlanNames& names,
                                     const Digest& settings);
 

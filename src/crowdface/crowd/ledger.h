@@ -24,22 +24,24 @@ namespace crowdface {
 struct LedgerEntry {
   struct File {
     std::string name;    ///< path relative to the crowd's folder, with '/' separators
-    FileDigest content;  ///< size and hash
+    FileDigest content;  ///< size and hash of the file's content
     bool operator==(const File&) const = default;
   };
   std::string item;         ///< name of the item, such as "faces/market_0001"
   Digest key;               ///< hash of everything that determines the files
-  std::vector<File> files;  ///< files of the item; may be empty
+  std::vector<File> files;  ///< files that belong to the item; may be empty
   std::string note;  ///< further results as JSON, such as the defects of a face's skin; or empty
 };
 
 /// Formats a file as {"file": …, "bytes": …, "hash": …}.
 nlohmann::ordered_json file_to_json(const LedgerEntry::File& file);
+/// Parses a JSON list of files that file_to_json formatted.
 /// \return the files in `list`; nothing if `list` is not a valid list of files.
 std::optional<std::vector<LedgerEntry::File>> files_from_json(const nlohmann::ordered_json& list);
 
 /// Formats an entry as one line with a checksum and without a line end (docs/crowd-directory.md).
 std::string format_ledger_line(const LedgerEntry& entry);
+/// Parses a line that format_ledger_line formatted.
 /// \return the entry; nothing if the line is truncated, altered or not a ledger line.
 std::optional<LedgerEntry> parse_ledger_line(std::string_view line);
 
@@ -141,8 +143,9 @@ class Ledger {
   /// Passes the lines of the compacted ledger to `take`.
   void write_text(const TextSink& take) const;
 
-  std::filesystem::path root_, own_ledger_;           ///< the crowd's folder; this run's ledger
-  std::vector<std::filesystem::path> other_ledgers_;  ///< the ledgers that are only read
+  std::filesystem::path root_, own_ledger_;  ///< the crowd's folder; this run's ledger
+  /// the ledgers of other runs, which this object only reads
+  std::vector<std::filesystem::path> other_ledgers_;
   std::map<std::string, Item> items_;  ///< all items; the key is the name of the item
   /// Files that an earlier line of a finished item lists, but that the item's finished entry does
   /// not list. `compact` removes such a file unless the finished entry of another item lists it.

@@ -29,7 +29,8 @@ class LikenessReader : public nlohmann::json_sax<nlohmann::json> {
 
   std::map<std::string, std::vector<double>> anchors;
   Likeness likeness;
-  std::size_t face_count_with_neighbours = 0;  ///< number of faces whose neighbours are in the file
+  /// number of faces for which the file lists the nearest faces
+  std::size_t face_count_with_neighbours = 0;
 
   bool start_object(std::size_t) override { return ++depth_ <= kDeepest; }
   bool start_array(std::size_t) override { return ++depth_ <= kDeepest; }

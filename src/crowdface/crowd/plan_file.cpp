@@ -18,7 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kRounding = 1e-6;  ///< tolerance for the sum of shares written by hand
+/// a sum of shares or weights that a user wrote by hand may miss its limit by kRounding
+constexpr double kRounding = 1e-6;
 
 /// Reads the fields of one line of a plan. Errors name the file, the line and the field.
 class LineReader {
@@ -183,8 +184,8 @@ class LineReader {
     return placed;
   }
 
-  /// Lines that a user wrote by hand may omit the measurements, because no mesh depends on
-  /// measurements.
+  /// Reads the measurements of a face. Lines that a user wrote by hand may omit them, because no
+  /// mesh depends on measurements.
   std::vector<double> traits(const Json& json) const {
     std::vector<double> values;
     for (const std::string& name : names_.traits) {
@@ -265,8 +266,8 @@ class LineReader {
     return result;
   }
 
-  /// Lines that a user wrote by hand may omit this field or have a wrong value, because no mesh
-  /// depends on this field.
+  /// Reads the field `nearest`, which names a face's nearest neighbours. Lines that a user wrote by
+  /// hand may omit the field or have a wrong value, because no mesh depends on this field.
   std::optional<NearestNeighbours> nearest(const Json& json) const {
     if (!json.is_object()) return std::nullopt;
     const std::string face = json.value("face", Json()).is_string() ? text(json, "face") : "";

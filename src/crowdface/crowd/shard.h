@@ -14,8 +14,8 @@ namespace crowdface {
 /// The part of a crowd that one machine makes: every `count`-th face, starting with face number
 /// `index` (counted from 1).
 struct Shard {
-  std::uint64_t index = 1;  ///< counted from 1
-  std::uint64_t count = 1;  ///< number of shards; 1: the shard is the whole crowd
+  std::uint64_t index = 1;  ///< number of this shard, counted from 1
+  std::uint64_t count = 1;  ///< number of all shards; 1: the shard is the whole crowd
 
   bool is_whole_crowd() const { return count == 1; }
   /// Whether the shard makes the face whose index in the plan (counted from 0) is `face_index`.
@@ -36,6 +36,7 @@ std::filesystem::path shard_path(const std::filesystem::path& path, const Shard&
 /// The existing files whose path is shard_path(path, shard) for any shard, sorted by name.
 std::vector<std::filesystem::path> existing_shard_paths(const std::filesystem::path& path);
 
+/// The state of a shard, according to its latest run.
 enum class ShardState {
   kWaiting,  ///< no run has begun
   /// working, or killed without notice: only the time since the last write tells which
@@ -59,6 +60,7 @@ struct ShardNotes {
 };
 /// Formats the notes as one line of JSON, with a line end.
 std::string format_shard_notes(const ShardNotes& notes);
+/// Parses the text that format_shard_notes returned.
 /// \return the notes; nothing if the text is not the notes of a shard.
 std::optional<ShardNotes> parse_shard_notes(std::string_view text);
 

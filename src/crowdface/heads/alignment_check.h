@@ -15,7 +15,7 @@ struct HeadPose {
   double angle_degrees = 0;  ///< rotation that aligns the head with the reference
   /// distance between the centroids of head and reference, as a fraction of the head's size
   double relative_shift = 0;
-  double scale = 1;  ///< size of the head relative to the reference
+  double scale = 1;  ///< size of the head divided by the size of the reference head
   /// Whether left and right are swapped: the head fits the reference several times better after a
   /// reflection than without one.
   bool is_mirrored = false;

@@ -49,13 +49,14 @@ std::vector<std::vector<std::uint32_t>> rows_in_pictures(const HeadTextureFiles&
   return result;
 }
 
-/// A texture file, and the size and content to which it is converted.
+/// A texture file, and the properties of the map to which the file is converted: size, content
+/// (colours, normals or other values) and number of channels.
 struct NeededMap {
   fs::path path = {};
   int width = 0, height = 0;
   MapContent content = MapContent::kColours;
   int channels = 3;
-  Digest file_digest = {};  ///< hash of the file
+  Digest file_digest = {};  ///< hash of the texture file's bytes
   auto key() const { return std::tie(path, width, height, content, channels); }
   bool operator<(const NeededMap& other) const { return key() < other.key(); }
   Digest digest() const {
@@ -162,7 +163,8 @@ class MapCache {
 
  private:
   const CacheFolder& cache_;
-  std::atomic<bool> works_;  ///< false after an entry could not be written
+  /// whether converted maps can be stored: there is a cache, and no write has failed yet
+  std::atomic<bool> works_;
 };
 
 std::shared_ptr<const TextureMap> read_map(const NeededMap& needed, MapCache& cache) {

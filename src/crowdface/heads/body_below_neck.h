@@ -20,7 +20,7 @@ Positions area_vectors_around(const Topology& topology, const Positions& positio
 struct BodyBelowNeck {
   /// #rim by 3: positions of the body's rim, in the order of the heads' rim
   Positions rim_positions;
-  Positions area_vectors;  ///< result of area_vectors_around for the body
+  Positions area_vectors;  ///< result of area_vectors_around for the body's rim
   /// Whether the file contains a head with the heads' topology, instead of a body.
   bool file_contains_head = false;
   Positions head_positions = {};  ///< if the file contains a head: positions of its whole mesh

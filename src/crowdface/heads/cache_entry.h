@@ -29,7 +29,7 @@ inline constexpr std::string_view kCacheExtension = ".cfcache";
 /// both parts, so that a renamed entry is detected.
 struct CacheKey {
   std::string_view kind;  ///< kind of the entry, for example "mesh"; part of the file name
-  Digest digest;          ///< hash of everything that the arrays depend on
+  Digest digest;          ///< hash of everything that the entry's arrays depend on
 };
 
 /// Path of the file of a cache entry.
@@ -68,13 +68,13 @@ constexpr std::array<char, 4> number_type() {
 
 /// An array to write into a cache entry; points to the numbers in memory.
 struct EntryArray {
-  std::string name;          ///< at most 23 bytes
-  std::array<char, 4> type;  ///< see detail::number_type
+  std::string name;          ///< name of the array, at most 23 bytes
+  std::array<char, 4> type;  ///< name of the number type, see detail::number_type
   /// Number of contiguous numbers in one element, or in one row of a row-major matrix.
   std::uint32_t columns;
   std::uint64_t rows;   ///< number of elements, or of rows of a row-major matrix
-  const void* data;     ///< the first number
-  std::uint64_t bytes;  ///< size of all numbers in memory
+  const void* data;     ///< pointer to the array's first number
+  std::uint64_t bytes;  ///< size of the array in bytes
   /// Keeps the numbers alive until the entry is written; null if the caller keeps the numbers
   /// alive.
   std::shared_ptr<const void> owner;
@@ -113,7 +113,7 @@ class ArrayWriter {
     add<Scalar>(name, matrix.innerSize(), matrix.outerSize(), matrix.data());
   }
 
-  std::vector<EntryArray> arrays;  ///< the collected arrays
+  std::vector<EntryArray> arrays;  ///< the arrays that were added so far
 
  private:
   /// Appends an array to `arrays`.
@@ -196,11 +196,12 @@ class CacheEntry {
  private:
   /// An array as the file describes it; see EntryArray.
   struct StoredArray {
-    char name[24];             ///< ends with a zero byte
-    std::array<char, 4> type;  ///< see detail::number_type
-    std::uint32_t columns;     ///< number of contiguous numbers in one element or row
-    std::uint64_t rows;        ///< number of elements or rows
-    std::uint64_t offset;      ///< position of the first number in the file
+    char name[24];             ///< name of the array, ending with a zero byte
+    std::array<char, 4> type;  ///< name of the number type, see detail::number_type
+    std::uint32_t columns;     ///< number of contiguous numbers in one element or matrix row
+    std::uint64_t rows;        ///< number of elements or matrix rows
+    /// offset of the array's first number from the start of the file, in bytes
+    std::uint64_t offset;
   };
   friend void write_entry(const std::filesystem::path&, const CacheKey&,
                           const std::vector<EntryArray>&);

@@ -11,7 +11,8 @@ namespace crowdface {
 /// A material file or a texture of an attachment, and whether it gets the attachment's colour.
 struct AttachmentFile {
   MaterialFile file;
-  /// whether the file is a texture in a neutral colour that `coloured_texture` must colour
+  /// whether the file on disk is a texture in a neutral colour, and the output gets the texture
+  /// that `coloured_texture` makes from this file
   bool is_coloured = false;
 };
 /// Lists the material files and textures of an attachment. A coloured texture has the same file

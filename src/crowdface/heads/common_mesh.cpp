@@ -55,8 +55,9 @@ std::vector<std::array<double, 4>> uv_bounds(const Topology& topology,
   return bounds;
 }
 
-/// Matches the vertices by their texture coordinates, and vertices with equal texture coordinates
-/// by their positions. The polygons may be cut into triangles along different diagonals.
+/// Matches the vertices of two heads by their texture coordinates, and vertices with equal texture
+/// coordinates by their positions. The polygons may be cut into triangles along different
+/// diagonals.
 std::optional<Vertices> match_vertices_by_uvs(const HeadFile& first, const Topology& found,
                                               const TextureCoordinates& uvs,
                                               const Positions& positions) {
@@ -107,6 +108,8 @@ std::optional<Vertices> match_vertices_by_uvs(const HeadFile& first, const Topol
   return vertices;
 }
 
+/// Whether matching vertices of two meshes have the same range of texture coordinates. True if one
+/// of the meshes has no texture coordinates.
 /// \param vertices  the vertex of `found` for each vertex of `first`
 bool has_same_uvs(const HeadMesh& first, const Topology& found, const TextureCoordinates& uvs,
                   const Vertices& vertices) {
@@ -200,7 +203,8 @@ void adopt_mesh_of(const HeadFile& other, const VertexMatch& match, HeadFile& he
     replace_mesh(head, other, colours);
     return;
   }
-  // Keep the head's own texture coordinates, so that the head checks report the difference.
+  // Let the new mesh keep this head's own texture coordinates, so that the head checks report the
+  // difference.
   HeadMesh mesh = *head.mesh;
   mesh.topology.corner_vertices = other.mesh->topology.corner_vertices;
   mesh.topology.vertex_count = other.mesh->topology.vertex_count;

@@ -27,8 +27,10 @@ constexpr double kEyesAboveMouthMm = 65;
 
 /// A Gaussian window on the skin, seen from the front; in millimetres.
 struct Window {
-  double across, above_mouth;  ///< centre: distance from the symmetry plane, height over the mouth
-  double sigma_across = 4, sigma_up = 3.5;  ///< standard deviations of the Gaussian
+  /// the window's centre: its distance from the symmetry plane and its height above the mouth
+  double across, above_mouth;
+  /// standard deviations of the Gaussian, across and along the height of the face
+  double sigma_across = 4, sigma_up = 3.5;
 };
 
 enum class Direction { kOutwards, kUp, kForwards };
@@ -46,7 +48,8 @@ struct Term {
 /// displacements of longer, wider or more prominent faces.
 struct Movement {
   std::vector<Term> terms;
-  /// standard deviation of the value among neutral heads (synthetic, ICT, MakeHuman)
+  /// standard deviation of the movement's value among heads with a neutral expression (synthetic,
+  /// ICT, MakeHuman)
   double neutral_deviation_mm;
   /// start of the warning about a head with a large positive or negative value. Null: no warning,
   /// because such values also occur on neutral heads.
@@ -216,7 +219,8 @@ class FaceSkin {
  private:
   struct SkinVertex {
     Index index;
-    /// coordinates in millimetres: to the left of the symmetry plane, above the mouth, and forwards
+    /// coordinates of the vertex in millimetres: to the left of the symmetry plane, above the
+    /// mouth, and forwards
     double across, above_mouth, front;
   };
   static double square(double x) { return x * x; }
@@ -292,7 +296,7 @@ struct LargestDeviation {
   double ratio = 0;         ///< deviation_mm / usual_mm
   double deviation_mm = 0;  ///< distance of the movement's value from the median over all heads
   double usual_mm = 0;      ///< root mean square of the other heads' deviations, see update_largest
-  const char* text = nullptr;  ///< start of the warning
+  const char* text = nullptr;  ///< start of the warning about this deviation
 };
 
 /// Updates each head's largest deviation: stores `movement` for the heads that deviate more in

@@ -36,7 +36,8 @@ struct PlacedAttachment {
 /// attachments share it with different colours.
 class FaceAttachments {
  public:
-  /// Binds nothing yet. \param config, inputs  must outlive this object.
+  /// Makes an object without bound attachments; call `bind` before attachments_of.
+  /// \param config, inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs);
   /// Binds the attachments that these faces wear. \param config, inputs  must outlive this object.
   FaceAttachments(const Config& config, const Inputs& inputs, std::span<const FacePlan> faces);
@@ -44,8 +45,8 @@ class FaceAttachments {
   /// Binds the attachments that these faces wear, unless they are already bound.
   void bind(std::span<const FacePlan> faces);
 
-  /// The attachments of a face, in the order of its recipe. They must be bound. The result
-  /// refers to the inputs.
+  /// Places the attachments of a face, in the order of the face's recipe. The attachments must be
+  /// bound. The result refers to the inputs.
   /// \param positions  the face's vertices, #V by 3
   /// \param moves      displacements of the face's vertices, one item for each shape (expression)
   ///                   of the inputs; empty: the face at rest
@@ -58,19 +59,24 @@ class FaceAttachments {
   std::size_t placement_memory_bytes() const;
 
  private:
-  /// An attachment mesh bound to the fitted head.
+  /// The mesh of one or more attachments, bound to the skin of the head to which the attachments
+  /// were fitted.
   struct BoundMesh {
-    const Attachment* item;                            ///< the first attachment with this mesh
-    std::unique_ptr<const AttachmentCarrier> carrier;  ///< places the mesh on faces
+    const Attachment* item;  ///< the first attachment of the inputs that has this mesh
+    /// moves the mesh from the fitted head to a face
+    std::unique_ptr<const AttachmentCarrier> carrier;
     /// bends the mesh in expressions; null for a rigid attachment, or if the inputs have no shapes
     std::unique_ptr<const ShapeBend> bend;
   };
 
   const Config& config_;
   const Inputs& inputs_;
-  std::unique_ptr<const FittedSkin> skin_;  ///< skin of the fitted head; null if nothing is bound
-  std::vector<BoundMesh> bound_meshes_;     ///< all bound meshes, without duplicates
-  /// for each attachment of the inputs: an index into `bound_meshes_`; nothing if it is not bound
+  /// skin of the head to which the attachments were fitted; null until `bind` has bound an
+  /// attachment
+  std::unique_ptr<const FittedSkin> skin_;
+  std::vector<BoundMesh> bound_meshes_;  ///< all bound meshes, without duplicates
+  /// for each attachment of the inputs: the index of its mesh in `bound_meshes_`; nothing if the
+  /// mesh is not bound
   std::vector<std::optional<std::size_t>> mesh_of_item_;
 };
 

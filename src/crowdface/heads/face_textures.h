@@ -67,8 +67,8 @@ class FaceTextures {
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
   /// An image that is made for each face: image `index` of a blender.
   struct Picture {
-    const TextureBlender* blender;  ///< makes the image
-    std::size_t index;              ///< index among the blender's images
+    const TextureBlender* blender;  ///< the blender that makes the image
+    std::size_t index;              ///< index of the image among the blender's images
   };
   std::vector<Picture> pictures_;  ///< all images, in the order of face_picture_names
   const Inputs& inputs_;

@@ -37,9 +37,10 @@ class FileFingerprint {
   /// The present stamp of a file; nothing if the file system does not tell it.
   static std::optional<Stamp> stamp_of(const std::filesystem::path& file);
 
-  std::filesystem::path file_, cache_;  ///< the file to look up; the cache folder
+  std::filesystem::path file_, cache_;  ///< path of the file to look up; path of the cache folder
   std::optional<Stamp> stamp_;          ///< the file's stamp at the construction of this object
-  std::optional<Digest> digest_;        ///< the stored hash; empty if unknown or outdated
+  /// the stored hash of the file's bytes; empty if there is none or the file has changed since
+  std::optional<Digest> digest_;
 };
 
 }  // namespace crowdface

@@ -129,7 +129,7 @@ Digest key_of(const Inputs& inputs, const HeadSet& resized_head, double share, d
   return key.digest();
 }
 
-/// Whether a level read from the cache is a consistent mesh; coordinates are not checked.
+/// Whether a level of detail from the cache is a consistent mesh; coordinates are not checked.
 bool is_sound(const DetailLevel& level, const Topology& whole) {
   const auto& uvs = level.topology.corner_uvs;
   const auto end = [](Index count) { return static_cast<std::uint64_t>(count); };
@@ -155,8 +155,8 @@ constexpr auto kLevelArrays = [](auto& arrays, auto& measured) {
   arrays("rms of shapes", measured.shapes_error.root_mean_square);
 };
 
-/// Whether a level read from the cache is valid. Also computes the members that the cache does not
-/// store.
+/// Whether a level of detail and its errors, both from the cache, are valid. Also computes the
+/// members of the level that the cache does not store.
 bool is_sound(MeasuredLevel& measured, const Topology& whole, double share) {
   DetailLevel& level = measured.level;
   level.share = share;

@@ -19,27 +19,29 @@ namespace crowdface {
 /// The smoothing levels of one head, approximated by fields. The fields may lie in a memory-mapped
 /// cache file, so that they use no memory of the process.
 struct StoredLevels {
-  LevelFields fields;  ///< the fields; empty with `levels: exact`
+  /// the fields that approximate the smoothing levels; empty with `levels: exact`
+  LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
   std::shared_ptr<const MappedFile> mapped_file;
   /// For `levels: basis`: coefficients of the level functions φ_p(L), one row per node and one
   /// column per function (see LevelBasis::function_coefficients).
   Eigen::MatrixXd function_coefficients;
-  BasisError error;  ///< error of the fitted levels; only for `levels: basis`
+  /// distances between the fitted levels and the exact filter; only for `levels: basis`
+  BasisError error;
 };
 
 /// The cached data of a head: the trajectories of the sample points during smoothing, and the
 /// fitted levels. With `levels: exact`, there are no fitted levels.
 struct PreparedHead {
-  Trajectory smoothing_trajectory;  ///< trajectories of the sample points
-  StoredLevels levels;              ///< the fitted levels; empty with `levels: exact`
+  Trajectory smoothing_trajectory;  ///< trajectories of the sample points during smoothing
+  StoredLevels levels;  ///< the fitted smoothing levels of the head; empty with `levels: exact`
 };
 
 /// The sizes that the cache entry of a prepared head must have to be usable.
 struct HeadCacheSizes {
   Index vertex_count = 0;  ///< number of vertices of the head
-  Index sample_count = 0;  ///< number of sample points with a trajectory
-  /// number of levels per trajectory
+  Index sample_count = 0;  ///< number of sample points whose trajectory is stored
+  /// number of smoothing levels at which each trajectory is stored
   Index levels_per_smoothing_trajectory = 0;
   /// number of levels at which the level functions are interpolated (LevelNodes); unused unless
   /// `levels` is kBasis

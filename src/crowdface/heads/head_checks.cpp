@@ -137,7 +137,7 @@ std::string cause_of_difference(const HeadFile& usual_head, const HeadFile& head
 
 void compare_meshes(const std::vector<HeadFile>& heads, Problems& problems) {
   if (heads.empty()) return;
-  // Among equally frequent meshes, the first counts.
+  // If several meshes are equally frequent, the first of these is the usual mesh.
   const auto frequency = [&](const HeadFile& head) {
     return std::ranges::count(heads, head.mesh, &HeadFile::mesh);
   };

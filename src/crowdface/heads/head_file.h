@@ -12,11 +12,12 @@ namespace crowdface {
 /// A head as read from its file. The topology, texture coordinates and corner normals are in
 /// `mesh`; the same members of `file` are empty.
 struct HeadFile {
-  ObjFile file;                    ///< the content of the file, except the members in `mesh`
-  Digest text_digest;              ///< hash of the file's bytes
-  Digest mesh_digest;              ///< HeadMesh::digest of `mesh`
-  std::shared_ptr<HeadMesh> mesh;  ///< shared by all heads with the same mesh
-  bool is_cached = false;          ///< whether the cache has an entry for the head's file
+  ObjFile file;        ///< the content of the file, except the members in `mesh`
+  Digest text_digest;  ///< hash of the file's bytes
+  Digest mesh_digest;  ///< HeadMesh::digest of `mesh`
+  /// polygons, texture coordinates and corner normals; one object for all heads with equal meshes
+  std::shared_ptr<HeadMesh> mesh;
+  bool is_cached = false;  ///< whether the cache has an entry for the head's file
   /// whether the file has several vertices at the same position, which the reader has joined
   bool has_joined_vertices = false;
 };

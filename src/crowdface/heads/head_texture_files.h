@@ -19,8 +19,8 @@ namespace crowdface {
 struct HeadTextureFiles {
   /// A texture file.
   struct File {
-    std::filesystem::path path;  ///< an existing file
-    std::filesystem::path name;  ///< path as in the material file; may contain <UDIM>
+    std::filesystem::path path;  ///< path of the existing texture file
+    std::filesystem::path name;  ///< path as written in the material file; may contain <UDIM>
   };
   /// all files without duplicates, in the order in which polygons first use them
   std::vector<File> files;

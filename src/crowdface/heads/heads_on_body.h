@@ -18,12 +18,13 @@ namespace crowdface {
 struct HeadsOnBody {
   /// How a head was placed on the body.
   struct Head {
-    RigidMotion placement;  ///< maps positions in the head's file to the body; scale 1
+    /// rigid motion of the head from its position in its file to its position on the body
+    RigidMotion placement;
     /// The rotation of the placed head into the common pose of all heads, see rotation_vector; zero
     /// if the head has that pose.
     Eigen::Vector3d pose_rotation = Eigen::Vector3d::Zero();
     double shift_mm = 0;  ///< rms distance by which placement and pose rotation move the neck ring
-    double rotation_degrees = 0;  ///< angle of placement and pose rotation together
+    double rotation_degrees = 0;  ///< rotation angle of placement and pose rotation together
     /// after placement and pose rotation: largest distance between a vertex of the head's ring and
     /// the matching vertex of the body's ring
     double max_bend_mm = 0;

@@ -34,7 +34,7 @@ struct HeadsOnBody;  // heads/heads_on_body.h
 struct Attachment {
   std::string name, kind;                        ///< kind: such as "hair" or "glasses"
   AttachmentMove moves = AttachmentMove::kBend;  ///< how the attachment follows the skin
-  ObjFile file;                                  ///< the mesh and its file
+  ObjFile file;                                  ///< content of the mesh file
   Digest text_digest;                            ///< hash of the file's bytes
   MaterialFiles materials;  ///< the material files and textures that the mesh uses
   Tint tint = Tint::kNone;  ///< the kind of hair whose colour the attachment takes, if any
@@ -89,7 +89,7 @@ struct Rig {
 /// A level of detail, and its error relative to the full mesh.
 struct MeasuredLevel {
   DetailLevel level;
-  LevelError heads_error;  ///< error on all heads, in millimetres
+  LevelError heads_error;  ///< error of the level on all heads, in millimetres
   /// error on all shapes (expressions), in millimetres: on the template's shapes or, if the heads
   /// have shapes of their own, on the shapes of each head; 0 without shapes
   LevelError shapes_error;
@@ -117,14 +117,15 @@ struct Inputs {
   std::shared_ptr<const MirrorMap> mirror_map;
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body;
-  ShapeSet shapes;                           ///< expressions (blend shapes)
-  Digest shapes_digest;                      ///< hash of the shapes, if there are any
-  std::vector<MeasuredLevel> detail_levels;  ///< one for each entry of `output.lods`
-  PointSet points;                           ///< named points that every face gets
-  Digest points_digest;                      ///< hash of the points, if there are any
-  Rig rig;                                   ///< joints and skinning weights; empty: none
-  AttachmentSet attachments;                 ///< attachments that faces may wear
-  RegionWeights regions;  ///< #V by #regions: weights α of the vertices in the regions
+  ShapeSet shapes;       ///< expressions (blend shapes)
+  Digest shapes_digest;  ///< hash of the shapes, if there are any
+  /// the levels of detail, one for each entry of the config key `output.lods`
+  std::vector<MeasuredLevel> detail_levels;
+  PointSet points;            ///< named points that every face gets
+  Digest points_digest;       ///< hash of the points, if there are any
+  Rig rig;                    ///< joints and skinning weights; empty: none
+  AttachmentSet attachments;  ///< attachments that faces may wear
+  RegionWeights regions;      ///< #V by #regions: weights α of the vertices in the regions
   /// weight of each vertex in the distance between two faces, from `distance.mask`; empty without a
   /// mask
   std::vector<double> distance_weights;
@@ -144,7 +145,7 @@ struct Inputs {
   void warn(std::string text);
 };
 
-/// The numbers of a matrix in memory order.
+/// Returns the numbers of a matrix, in the order in which they lie in memory.
 template <class Rows>
 auto numbers_of(const Rows& rows) {
   return std::span(rows.data(), static_cast<std::size_t>(rows.size()));

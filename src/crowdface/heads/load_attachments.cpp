@@ -27,8 +27,8 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
     return inputs.heads_on_body ? inputs.heads_on_body->mean_before_placement
                                 : mean_head(inputs.head_set);
   const auto head = static_cast<std::size_t>(*asked.fitted_head);
-  // Attachments fit the head as its file stores it. Read the file again if rigid alignment or the
-  // neck has moved the loaded head.
+  // Attachments fit the head with the positions that the head's file stores. Read the file again if
+  // rigid alignment or the neck has moved the loaded head.
   if (config.faces.align == Align::kRigid || inputs.heads_on_body)
     return read(config.faces.files[head]);
   return inputs.head_set.heads[head].positions;
@@ -44,8 +44,8 @@ Attachment item_of(const Config::Attachment& asked, HeadFile read) {
   return item;
 }
 
-/// Rejects an attachment that lies far from the head or is much larger than the head. Its unit or
-/// coordinate frame is probably wrong.
+/// Rejects an attachment that lies far from the head or is much larger than the head. The unit or
+/// the coordinate frame of such an attachment is probably wrong.
 void check_place(const Attachment& item, const Positions& head) {
   constexpr double kFarthest = 0.5, kLargest = 4;  // multiples of the head's diagonal
   const Eigen::RowVector3d low = head.colwise().minCoeff(), high = head.colwise().maxCoeff();

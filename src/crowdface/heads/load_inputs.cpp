@@ -135,7 +135,8 @@ std::optional<std::string> single_texture_warning(const FoundTextureFiles& textu
 /// \param load  called with the textures found; returns the loaded textures, or throws DamagedImage
 template <class Load>
 HeadTextures load_undamaged(FoundTextureFiles& found, Inputs& inputs, const Load& load) {
-  // sorted, so that the order of messages is fixed
+  // For each damaged file, the message about the damage. The map is sorted, so that the order of
+  // the messages is fixed.
   std::map<std::filesystem::path, std::string> damaged;
   for (;;) {
     try {

@@ -17,7 +17,8 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxPoints = 1000;
-constexpr double kFarthest = 1e7;  ///< largest absolute coordinate; heads have the same limit
+/// largest absolute value that a point's coordinate may have; the same limit holds for heads
+constexpr double kFarthest = 1e7;
 
 std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints& complaints) {
   Eigen::RowVector3d position;
@@ -32,7 +33,7 @@ std::optional<Eigen::RowVector3d> read_position(const YamlNode& node, Complaints
                                  concat("a position, [x, y, z], of numbers up to ", kFarthest));
 }
 
-/// Reads `{name: [x, y, z]}`.
+/// Reads a mapping from point names to positions, such as `{eye_L: [3.1, 2.5, 7]}`.
 /// \param names  the expected names, in order; if empty, receives the names of the mapping
 Positions read_set(const YamlNode& node, std::vector<std::string>& names, Complaints& complaints) {
   if (!complaints.expect_map(node, "a mapping from names to positions, {eye_L: [3.1, 2.5, 7]}")) {

@@ -23,7 +23,8 @@
 namespace crowdface {
 namespace {
 
-/// The source of shape meshes, and the topology that they must have.
+/// The parameters for reading shape meshes: the config, the topology that the meshes must have, and
+/// the cache.
 struct ShapeSource {
   const Config& config;
   const Topology& topology;
@@ -174,8 +175,8 @@ void load_heads(const ShapeSource& source, Inputs& inputs, Problems& problems) {
   }
 }
 
-/// Removes shapes that move no vertex of any head. Such a shape is the neutral pose, or a head
-/// model lists it without data.
+/// Removes shapes that move no vertex of any head. Such a shape is the neutral pose, or a shape
+/// that a head model lists without data.
 void remove_shapes_without_motion(Inputs& inputs) {
   ShapeSet& set = inputs.shapes;
   for (std::size_t s = set.shapes.size(); s-- > 0;) {

@@ -13,9 +13,9 @@ namespace crowdface {
 /// Where an image of the layout comes from: the first head that uses the image, and that head's
 /// first polygon with it.
 struct PictureSource {
-  std::size_t head = 0;          ///< index of the head
+  std::size_t head = 0;          ///< index of the first head that uses the image
   std::uint32_t file_index = 0;  ///< index of the image file in the head's `files`
-  Index polygon = 0;             ///< index of the polygon
+  Index polygon = 0;             ///< index of this head's first polygon that uses the image
 };
 
 /// Assigns to each polygon the image of the first head that has a texture at this polygon. The

@@ -27,7 +27,8 @@ struct PreparedHeads {
   /// on which the samples' mirror images depend.
   FaceSamples trajectory_samples;
   std::vector<Trajectory> trajectories;  ///< #heads: trajectories of `trajectory_samples`
-  std::vector<StoredLevels> levels;      ///< #heads; each is empty with `levels: exact`
+  /// #heads: the fitted smoothing levels of each head; empty with `levels: exact`
+  std::vector<StoredLevels> levels;
   /// the nodes to which the rows of StoredLevels::function_coefficients belong, for all heads
   std::shared_ptr<const LevelNodes> nodes;
   CachedPatches patches;  ///< fields of all heads, grouped by patches; empty with `levels: exact`

@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Increase this if `read_obj` changes its result for the same text.
+/// Version of the cache entries of read heads. Increase the version if `read_obj` changes its
+/// result for the same text.
 constexpr std::uint32_t kVersion = 2;
 
 bool is_topology(const Topology& topology) {

@@ -16,9 +16,9 @@ namespace crowdface {
 /// The data that heads with the same mesh share.
 struct HeadMesh {
   Topology topology;
-  TextureCoordinates uvs;                     ///< #T by 2
+  TextureCoordinates uvs;                     ///< texture coordinates, #T by 2
   std::vector<std::uint32_t> corner_normals;  ///< see ObjFile::corner_normals
-  Digest digest() const;                      ///< hash of all members
+  Digest digest() const;                      ///< hash of all members of this object
 };
 
 /// Fills in positions, materials and groups of a head from the cache. The mesh has its own entry,

@@ -43,7 +43,7 @@ class SharedMeshes {
   SharedMeshes(const CacheFolder& cache, Winding winding) : cache_(cache), winding_(winding) {}
   Winding winding() const { return winding_; }
 
-  /// \return the mesh from memory or the cache; null if neither has it.
+  /// \return the mesh from memory or the cache; null if neither memory nor cache has the mesh.
   std::shared_ptr<HeadMesh> find(const Digest& digest) {
     const std::lock_guard lock(mutex_);
     const auto known = meshes_.find(digest);

@@ -12,7 +12,8 @@
 namespace crowdface {
 namespace {
 
-constexpr double kBandMm = 20;  ///< height of the band above the ring, along the skin
+/// height of the band of skin above the neck's ring, measured along the skin
+constexpr double kBandMm = 20;
 
 /// The optical densities of a head's texture around each vertex, #vertices by 3: the mean of one
 /// sample from each polygon at the vertex. No rows if some vertex has no textured polygon.
@@ -46,7 +47,8 @@ Positions sampled_densities(const TextureSet& textures, const HeadSet& heads,
   return densities;
 }
 
-/// Returns the low frequencies of a head's texture at vertices: #vertices by 3 optical densities.
+/// Returns the optical densities of a head's texture at some vertices, without fine detail (the low
+/// frequencies only): #vertices by 3.
 Positions coarse_densities(const TextureBlender& blender, std::size_t head,
                            const std::vector<std::uint32_t>& vertices) {
   Positions densities(static_cast<Index>(vertices.size()), 3);

@@ -24,7 +24,8 @@ class SeamColours {
   /// \param weights  one per head; heads without colours are left out. If all weights are zero, all
   ///                 heads get equal weights
   OpticalDensities optical_densities_at_ring(const std::vector<double>& weights) const;
-  /// Mean colour of the band, linear light.
+  /// Mean colour, in linear light, of the skin in the band above the neck's ring, blended from all
+  /// heads with `weights`.
   Eigen::Array3d mean_colour(const std::vector<double>& weights) const;
 
  private:
@@ -34,7 +35,7 @@ class SeamColours {
 
   /// the vertices of the band: first the vertices of the neck ring, then all others
   std::vector<std::uint32_t> vertices_;
-  Index ring_size_ = 0;  ///< number of vertices in the ring
+  Index ring_size_ = 0;  ///< number of vertices in the neck's ring
   /// area around each of the `vertices_`, as a fraction of the band's area
   std::vector<double> areas_;
   /// for each head, the optical densities of its colours at the `vertices_`, #vertices_ by 3; no

@@ -35,8 +35,9 @@ struct DetailLevel {
 /// Statistics of the distances from the vertices of the whole mesh to the surface of a level, in
 /// the unit of the positions.
 struct LevelError {
-  double max = 0;               ///< largest distance
-  double root_mean_square = 0;  ///< root mean square of the distances
+  double max = 0;  ///< largest distance from a vertex of the whole mesh to the level's surface
+  /// root mean square distance from the vertices of the whole mesh to the level's surface
+  double root_mean_square = 0;
 };
 
 /// Makes levels of detail by edge collapse on the mean head (quadric error metrics, Garland &

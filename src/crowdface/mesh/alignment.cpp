@@ -16,7 +16,7 @@ namespace {
 
 struct Turn {
   Eigen::Matrix3d rotation;
-  double trace = 0;  ///< trace of Rᵀ M
+  double trace = 0;  ///< trace of Rᵀ M, where R is `rotation` and M is the covariance
 };
 
 Turn turn_from(const Eigen::Matrix3d& covariance) {

@@ -15,7 +15,7 @@ struct Similarity {
 
   /// Rotation angle in degrees, in [0, 180].
   double angle_degrees() const;
-  /// The transformed positions.
+  /// The positions after the transform.
   Positions apply(const Eigen::Ref<const Positions>& positions) const;
 };
 

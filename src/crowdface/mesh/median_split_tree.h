@@ -15,7 +15,9 @@ namespace crowdface {
 struct MedianSplitTree {
   /// A node of the tree, which holds a range of the points.
   struct Node {
-    std::uint32_t begin, end;  ///< range in `order`; begin is a multiple of the leaf size
+    /// The points of this node are order[begin] … order[end − 1]; `begin` is a multiple of the leaf
+    /// size.
+    std::uint32_t begin, end;
     /// Index of the second child, 0 in a leaf; the first child is the next node.
     std::uint32_t second_child;
 
@@ -27,7 +29,8 @@ struct MedianSplitTree {
 
   /// row indices of the points, ordered so that the rows of each node are contiguous
   std::vector<std::uint32_t> order;
-  std::vector<Node> nodes;  ///< parents before their children; empty if there are no rows
+  /// all nodes; each parent comes before its children; empty if the tree holds no points
+  std::vector<Node> nodes;
 
   MedianSplitTree() = default;
   /// \param rows       rows of `points` that the tree holds.

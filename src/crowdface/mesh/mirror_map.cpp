@@ -6,7 +6,7 @@
 namespace crowdface {
 namespace {
 
-constexpr Index kRows = 4096;  ///< rows in each parallel task
+constexpr Index kRows = 4096;  ///< number of vertices that each parallel task processes
 
 }  // namespace
 

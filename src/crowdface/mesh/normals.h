@@ -28,7 +28,7 @@ class NormalFans {
   /// \param fallback  the unit normal if the sum is zero.
   Positions normals(const Topology& topology, const Positions& positions,
                     const Eigen::RowVector3d& fallback) const;
-  /// Like the overload above, with given area vectors of the polygons.
+  /// Computes the unit normals like the other overload, from the area vectors of all polygons.
   /// \param areas  result of face_area_vectors.
   Positions normals(const Positions& areas, const Eigen::RowVector3d& fallback) const;
 
@@ -51,7 +51,8 @@ class NormalFans {
 /// (see NormalFans); (0, 0, 1) where the sum vanishes. For many meshes of one topology, making one
 /// NormalFans and calling NormalFans::normals is faster.
 Positions vertex_normals(const Topology& topology, const Positions& positions);
-/// Like the overload above. \param fans  made from `topology`
+/// Computes the unit normals of the vertices like the other overload, with a NormalFans that the
+/// caller has already made. \param fans  made from `topology`
 Positions vertex_normals(const NormalFans& fans, const Topology& topology,
                          const Positions& positions);
 

@@ -17,9 +17,10 @@
 namespace crowdface {
 namespace {
 
-constexpr int kRounds = 12;                  ///< number of rounds of colour refinement
-constexpr std::size_t kMaxCandidates = 256;  ///< most start corners tried for a component
-/// Largest total number of traversal steps, as a multiple of the number of corners.
+constexpr int kRounds = 12;  ///< number of rounds of Graph::refine, which computes vertex colours
+/// largest number of corners of mesh b that are tried as the match of a seed
+constexpr std::size_t kMaxCandidates = 256;
+/// Largest number of steps of all traversals together, divided by the number of corners of mesh a.
 constexpr std::size_t kMaxSteps = 64;
 
 std::uint64_t mixed(std::uint64_t x) {

@@ -17,6 +17,7 @@ struct Edges {
   std::vector<std::uint32_t> faces;  ///< #E: number of polygons at each edge
 };
 
+/// Finds the edges of all polygons; an edge joins two indices of successive corners.
 /// \param indices  the vertex or the texture coordinate of each corner.
 Edges find_edges(const Topology& topology, const std::vector<std::uint32_t>& indices) {
   struct Side {
@@ -82,8 +83,8 @@ Rows face_means(const Topology& topology, const std::vector<std::uint32_t>& indi
   return means;
 }
 
-/// New positions of the old vertices. Adds up the polygons and edges at each vertex, then applies
-/// one formula per vertex.
+/// New positions of the old vertices. Sums the face points of the polygons and the midpoints of the
+/// edges at each vertex, then applies one formula per vertex.
 Positions move_vertices(const Mesh& mesh, const Edges& edges, const Positions& faces) {
   const Index n = mesh.topology.vertex_count;
   Positions face_sum = Positions::Zero(n, 3), edge_sum = face_sum, rim_sum = face_sum;
@@ -187,8 +188,8 @@ Mesh subdivide(const Mesh& mesh) {
 }
 
 int subdivision_rounds(const Topology& topology, Index wanted_vertices) {
-  // A round adds one vertex for each edge and one for each polygon, and turns every quad into four
-  // quads.
+  // A round of subdivision adds one vertex for each edge and one for each polygon, and turns every
+  // quad into four quads.
   double vertices = static_cast<double>(topology.vertex_count);
   double faces = static_cast<double>(topology.face_count());
   double edges = static_cast<double>(find_edges(topology, topology.corner_vertices).ends.size());

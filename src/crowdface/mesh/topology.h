@@ -70,7 +70,7 @@ struct VertexFaces : CompressedRows<std::uint32_t> {
 struct Mesh {
   Topology topology;
   Positions positions;     ///< #V by 3
-  TextureCoordinates uvs;  ///< #T by 2, may be empty
+  TextureCoordinates uvs;  ///< texture coordinates, #T by 2; may be empty
 };
 
 /// A head of a HeadSet, which holds the topology of all its heads.

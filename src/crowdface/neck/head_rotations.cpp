@@ -37,8 +37,9 @@ Positions median(const std::vector<Positions>& heads) {
 
 RigidMotion head_motion(const Positions& from, const Positions& to) {
   constexpr int kRounds = 10;
-  // Each weight is the inverse of a distance. Distances below this fraction of the mean distance
-  // count as this fraction of the mean distance.
+  // The weight of a point in the next round is the inverse of its distance from the corresponding
+  // point of the other head. Distances below kMinDistance times the mean distance count as
+  // kMinDistance times the mean distance.
   constexpr double kMinDistance = 0.1;
   std::vector<std::uint32_t> all(static_cast<std::size_t>(from.rows()));
   std::iota(all.begin(), all.end(), 0U);

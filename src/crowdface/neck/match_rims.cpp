@@ -18,7 +18,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Largest differences between matching rims. The rims of different people differ less; rims in
+// Largest differences between a body's rim and the heads' rim that match: ratio of their radii, and
+// angle of the rotation from one to the other. The rims of different people differ less; rims in
 // different units, poses or positions differ more.
 constexpr double kMaxScale = 1.3;
 constexpr double kMaxTurnDegrees = 12;
@@ -55,7 +56,8 @@ double root_mean_square(const Positions& rows) {
 /// How well the best rigid motion maps one rim to another: its rotation angle and the remaining
 /// distance.
 struct RigidFit {
-  double degrees = 0, rms_mm = 0;  ///< rotation angle; rms distance after the motion
+  /// rotation angle of the motion; rms distance of corresponding rim vertices after the motion
+  double degrees = 0, rms_mm = 0;
 };
 
 RigidFit rigid_fit(const Positions& from, const Positions& to) {
@@ -93,7 +95,8 @@ std::string mm_text(double mm) {
 /// The vertices of a body's rim in one order, and how well they fit the heads' rim.
 struct OrderedRim {
   Rim order;
-  double square_sum = 0;  ///< sum of squared distances between unmoved rims
+  /// sum of squared distances between corresponding vertices, before any motion
+  double square_sum = 0;
   RigidFit fit;
 };
 

@@ -32,8 +32,9 @@ void set_rows(const Rim& rim, const Positions& rows, Positions& mesh) {
 /// Bends the neck of a mesh so that the rim gets the positions `goal`.
 void bend_to(const Seam& seam, const Positions& goal, Positions& mesh) {
   const Positions moves = goal - mesh(seam.rim, kAllColumns);
-  // Distance below which a rim counts as already in place. If all heads end in the same ring, the
-  // rim of their blend differs from this ring only by rounding errors.
+  // A rim counts as already in place if no coordinate differs from the goal by more than kRounding
+  // times the largest absolute coordinate of the goal. If all heads end in the same ring, the rim
+  // of their blend differs from this ring only by rounding errors.
   constexpr double kRounding = 1e-9;
   if (moves.cwiseAbs().maxCoeff() > kRounding * goal.cwiseAbs().maxCoeff()) {
     const std::vector<std::uint32_t>& bent = seam.neck_bend.vertices();

@@ -43,9 +43,9 @@ class ChebyshevFilter {
   Index vertex_count() const { return static_cast<Index>(tiling_.vertex_of_row.size()); }
   /// Returns the kind of the smoothing operator that the filter applies.
   OperatorKind kind() const { return kind_; }
-  /// Returns the vertex of each row.
+  /// Returns, for each row in the filter's row order, the index of its vertex.
   std::span<const std::uint32_t> vertex_of_row() const { return tiling_.vertex_of_row; }
-  /// Returns the row of each vertex.
+  /// Returns, for each vertex, its row in the filter's row order.
   std::span<const std::uint32_t> row_of_vertex() const { return tiling_.row_of_vertex; }
 
   /// Returns columns 3·group to 3·group + 2 of x, with rows in the filter's row order.

@@ -12,8 +12,8 @@ void round_to_int16(const float* from, std::size_t count, float scale, std::int1
 
 /// The error of a tile that keeps only its first `kept_fields` fields and omits all further fields.
 struct TruncationError {
-  std::size_t kept_fields = 0;  ///< number of leading fields
-  /// squared displacement error, maximum over all vertices and levels
+  std::size_t kept_fields = 0;  ///< number of leading fields that the tile keeps
+  /// square of the largest displacement error over all vertices and levels
   float squared_error = 0;
   std::size_t level_index = 0;  ///< index of the level with the largest error
 };

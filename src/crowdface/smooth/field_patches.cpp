@@ -201,7 +201,8 @@ class PatchMaker {
   std::span<const HeadSmoothing> heads_;
   const std::vector<std::vector<double>>& error_weights_;
   double tolerance_;
-  std::vector<std::uint32_t> counts_;  ///< for each head: number of fields of the patch
+  /// for each head: number of its leading fields that the patch stores
+  std::vector<std::uint32_t> counts_;
   std::vector<float> columns_, values_;
   std::vector<PatchColumn> factor_;    ///< columns of the Cholesky factor, one per skeleton vertex
   std::vector<std::size_t> skeleton_;  ///< indices of the skeleton vertices within the patch

@@ -25,7 +25,7 @@ struct HeadSmoothing {
 
 /// The fields of all heads at the vertices of one patch. A patch is a group of nearby vertices.
 struct FieldPatch {
-  /// vertex indices of the mesh, ascending
+  /// the vertices of the patch, as ascending indices in the mesh
   std::span<const std::uint32_t> vertices;
   /// for each head: number of its leading fields that the patch stores
   std::span<const std::uint32_t> field_counts;
@@ -71,7 +71,7 @@ struct PatchArrays {
   std::span<const float> quantization_steps, weights;
   /// FieldPatch::quantized_values of all patches, one patch after the other
   std::span<const std::int16_t> quantized_values;
-  std::shared_ptr<const void> memory_owner;  ///< keeps all lists alive
+  std::shared_ptr<const void> memory_owner;  ///< owns the memory of all lists
 };
 
 /// The fields of several heads, compressed patch by patch. On a smooth patch the fields of all

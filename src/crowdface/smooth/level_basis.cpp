@@ -95,7 +95,8 @@ class TileFitter {
   struct FittedTiles {
     QuantizedTiles fields;
     double max_error = 0;
-    std::size_t level = 0;  ///< index of the worst level in the list of tested levels
+    /// index, in the list of tested levels, of the level at which `max_error` occurs
+    std::size_t level = 0;
   };
   FittedTiles fit(Index first_tile, Index end_tile) const {
     FittedTiles fitted;

@@ -10,10 +10,13 @@
 
 namespace crowdface {
 
-/// Distances between a basis and the exact filter, in the unit of the positions.
+/// Distances between vertex positions from a basis and from the exact filter, in the unit of the
+/// positions.
 struct BasisError {
-  double max = 0;           ///< upper bound of the distance at any vertex and tested level
-  double rms = 0;           ///< root mean square of the distances at the probes and tested levels
+  /// Largest distance: the largest error of the fields at any vertex and tested level, plus the
+  /// largest error of the interpolation between nodes, measured at the probes.
+  double max = 0;
+  double rms = 0;  ///< root mean square of the distances, over the probes and the tested levels
   std::uint64_t level = 0;  ///< the level at which `max` occurs
 };
 
@@ -26,7 +29,7 @@ struct LevelBasis {
   /// LevelNodes
   Eigen::MatrixXd function_coefficients;
   LevelFields fields;  ///< the vector fields c_p, with a vector at each vertex of the mesh
-  BasisError error;    ///< measured distances to the exact filter
+  BasisError error;    ///< measured distances between this basis and the exact filter
 
   /// Number of vector fields c_p.
   Index rank() const { return function_coefficients.cols(); }

@@ -14,9 +14,10 @@ namespace crowdface {
 
 /// The fields of one head at one tile of vertices.
 struct TileFields {
-  std::size_t count = 0;                           ///< number of fields
-  const float* quantization_steps = nullptr;       ///< quantization step of each field
-  const std::int16_t* quantized_values = nullptr;  ///< #count by kTileValues, in quantization steps
+  std::size_t count = 0;                      ///< number of fields that the tile stores
+  const float* quantization_steps = nullptr;  ///< quantization step of each field of the tile
+  /// values of the fields, #count by kTileValues, as multiples of the quantization steps
+  const std::int16_t* quantized_values = nullptr;
 };
 
 /// The vector fields c_0 … c_{R−1} of one head, each #V by 3, quantized to 16 bits. Each tile of
@@ -35,7 +36,7 @@ struct LevelFields {
   /// For each stored field of a tile, kTileVertices by 3 integers. Entries beyond the mesh's last
   /// vertex are zero.
   std::span<const std::int16_t> quantized_values;
-  std::shared_ptr<const void> memory_owner;  ///< keeps the three lists alive
+  std::shared_ptr<const void> memory_owner;  ///< owns the memory of the three lists
 
   /// Number of tiles of a mesh with this many vertices.
   static std::size_t tile_count(std::size_t vertices) {
@@ -55,7 +56,8 @@ struct LevelFields {
 struct QuantizedTiles {
   std::vector<std::uint32_t> field_counts;  ///< number of fields of each tile
   std::vector<float> quantization_steps;    ///< quantization step of each stored field of each tile
-  std::vector<std::int16_t> quantized_values;  ///< for each stored field, kTileValues integers
+  /// quantized values of the fields: kTileValues integers for each stored field
+  std::vector<std::int16_t> quantized_values;
 
   /// Quantizes and appends the fields of one tile.
   /// \param values  `count` fields by kTileValues, finite; further values are ignored.

@@ -13,8 +13,9 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxNodes = 48;
-/// Weight of negative eigenvalues, which belong to checkerboard modes. The weight is the typical
-/// relative amplitude of these modes in the shape of a head.
+/// Weight of negative eigenvalues in the least-squares fit of the interpolation weights. Negative
+/// eigenvalues belong to checkerboard modes. The weight is the typical relative amplitude of these
+/// modes in the shape of a head.
 constexpr double kNegativeWeight = 1e-2;
 
 /// Exponentiation by squaring, because std::pow differs between C libraries.
@@ -99,7 +100,8 @@ void LevelNodes::choose_nodes(const std::vector<std::uint64_t>& candidates, doub
       if (length > most) most = length, worst = i;
     }
     if (most <= enough) break;
-    // Remove the node's direction from all residuals.
+    // Subtract from each residual its component along the new direction, which belongs to the
+    // chosen node.
     Spectrum direction = residuals[worst];
     orthonormalize(
         direction, orthonormal_basis_.size(),

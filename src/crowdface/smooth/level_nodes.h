@@ -37,7 +37,8 @@ class LevelNodes {
 
  private:
   using Spectrum = std::vector<double>;  ///< values of a function of λ at the grid points
-  /// The displacement λ^L − 1 after L = `level` iterations, times the grid point's weight.
+  /// Returns the displacement after L = `level` iterations at all grid points: for each grid point,
+  /// (λ^L − 1) times the weight of the grid point.
   Spectrum displacement(std::uint64_t level) const;
   /// Adds nodes until no residual exceeds `max_residual`. Sets levels_, orthonormal_basis_,
   /// choice_order_ and triangular_factor_.

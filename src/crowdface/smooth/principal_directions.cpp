@@ -41,7 +41,8 @@ Eigen::MatrixXd triangular_factor(Eigen::MatrixXd functions) {
   return triangle;
 }
 
-/// Solves triangle · x = b by back substitution.
+/// Solves the linear equations T·x = b by back substitution, where T is the upper triangular matrix
+/// `triangle`.
 Eigen::MatrixXd solve_triangle(const Eigen::MatrixXd& triangle, Eigen::MatrixXd b) {
   for (Index j = 0; j < b.cols(); ++j) {
     for (Index i = triangle.rows(); i-- > 0;) {

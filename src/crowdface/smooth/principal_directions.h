@@ -23,7 +23,7 @@ TestedLevels make_tested_levels(const LevelNodes& nodes);
 /// n is displacements[(v·#nodes + n)·3 + c].
 struct NodeDisplacements {
   Index node_count = 0;
-  std::vector<double> displacements;  ///< #vertices by #nodes by 3
+  std::vector<double> displacements;  ///< the displacements in one list: #vertices by #nodes by 3
   Index vertex_count() const { return static_cast<Index>(displacements.size()) / (3 * node_count); }
 };
 

@@ -7,8 +7,8 @@ namespace crowdface {
 
 /// Eigenvalues, largest first, and the corresponding eigenvectors as columns.
 struct SymmetricEigen {
-  Eigen::VectorXd eigenvalues;   ///< largest first
-  Eigen::MatrixXd eigenvectors;  ///< column i belongs to eigenvalue i
+  Eigen::VectorXd eigenvalues;   ///< the eigenvalues, largest first
+  Eigen::MatrixXd eigenvectors;  ///< the eigenvectors: column i belongs to eigenvalue i
 };
 
 /// Eigendecomposition of a small symmetric matrix by Jacobi rotations (Golub & Van Loan 2013,

@@ -9,7 +9,8 @@
 
 namespace crowdface {
 
-/// Three values, padded by an unused value so that a row fills vector registers.
+/// The three values of a vector field at one vertex (usually coordinates), padded by an unused
+/// value so that rows fill vector registers.
 template <class T>
 struct alignas(4 * sizeof(T)) Row {
   T value[4];

@@ -11,8 +11,8 @@ namespace crowdface {
 
 /// Consecutive rows of a tile whose vertices have the same valence.
 struct ValenceRun {
-  std::uint32_t first_row = 0;        ///< first local row
-  std::uint32_t row_count = 0;        ///< number of rows
+  std::uint32_t first_row = 0;        ///< local number of the run's first row
+  std::uint32_t row_count = 0;        ///< number of rows in the run
   std::uint32_t valence = 0;          ///< number of neighbours of each vertex, at least 1
   std::uint32_t first_neighbour = 0;  ///< index of the first neighbour in `Tile::neighbours`
 };
@@ -25,7 +25,7 @@ struct ValenceRun {
 /// correct after n steps.
 struct Tile {
   std::uint32_t first_row = 0;  ///< the tile's first own row, as an index into the tiling's order
-  std::uint32_t row_count = 0;  ///< number of own rows; the halo does not count
+  std::uint32_t row_count = 0;  ///< number of the tile's own rows, without the halo
   /// local row `row_count + i` is row `halo[i]` of the tiling's order
   std::vector<std::uint32_t> halo;
   /// runs of rows whose vertices are not fixed: first runs of own rows, then of ring 1, ring 2, …
@@ -43,8 +43,8 @@ struct Tile {
 /// A mesh cut into tiles. Rows are ordered tile by tile. The division into tiles affects the speed
 /// of computations, not the results.
 struct Tiling {
-  std::vector<std::uint32_t> vertex_of_row;  ///< #V: the vertex of each row
-  std::vector<std::uint32_t> row_of_vertex;  ///< #V: the row of each vertex
+  std::vector<std::uint32_t> vertex_of_row;  ///< #V: for each row of the tiling's order, its vertex
+  std::vector<std::uint32_t> row_of_vertex;  ///< #V: for each vertex, its row in the tiling's order
   std::vector<Tile> tiles;
   int ring_count = 0;  ///< number of neighbour rings in each tile's halo
 };
