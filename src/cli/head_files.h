@@ -22,7 +22,7 @@ inline constexpr std::uint64_t kMinTexturePx = 64, kMaxTexturePx = 8192;
 /// A file to write into a folder of heads. The content depends only on the command line.
 struct HeadFile {
   std::filesystem::path path;
-  std::function<EncodedFile()> make;  ///< returns the content
+  std::function<EncodedFile()> make;  ///< function that returns the content of the file
 };
 
 /// A file with the content `text`.

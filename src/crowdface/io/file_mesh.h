@@ -26,8 +26,9 @@ struct MeshTexture {
 /// A mesh as read from a file of any format. Vertices and polygons have the order of the file;
 /// positions have the unit and axes of the file.
 struct FileMesh : Mesh {
-  ColourValues colours;                  ///< #V by 3, sRGB from 0 to 1; or no rows
-  std::vector<MaterialRange> materials;  ///< ranges of polygons, ascending; may be empty
+  ColourValues colours;  ///< vertex colours: #V by 3, sRGB from 0 to 1; or no rows
+  /// Ranges of polygons with the same material, in ascending order; may be empty.
+  std::vector<MaterialRange> materials;
   /// For each vertex, the index of its mesh in the file. Empty for formats that do not split
   /// vertices at seams.
   std::vector<std::uint32_t> mesh_of_vertex;

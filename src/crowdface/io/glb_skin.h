@@ -29,8 +29,9 @@ struct GlbJoint {
 
 /// The joints below a face's node, and the joints' weights for the face's vertices.
 struct GlbSkin {
-  std::vector<GlbJoint> joints;               ///< empty: no rig
-  CompressedRows<Influence> influences = {};  ///< one row per vertex
+  std::vector<GlbJoint> joints;  ///< all joints of the rig; empty: the files have no rig
+  /// Row i: the joints that move vertex i, and their weights.
+  CompressedRows<Influence> influences = {};
 
   /// Number of bytes of the inverse bind matrices.
   std::size_t matrix_bytes() const { return joints.size() * 16 * sizeof(float); }

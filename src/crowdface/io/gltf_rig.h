@@ -25,7 +25,8 @@ struct GltfRig {
   Positions positions;  ///< vertices of all meshes, one mesh after the other
   /// the value of `_VERTEX_ID` of each vertex; empty if the file lacks this attribute
   std::vector<std::uint32_t> vertex_ids;
-  CompressedRows<Influence> influences;  ///< one row per vertex
+  /// Row i: the joints that move vertex i, and their weights.
+  CompressedRows<Influence> influences;
 };
 
 /// Reads a GLB file. A mesh without a skin counts as rigidly bound to its parent joint.

@@ -34,7 +34,8 @@ struct Image {
   /// The pixels row by row, top row first. The channels of each pixel are next to each other.
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
   ImageMemory memory = {};  ///< memory reserved for `pixels`; null: no memory is reserved
-  std::vector<std::string> channel_names = {};  ///< #channels; empty if the format has no names
+  /// One name per channel; empty if the format does not name channels.
+  std::vector<std::string> channel_names = {};
 
   /// Whether the values are single-precision numbers; otherwise they are integers.
   bool has_floats() const { return pixels.index() == 0; }

@@ -45,6 +45,7 @@ struct PsdSections {
   std::string_view header_and_palette, metadata, picture;
 };
 
+/// Divides a Photoshop file into its sections.
 /// \return nothing if a section is longer than the file.
 std::optional<PsdSections> psd_sections(std::string_view bytes) {
   constexpr std::size_t kHeader = 26;
@@ -70,7 +71,8 @@ std::optional<PsdSections> psd_sections(std::string_view bytes) {
   return PsdSections{begin, *metadata, rest};
 }
 
-/// Whether Photoshop wrote the merged picture; without it, the picture is white.
+/// Whether Photoshop has merged the layers into the section `picture`. If not, the section contains
+/// a white picture.
 bool psd_has_picture(std::string_view metadata) {
   const std::size_t version = metadata.find("8BIM\x04\x21\0\0"sv);  // block 1057
   constexpr std::size_t kFlag = 16;                                 // after size and version

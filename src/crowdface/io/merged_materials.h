@@ -36,7 +36,7 @@ class MergedMaterials {
   struct Line {
     std::string text;       ///< the whole line
     std::string keyword;    ///< the first word; empty: no statement
-    std::string arguments;  ///< the line after the first word
+    std::string arguments;  ///< the text after the first word
     std::string material;   ///< name of the material to which the line belongs
   };
   std::vector<Line> lines_;  ///< the merged file

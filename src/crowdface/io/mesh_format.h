@@ -38,10 +38,11 @@ enum class DataStorage {
 
 /// For which meshes an encoder must be given normals.
 enum class FileNormals {
-  kNone,           ///< no mesh needs normals
-  kReducedLevels,  ///< levels of detail; the encoder computes the normals of full meshes
-  kLikeTarget,     ///< all meshes if the file of the target head has normals; else none
-  kAlways,         ///< all meshes need normals
+  kNone,  ///< no mesh needs normals
+  /// Only levels of detail need normals; the encoder computes the normals of full meshes.
+  kReducedLevels,
+  kLikeTarget,  ///< all meshes if the file of the target head has normals; else none
+  kAlways,      ///< all meshes need normals
 };
 
 /// Properties of a format. The program needs them to plan, name, read and check files of the

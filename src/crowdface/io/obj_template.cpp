@@ -39,10 +39,11 @@ char* write_coloured(char* out, const Positions& rows, const ColourRows& colours
 
 /// The part of a `v` or `vn` line that holds the numbers x y z.
 struct Coordinates {
-  std::string_view text;  ///< empty if the line is neither `v` nor `vn`
+  std::string_view text;  ///< the three numbers; empty if the line is neither `v` nor `vn`
   bool is_normal = false;
 };
 
+/// Finds the three numbers in a `v` or `vn` line.
 /// \param whole  whether the result includes the rest of a `v` line (`w` and colours)
 Coordinates coordinates_of(std::string_view line, bool whole) {
   if (line.ends_with('\r')) line.remove_suffix(1);

@@ -302,6 +302,7 @@ class UsdaReader {
     if (inherited != nullptr) prim.properties.try_emplace(property, *inherited);
   }
 
+  /// Reads the value of a property and stores it in `prim`.
   /// \param words  the words before '=', such as "uniform", "token" and "orientation"
   void read_property(const std::vector<std::string_view>& words, Prim& prim) {
     constexpr std::string_view kTimeSamples = ".timeSamples";
@@ -591,10 +592,11 @@ class UsdaReader {
   UsdaTokens tokens_;
   FileMesh mesh_;
   UsdaBindings bindings_;
-  std::vector<MeshPrim> meshes_;  ///< added to `mesh_` when all materials are known
+  /// The Mesh prims of the layer; added to `mesh_` when all materials are known.
+  std::vector<MeshPrim> meshes_;
   std::map<std::string, UvSource> uvs_of_material_;
   std::vector<double> points_, uvs_, colours_;
-  std::vector<std::string> files_;  ///< the file name of each texture
+  std::vector<std::string> files_;  ///< the file name of each texture in `mesh_`
   bool any_colours_ = false;
 };
 

@@ -13,7 +13,7 @@ namespace crowdface {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// The area of each vertex: a third of the area of the adjacent triangles, but at least a
-/// thousandth of the mean.
+/// thousandth of the mean of these values.
 Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Positions& positions);
 
 /// The cotangent Laplacian (Pinkall & Polthier 1993), #V by #V, not divided by areas. Weights of

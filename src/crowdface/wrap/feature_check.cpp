@@ -68,7 +68,8 @@ struct FeatureFrame {
   }
 };
 
-/// \param weights  #vertices
+/// Returns the frame of a feature that consists of `vertices`.
+/// \param weights  weight of each of the `vertices`
 /// \param up       the head's direction up
 FeatureFrame feature_frame(const Positions& positions, const Positions& normals,
                            const std::vector<std::uint32_t>& vertices,

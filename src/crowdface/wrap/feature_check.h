@@ -13,7 +13,7 @@ namespace crowdface {
 /// A part of the face whose relief differs from the skin around it: the mouth, the nose, an eye, an
 /// ear.
 struct FaceFeature {
-  std::string name;                          ///< for messages, such as "mouth"
+  std::string name;                          ///< name of the feature for messages, such as "mouth"
   std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
 };
 

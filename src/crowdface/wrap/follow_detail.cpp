@@ -95,7 +95,7 @@ class SmoothFit {
   double stiffness_;
 };
 
-/// Target offsets of the skin's vertices along their normals.
+/// How far the skin's vertices should move along their normals to reach the scan.
 struct TargetOffsets {
   Eigen::VectorXd weights, values;  ///< one weight and one offset for each vertex of the skin
 };

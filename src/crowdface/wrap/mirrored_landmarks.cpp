@@ -15,11 +15,13 @@
 namespace crowdface {
 namespace {
 
-/// Residuals up to this length are natural differences between people.
+/// A typical residual of the landmarks up to this length is explained by natural differences
+/// between people's faces.
 constexpr double kMaxNaturalMm = 6;
 constexpr double kTimesWorse = 2.5;
 
-constexpr std::size_t kMinCount = 5;  ///< four points cannot reveal a reflection
+/// Minimum number of landmarks: four points cannot reveal a reflection.
+constexpr std::size_t kMinCount = 5;
 
 /// Distances in mm between corresponding landmarks of template and scan after the best similarity
 /// fit.

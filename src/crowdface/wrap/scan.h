@@ -12,8 +12,8 @@ namespace crowdface {
 
 /// A surface from a scanner or another program, in any unit and pose, with any triangulation.
 struct Scan {
-  Positions positions;                  ///< #V by 3
-  std::vector<Triangle> triangles;      ///< their normals point outwards
+  Positions positions;              ///< #V by 3
+  std::vector<Triangle> triangles;  ///< the corners are ordered so that the normals point outwards
   std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
   /// for each triangle: its index among all triangles into which `triangles_of` divides the file's
   /// polygons; empty if the scan does not come from a file

@@ -44,7 +44,7 @@ Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vect
 /// The pose of a head in a scan, and its coefficients in the shape model.
 struct ShapeFit {
   Similarity pose;                ///< transform from the template to the scan
-  Eigen::VectorXd coefficients;   ///< #modes, in standard deviations
+  Eigen::VectorXd coefficients;   ///< one coefficient per mode, in standard deviations
   double median_distance_mm = 0;  ///< median distance from the visible skin to the scan
 };
 

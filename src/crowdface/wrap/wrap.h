@@ -37,10 +37,13 @@ struct FeatureCheck {
 
 /// A template that was wrapped onto a scan, and measures of the quality.
 struct WrapResult {
-  Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
-  Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
+  /// Vertices of the whole template after the wrap: #V by 3, in the template's frame, in
+  /// millimetres.
+  Positions positions;
+  Similarity pose;  ///< similarity transform from the template's frame (mm) to the scan's frame
   std::vector<LandmarkResidual> landmarks;  ///< the residuals of all landmarks used
-  std::vector<FeatureCheck> features;       ///< set by `wrap_checked` only
+  /// One check per feature; set by `wrap_checked`, empty after `wrap`.
+  std::vector<FeatureCheck> features;
   /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
   /// without them agrees better.
   std::vector<std::string> dropped_landmarks;

@@ -79,10 +79,11 @@ class MakeHumanHeads : public HeadModel {
   /// Returns the skin and all parts of a head. \param base  all vertices of the head's body
   Positions append_parts(const Positions& base) const;
 
-  MakeHumanMesh mesh_;                    ///< the base mesh
-  MorphTargets targets_;                  ///< all morph targets of the package
-  std::vector<std::uint32_t> eye_rows_;   ///< rows of the eyeballs in the base mesh
-  std::vector<std::uint32_t> skin_rows_;  ///< rows of the skin in the base mesh; set by add_parts()
+  MakeHumanMesh mesh_;                   ///< the base mesh
+  MorphTargets targets_;                 ///< all morph targets of the package
+  std::vector<std::uint32_t> eye_rows_;  ///< rows of the eyeballs' vertices in the base mesh
+  /// Rows of the skin's vertices in the base mesh; set by add_parts().
+  std::vector<std::uint32_t> skin_rows_;
   std::vector<FittedPart> parts_;         ///< see add_parts(); initially empty
   Mesh neutral_;                          ///< see neutral()
   std::vector<MaterialRange> materials_;  ///< see materials()

@@ -60,7 +60,7 @@ std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t s
 struct MakeHumanParts {
   std::vector<FittedPart> fitted_parts;          ///< eyeball_r, eyeball_l, teeth, tongue
   std::vector<FittedMesh::Picture> eye_colours;  ///< iris textures of the package, by colour
-  std::filesystem::path teeth, tongue;           ///< texture of each part
+  std::filesystem::path teeth, tongue;  ///< texture of the teeth, and texture of the tongue
   AssetLicence eyes_licence, teeth_licence, tongue_licence;
 };
 

@@ -104,7 +104,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
     for (std::size_t x = 0; x < side; ++x) {
       const bool is_cap = u_of(x) >= kCardStripCount;
       const double light = lights[x] * (is_cap ? 1 : 0.65 + 0.35 * smooth_step(0, 0.3, t));
-      // Single hairs near the hairline; farther away, the cap is closed.
+      // The cap shows single hairs near the hairline. Farther from the hairline, the cap is opaque.
       if (is_cap) {
         const double frayed = t + 0.08 * bends.at({10 * u_of(x), 0, 9});
         covers[x] = std::max(covers[x], smooth_step(0.77, 0.47, frayed));

@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns the ray to a point on the edge of the eye's opening. \param c  unit direction (x
-/// outward, y up).
+/// Returns the ray to a point on the edge of the eye's opening. \param c  unit direction (x away
+/// from the midline of the face, y up).
 GuideRay eye_edge(const Vector2d& c) {
   // Almond shape: pointed corners, an upper lid that is highest towards the nose, and an outer
   // corner slightly above the inner corner.

@@ -41,7 +41,9 @@ class Relief {
     static constexpr int kPieces = 12;  ///< number of straight pieces of the curve
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth;  ///< width and depth of the groove
-    double bulge;  ///< height of a ridge beside the curve, relative to the depth; positive: left
+    /// Height of a ridge beside the curve, relative to the depth; positive: the ridge is left of
+    /// the curve.
+    double bulge;
     Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
   };
   /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
@@ -58,7 +60,8 @@ class Relief {
   void add_stroke(std::size_t fold_index, double side, double depth);
 
   std::vector<Stroke> strokes_;
-  SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< displace all folds together
+  /// Displace all folds of a head together.
+  SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;
   /// bends wrinkles sideways, by about ±0.45 of the distance between neighbouring wrinkles
   SmoothNoise wrinkle_waves_;
   SmoothNoise wrinkle_gaps_;  ///< wrinkles have gaps where this noise is low
@@ -71,9 +74,9 @@ class Relief {
   /// Noise of one wavelength.
   struct Octave {
     SmoothNoise noise;
-    double amplitude;  ///< cm
+    double amplitude;  ///< amplitude of the noise, cm
   };
-  std::vector<Octave> broad_octaves_, fine_octaves_;  ///< uneven skin, and pores
+  std::vector<Octave> broad_octaves_, fine_octaves_;  ///< noise of uneven skin; of pores
   SmoothNoise lip_creases_;  ///< noise that is stretched to creases across the lips
   double lip_depth_;         ///< amplitude of lip_creases_
 };
