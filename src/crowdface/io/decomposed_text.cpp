@@ -47,8 +47,8 @@ std::string_view take_character(std::string_view& text) {
   return character;
 }
 
-/// Maps each composed letter of kMarks to its decomposition: a letter and a mark. This letter may
-/// itself be a composed letter.
+/// Maps each composed letter of kMarks to its decomposition: a letter and a mark. The letter in the
+/// decomposition may itself be a composed letter.
 const std::map<std::string_view, std::string>& pairs_by_composed_letter() {
   static const auto pairs = [] {
     std::map<std::string_view, std::string> result;

@@ -24,7 +24,7 @@ struct Influence {
 struct GlbJoint {
   std::string name;
   std::uint32_t parent;      ///< index of the parent joint; kNoIndex: no parent
-  Eigen::Matrix3d rotation;  ///< from the joint's axes to the axes of the positions
+  Eigen::Matrix3d rotation;  ///< rotation from the joint's axes to the axes of the face's positions
 };
 
 /// The joints below a face's node, and the joints' weights for the face's vertices.

@@ -18,8 +18,9 @@ struct GltfRig {
   /// A joint of the skeleton.
   struct Joint {
     std::string name;
-    std::uint32_t parent;            ///< index of the parent in `joints`; kNoIndex: no parent
-    Eigen::Matrix4d rest_transform;  ///< from the joint's axes to the file's axes
+    std::uint32_t parent;  ///< index of the parent in `joints`; kNoIndex: no parent
+    /// Transform from the joint's axes to the file's axes in the rest pose.
+    Eigen::Matrix4d rest_transform;
   };
   std::vector<Joint> joints;
   Positions positions;  ///< vertices of all meshes, one mesh after the other

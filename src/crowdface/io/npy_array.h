@@ -16,7 +16,7 @@ struct NpyArray {
 
   /// Length of the first dimension; 1 for a single number.
   std::size_t rows() const { return shape.empty() ? 1 : shape[0]; }
-  /// Number of values per row.
+  /// Number of values for each index of the first dimension; 0 for an empty array.
   std::size_t width() const { return rows() == 0 ? 0 : values.size() / rows(); }
 };
 

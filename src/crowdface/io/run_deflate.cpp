@@ -139,7 +139,7 @@ std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size)
   return size;
 }
 
-/// Number of bytes, from kMinRun to `most`, that are equal to the first byte.
+/// Length of the run of equal bytes at `bytes`, from kMinRun to `most`.
 std::size_t run_length(const std::uint8_t* bytes, std::size_t most) {
   std::size_t length = kMinRun;
   const std::uint64_t repeated = bytes[0] * std::uint64_t{0x0101010101010101};

@@ -33,6 +33,7 @@ struct ReliefCorrelation {
   /// high.
   double best_correlation_nearby = -1;
 
+  /// Whether the correlation at the feature is so high that the feature cannot be doubtful.
   bool is_high() const { return correlation_at_feature >= 0.7; }
   /// Whether the template's feature probably lies on another part of the scan: the correlation at
   /// the feature is low, or hardly higher than `best_correlation_nearby`. Measurements: On ICT

@@ -40,8 +40,8 @@ double median_residual(const Positions& positions, const std::vector<WrapLandmar
   return nth_smallest(residuals_of(positions, landmarks), landmarks.size() / 2);
 }
 
-/// Root mean square of the residuals. Unlike the median, the root mean square shows a single bad
-/// pair.
+/// Root mean square of the landmarks' residuals. Unlike the median, the root mean square is large
+/// even if only one pair of landmarks is swapped.
 double rms_residual(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
   double sum = 0;
   for (const double off : residuals_of(positions, landmarks)) sum += off * off;

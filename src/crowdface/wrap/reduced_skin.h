@@ -24,7 +24,8 @@ struct ReducedSkin {
   /// the original skin, and smooths them so that the edges of the reduced skin do not become
   /// visible.
   Positions interpolate(const Positions& values, const SkinMesh& original) const;
-  /// Interpolates one value per vertex, without smoothing.
+  /// Interpolates one value per vertex of the reduced skin to the vertices of the original skin,
+  /// without smoothing.
   std::vector<double> interpolate(const std::vector<double>& values) const;
 };
 

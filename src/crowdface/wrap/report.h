@@ -34,7 +34,8 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const 
 std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_template,
                                                 const WrapResult& result);
 
-/// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
+/// Rejects a result that is not a valid wrap of its scan.
+/// \throws InvalidInput, with advice
 void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result,
                      const SkinRegions& regions);
 

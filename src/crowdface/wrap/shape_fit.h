@@ -60,7 +60,8 @@ struct ShapeFitOptions {
   /// Weight of the part of a vertex's offset from the scan that lies along the surface. The part
   /// along the normal has weight 1.
   double tangential_weight = 0.1;
-  double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface
+  /// Weight of the landmarks relative to the weight of the scan's surface.
+  double landmark_weight = 0.2;
 };
 
 /// Finds the similarity and the model coefficients that best fit the skin to the scan, by

@@ -159,8 +159,8 @@ std::span<const char> sides_of(const Control& control) {
   return std::span(kSides).first(paired ? 2 : 1);
 }
 
-/// Returns the interpolation weights of the targets for min, average and max amount; x is the
-/// amount, 0 … 1.
+/// Returns the weights with which the targets for the minimum, the average and the maximum of an
+/// attribute, such as muscle, are interpolated. x is the attribute's value, 0 … 1.
 std::array<double, 3> amount_weights(double x) {
   return {std::max(0.0, 1 - 2 * x), 1 - std::abs(2 * x - 1), std::max(0.0, 2 * x - 1)};
 }

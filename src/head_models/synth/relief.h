@@ -59,6 +59,7 @@ class Relief {
   /// \param side  1, or −1 to add the mirror image of the curve at x = 0.
   void add_stroke(std::size_t fold_index, double side, double depth);
 
+  /// the curves of all folds and lines, and their mirror images
   std::vector<Stroke> strokes_;
   /// Displace all folds of a head together.
   SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;
@@ -67,7 +68,7 @@ class Relief {
   SmoothNoise wrinkle_gaps_;  ///< wrinkles have gaps where this noise is low
   /// The wrinkles of an area. Lengths in cm.
   struct Wrinkles {
-    double depth, spacing;  ///< spacing: mean distance between neighbouring wrinkles
+    double depth, spacing;  ///< depth of the wrinkles; mean distance between neighbouring wrinkles
     double offset;          ///< 0 … 1: shifts the wrinkles by this fraction of the spacing
   };
   std::vector<Wrinkles> wrinkles_;
