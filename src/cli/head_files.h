@@ -15,7 +15,8 @@ namespace crowdface::cli {
 
 /// largest number of heads that one command makes
 inline constexpr std::uint64_t kMaxGeneratedHeads = 1000;
-inline constexpr int kMaskSize = 1024;  ///< width and height of masks in pixels
+/// Width and height, in pixels, of the region masks that commands make.
+inline constexpr int kMaskSize = 1024;
 /// smallest and largest accepted size of a texture: its width and height in pixels
 inline constexpr std::uint64_t kMinTexturePx = 64, kMaxTexturePx = 8192;
 

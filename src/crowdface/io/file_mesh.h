@@ -35,7 +35,7 @@ struct FileMesh : Mesh {
   /// For each vertex, the id of the unsplit vertex of which it is a copy. Empty if the file has no
   /// ids.
   std::vector<std::uint32_t> vertex_ids;
-  std::vector<MeshTexture> textures;  ///< textures of the materials
+  std::vector<MeshTexture> textures;  ///< textures that the materials of the mesh use
   /// Base colours in linear light, by name of the material, for formats without material files.
   std::map<std::string, std::array<float, 3>> material_colours;
   /// Material files that an OBJ file names. Empty for other formats, which list their textures in

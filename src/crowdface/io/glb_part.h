@@ -66,7 +66,8 @@ class GlbPart {
   std::string name_;
   Topology topology_;
   NormalFans fans_;  ///< for each vertex, the polygons from which its normal is computed
-  std::vector<std::uint32_t> source_vertices_;  ///< original vertex of each split vertex
+  /// For each split vertex (see SplitVertices), its original vertex.
+  std::vector<std::uint32_t> source_vertices_;
   bool has_uvs_;
   /// For each material, the number of vertex indices of its triangles.
   std::vector<std::size_t> index_counts_;

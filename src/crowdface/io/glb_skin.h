@@ -16,8 +16,8 @@ namespace crowdface {
 
 /// Weight of a joint for one vertex.
 struct Influence {
-  std::uint32_t joint;  ///< index of the joint
-  float weight;         ///< the weights of a vertex add up to one
+  std::uint32_t joint;  ///< index of the joint in the rig's list of joints
+  float weight;         ///< weight of the joint; the weights of a vertex add up to one
 };
 
 /// A joint of the rig. All files share the joint; only its position differs from face to face.
@@ -39,7 +39,7 @@ struct GlbSkin {
 
 /// A vertex attribute of a skinned mesh.
 struct GlbSkinAttribute {
-  std::string name;    ///< JOINTS_n or WEIGHTS_n
+  std::string name;    ///< name of the attribute: JOINTS_n or WEIGHTS_n
   int component_type;  ///< component type of the values as a glTF code, such as gltf::kFloat
   std::string bytes;   ///< values of all vertices, encoded as in the file
 };

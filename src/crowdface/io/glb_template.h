@@ -80,7 +80,7 @@ class GlbTemplate {
   /// Index of the accessor of the first morph target's displacements; the accessors of further
   /// morph targets follow.
   std::size_t first_target_ = 0;
-  GlbSkin skin_;  ///< only the joints; `influences` is empty
+  GlbSkin skin_;  ///< the rig's joints; `influences` is empty
   /// Number of bytes of the displacements of all morph targets in one file.
   std::size_t target_bytes_ = 0;
   /// The scene as JSON, without the bounds and names, which differ from face to face.

@@ -58,9 +58,9 @@ struct Image {
 
 /// Limits of image size. Larger images are rejected before memory is allocated for pixels.
 struct ImageLimits {
-  int max_side = 16384;  ///< largest width or height in pixels
+  int max_side = 16384;  ///< maximum of the width and of the height, in pixels
   int max_channels = 16;
-  std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
+  std::int64_t max_values = 1LL << 30U;  ///< maximum of width · height · channels
   /// Whether to accept JPEG and WebP; true for colour textures, false for masks.
   bool allows_jpeg = false;
   /// Whether crowdface itself wrote the file, so that `input_limits()` does not apply.

@@ -23,7 +23,7 @@ struct ImageHeader {
   /// Type of the values that `ImageCodec::read` returns: 8-bit integers (kBytes), 16-bit integers
   /// (kWords) or single precision (kFloats). kOthers: the program does not support the values.
   ValueType value_type = ValueType::kOthers;
-  std::string type_name;  ///< value type in the file, for messages
+  std::string type_name;  ///< name of the type that the values have in the file, for messages
 };
 
 /// Pixels to be encoded as a file.

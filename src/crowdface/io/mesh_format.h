@@ -21,7 +21,7 @@ enum class MeshFormat {
   kObj,     ///< the text of the target head's OBJ file with new positions
   kPly,     ///< binary PLY
   kGlb,     ///< binary glTF 2.0
-  kPoints,  ///< only positions, .npy
+  kPoints,  ///< a NumPy file (.npy) with only the positions
   kUsd,     ///< a USD text layer, .usda
   kEnd,     ///< not a format; its value is the number of formats
 };
@@ -56,7 +56,8 @@ struct MeshFormatTraits {
   bool has_polygons;
   bool has_material_file;  ///< whether the file refers to an MTL file
   FileNormals normals;     ///< for which meshes the encoder must be given normals
-  DataStorage shapes, attachments, textures;  ///< where the format stores these data
+  /// Where the format stores shapes, attachments, and textures.
+  DataStorage shapes, attachments, textures;
   /// Function that reads the positions from the file of one face. Null if the format does not keep
   /// the vertex order.
   /// \throws InvalidInput if another program wrote the file.

@@ -23,7 +23,7 @@ constexpr int kMaxCodeBits = 15, kMaxCodeBitsOfLengths = 7;
 struct RunClass {
   std::uint16_t symbol;
   std::uint8_t extra_bits;
-  std::uint16_t first_length;  ///< the shortest run of this class
+  std::uint16_t first_length;  ///< length of the shortest run of this class, in bytes
 };
 
 /// The class of each run length from kMinRun to kMaxRun (RFC 1951, 3.2.5).

@@ -58,7 +58,7 @@ class UsdaPart {
   Topology topology_;
   NormalFans fans_;  ///< for each vertex, the polygons from which its normal is computed
   UsdaMesh mesh_;
-  std::vector<UsdaSurface> surfaces_;  ///< the appearance of each material
+  std::vector<UsdaSurface> surfaces_;  ///< the appearance of each material of the part
   GivenNormals given_normals_;         ///< normals that replace computed normals
 };
 

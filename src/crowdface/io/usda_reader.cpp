@@ -27,9 +27,10 @@ constexpr std::size_t kLongestStatement = 16;  // words before '='
 
 struct PrimProperty {
   std::vector<double> numbers;
-  std::vector<std::string> texts;  ///< the strings and paths in the value
+  std::vector<std::string> texts;  ///< all strings and paths in the property's value
   std::string interpolation;
-  bool is_time_sample = false;  ///< whether the value is the first time sample
+  /// Whether the property has time samples; the value is then the first time sample.
+  bool is_time_sample = false;
 };
 
 struct Prim {
@@ -312,7 +313,7 @@ class UsdaReader {
     property.is_time_sample = name.ends_with(kTimeSamples) && tokens_.consume('{');
     if (property.is_time_sample) {
       name.resize(name.size() - kTimeSamples.size());
-      // Skips the time code and the colon.
+      // Skip the time code and the colon, which come before the value.
       UsdaToken token = tokens_.next();
       if (token.is('}')) return;
       if (!token.text.ends_with(':')) token = tokens_.next();

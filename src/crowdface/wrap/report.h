@@ -42,7 +42,7 @@ void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result
 /// Facts for the report that WrapResult does not contain.
 struct WrapFacts {
   std::string template_file, scan_file;  ///< paths of the template and of the scan
-  std::string inputs_digest;             ///< hash of all input files and options
+  std::string inputs_digest;             ///< hash of all input files and of the options
   std::string mesh_digest;               ///< hash of the written head; empty: no head was written
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
   /// Leave-one-out error of the pose by landmark name, in mm: the distance between the landmark and

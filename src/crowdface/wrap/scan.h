@@ -14,7 +14,8 @@ namespace crowdface {
 struct Scan {
   Positions positions;              ///< #V by 3
   std::vector<Triangle> triangles;  ///< the corners are ordered so that the normals point outwards
-  std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
+  /// Repairs of the scan, and omitted content, one sentence each.
+  std::vector<std::string> notes = {};
   /// for each triangle: its index among all triangles into which `triangles_of` divides the file's
   /// polygons; empty if the scan does not come from a file
   std::vector<std::uint32_t> file_triangle_indices = {};

@@ -27,7 +27,7 @@ constexpr double kScaleDeviation = 0.02;
 struct Match {
   std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d offset;  ///< vector from the vertex to the closest point
-  Eigen::Vector3d normal;  ///< scan normal at the closest point
+  Eigen::Vector3d normal;  ///< normal of the scan at the closest point
   double distance;
 };
 

@@ -21,7 +21,8 @@ struct WrapLandmark {
   /// Vertex of the landmark. In the caller's landmarks: index into the template's vertices. During
   /// the wrap: index into the vertices of the template's skin.
   std::uint32_t vertex = 0;
-  Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();  ///< position on the scan
+  /// Position of the landmark on the scan.
+  Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();
   /// true: the program found the landmark by the shape of the surface; false: the user picked it
   bool is_found_by_program = false;
   /// Uncertainty of `scan_position`: standard deviation along each axis. The squared distance of a
@@ -43,7 +44,7 @@ Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vect
 
 /// The pose of a head in a scan, and its coefficients in the shape model.
 struct ShapeFit {
-  Similarity pose;                ///< transform from the template to the scan
+  Similarity pose;                ///< similarity from the template's frame to the scan's frame
   Eigen::VectorXd coefficients;   ///< one coefficient per mode, in standard deviations
   double median_distance_mm = 0;  ///< median distance from the visible skin to the scan
 };

@@ -18,8 +18,9 @@ namespace crowdface {
 /// stages of the wrap.
 struct LandmarkResidual {
   std::string name;
-  double pose_distance_mm = 0;       ///< distance when only the pose (a similarity) is fitted
-  double final_distance_mm = 0;      ///< distance after the wrap
+  double pose_distance_mm = 0;  ///< distance when only the pose (a similarity) is fitted
+  /// Distance between the landmark on the wrapped template and on the scan.
+  double final_distance_mm = 0;
   bool is_found_by_program = false;  ///< see `WrapLandmark::is_found_by_program`
   /// whether the final distance is far above the other landmarks' distances; then the landmark is
   /// probably misplaced

@@ -31,8 +31,8 @@ std::filesystem::path picture_path(const std::filesystem::path& file, const std:
 struct FittedMesh {
   /// An alternative material of the mesh.
   struct Picture {
-    std::string name;            ///< name of the material: "brown"
-    std::filesystem::path path;  ///< colour texture; empty: none
+    std::string name;            ///< name of the material, such as "brown"
+    std::filesystem::path path;  ///< path of the colour texture; empty: the material has no texture
   };
   Topology topology;       ///< the polygons, on #V vertices
   TextureCoordinates uvs;  ///< #T by 2

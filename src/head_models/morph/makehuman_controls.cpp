@@ -24,7 +24,7 @@ struct Control {
   std::string_view stem, less, more;
   double spread;      ///< standard deviation of the measure
   double aged = 0;    ///< change of the mean per 20 years of age above kUnaged
-  double weight = 0;  ///< change of the mean for the heaviest body
+  double weight = 0;  ///< change of the measure's mean for people with the heaviest body
   /// Change of the mean for women: with MakeHuman's targets for sex alone, many women have the face
   /// of a man.
   double female = 0;

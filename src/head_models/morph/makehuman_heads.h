@@ -20,7 +20,7 @@ struct MakeHumanMesh {
   Mesh head;                             ///< skin and eyeballs above the cut, decimetres
   Mesh body;                             ///< the skin below the cut, decimetres
   std::vector<std::uint32_t> head_rows;  ///< row of each head vertex in file_positions, ascending
-  std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
+  std::vector<MaterialRange> materials;  ///< polygons of the skin, of eyeball_r and of eyeball_l
   FeatureHeights heights;                ///< heights of the eyes and of the mouth, decimetres
 };
 

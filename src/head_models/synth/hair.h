@@ -64,7 +64,7 @@ class Hair {
   HairStyle style_;
   double recession_;           ///< see Complexion::recession
   SmoothNoise hairs_, tufts_;  ///< brightness of strands and of tufts of strands
-  SmoothNoise edge_;           ///< makes the hairline irregular
+  SmoothNoise edge_;           ///< noise that makes the hairline irregular
   SmoothNoise locks_;          ///< varies the thickness of curls and hanging locks
 };
 

@@ -18,12 +18,12 @@ constexpr double kSwing = 0.075;      // amplitude of these waves, in units of a
 struct Strand {
   std::uint64_t clump = 0;  ///< number of the strand's clump, unique among all strips
   double place = 0;         ///< horizontal position of the root, in units of a strip's width
-  double middle = 0;        ///< horizontal position of the clump's middle
-  double half = 0;          ///< half the strand's width, in units of a strip's width
-  double start = 0;         ///< where the strand starts, as a fraction of the card's length
-  double end = 1;           ///< where the strand ends, as a fraction of the card's length
-  double light = 1;         ///< brightness relative to the hair colour
-  double bend = 0;          ///< amplitude of the strand's own bends, in units of a strip's width
+  double middle = 0;  ///< horizontal position of the clump's middle, in units of a strip's width
+  double half = 0;    ///< half the strand's width, in units of a strip's width
+  double start = 0;   ///< where the strand starts, as a fraction of the card's length
+  double end = 1;     ///< where the strand ends, as a fraction of the card's length
+  double light = 1;   ///< brightness of the strand relative to the hair colour
+  double bend = 0;    ///< amplitude of the strand's own bends, in units of a strip's width
   double waves = 0, phase = 0;  ///< curly hair: number of half waves, and their phase
 };
 

@@ -40,7 +40,7 @@ class Relief {
   struct Stroke {
     static constexpr int kPieces = 12;  ///< number of straight pieces of the curve
     std::array<Eigen::Vector2d, kPieces + 1> points;
-    double width, depth;  ///< width and depth of the groove
+    double width, depth;  ///< width and depth of the curve's groove, cm
     /// Height of a ridge beside the curve, relative to the depth; positive: the ridge is left of
     /// the curve.
     double bulge;
@@ -61,11 +61,11 @@ class Relief {
 
   /// the curves of all folds and lines, and their mirror images
   std::vector<Stroke> strokes_;
-  /// Displace all folds of a head together.
+  /// Noise that displaces all folds of a head together, in x and in y.
   SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;
   /// bends wrinkles sideways, by about ±0.45 of the distance between neighbouring wrinkles
   SmoothNoise wrinkle_waves_;
-  SmoothNoise wrinkle_gaps_;  ///< wrinkles have gaps where this noise is low
+  SmoothNoise wrinkle_gaps_;  ///< noise; wrinkles have gaps where its value is low
   /// The wrinkles of an area. Lengths in cm.
   struct Wrinkles {
     double depth, spacing;  ///< depth of the wrinkles; mean distance between neighbouring wrinkles
@@ -79,7 +79,7 @@ class Relief {
   };
   std::vector<Octave> broad_octaves_, fine_octaves_;  ///< noise of uneven skin; of pores
   SmoothNoise lip_creases_;  ///< noise that is stretched to creases across the lips
-  double lip_depth_;         ///< amplitude of lip_creases_
+  double lip_depth_;         ///< amplitude of lip_creases_, cm
 };
 
 }  // namespace crowdface::synth
