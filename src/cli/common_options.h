@@ -48,7 +48,8 @@ struct CacheOption {
 /// The config file, and the options that override values of the config.
 struct ConfigOptions : CacheOption {
   std::string config_file;
-  ConfigOverrides overrides;  ///< values of the options, such as `--set` and `--count`
+  /// The values of `--set`, `--count` and similar options, which override the config.
+  ConfigOverrides overrides;
 
   /// Adds the argument CONFIG and the options to a command.
   void add_to(CLI::App& command);

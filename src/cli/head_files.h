@@ -43,7 +43,8 @@ struct TaggedHead {
   std::string name;
   bool is_male = false;
   double age_years = 0;
-  std::string extra_tags = {};  ///< further tags, separated by ", "; may be empty
+  /// Tags in addition to sex and age, separated by ", "; may be empty.
+  std::string extra_tags = {};
 };
 
 /// Returns YAML text with the section `faces`, which contains only tags, such as [female, old], and

@@ -41,7 +41,8 @@ struct FileMesh : Mesh {
   /// Material files that an OBJ file names. Empty for other formats, which list their textures in
   /// `textures`.
   std::vector<std::string> material_libraries;
-  std::vector<std::string> notes;  ///< repairs and ignored content, one sentence each
+  /// Sentences for the user about repairs and about ignored content.
+  std::vector<std::string> notes;
 };
 
 /// Sets the vertices, texture coordinates and vertex colours of a mesh. If there are no texture

@@ -41,7 +41,7 @@ struct GlbSkin {
 struct GlbSkinAttribute {
   std::string name;    ///< name of the attribute: JOINTS_n or WEIGHTS_n
   int component_type;  ///< component type of the values as a glTF code, such as gltf::kFloat
-  std::string bytes;   ///< values of all vertices, encoded as in the file
+  std::string bytes;   ///< the attribute's values for all vertices, encoded as in the file
 };
 /// Builds pairs of the attributes JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex.
 /// The vertex with the most influences determines the number of pairs.

@@ -508,7 +508,8 @@ class GltfMeshReader {
   GltfFile file_;
   const std::filesystem::path& path_;
   FileMesh mesh_;
-  std::vector<std::string> texture_files_;  ///< for each texture, its file; empty if embedded
+  /// For each texture, the path of its image file; empty if the glTF file embeds the image.
+  std::vector<std::string> texture_files_;
   std::vector<double> points_, uvs_, colours_;
   /// GltfFile::joint_transforms for the skin of the current mesh; empty if the mesh has no skin
   std::vector<Eigen::Matrix4d> joint_transforms_;

@@ -185,7 +185,8 @@ constexpr std::pair<std::string_view, std::size_t> kFixedTypes[] = {
     {"keycode", 28},    {"lineOrder", 1}, {"timecode", 8},
     {"rational", 8},    {"tiledesc", 9},  {"deepImageState", 1}};
 
-/// A channel list: zero-terminated names, each followed by 16 bytes; an empty name ends the list.
+/// Whether a value is a channel list: zero-terminated names, each followed by 16 bytes; an empty
+/// name ends the list.
 bool is_channel_list(std::string_view value) {
   constexpr std::size_t kOfChannel = 16;
   while (!value.empty() && value.front() != '\0') {
@@ -206,7 +207,7 @@ bool is_preview(std::string_view value) {
          width * height == pixels;
 }
 
-/// A list of strings, each preceded by its length.
+/// Whether a value is a list of strings, each preceded by its length.
 bool is_list_of_texts(std::string_view value) {
   while (value.size() >= 4) {
     const auto length = number_at<std::uint32_t>(value.data());

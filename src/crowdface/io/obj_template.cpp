@@ -23,7 +23,7 @@ char* copy(std::string_view text, char* out) {
   return out + text.size();
 }
 
-/// Writes three coordinates, then red, green and blue.
+/// Writes the coordinates of vertex i, then its red, green and blue.
 char* write_coloured(char* out, const Positions& rows, const ColourRows& colours, Index i) {
   constexpr double kMaxByte = 255, kSteps = 1e4;
   for (Index c = 0; c < 3; ++c) {

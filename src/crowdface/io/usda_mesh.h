@@ -82,7 +82,7 @@ class UsdaMesh {
   std::string shared_text_;
   /// prim names of the materials; empty for a material that no polygon uses
   std::vector<std::string> materials_;
-  std::vector<std::string> subsets_;  ///< one per material: the text that lists its polygons
+  std::vector<std::string> subsets_;  ///< for each material, the USD text that lists its polygons
   std::vector<std::string> shapes_;   ///< prim names of the blend shapes
   std::vector<std::string> quoted_shape_names_;  ///< names of the blend shapes, in quotes
   /// for each blend shape, the text of its vertex list; "" if the list differs from face to face

@@ -53,8 +53,9 @@ struct MeshPrim {
   Eigen::Matrix4d place;
   bool has_final_place;  ///< whether `place` transforms to the layer's axes
   Prim prim;
-  bool is_hidden = false;    ///< whether the prim or a parent is inactive or invisible
-  bool is_animated = false;  ///< whether the prim or a parent has a property with only time samples
+  bool is_hidden = false;  ///< whether the prim, or a prim above it, is inactive or invisible
+  /// Whether the prim, or a prim above it, has a property with only time samples.
+  bool is_animated = false;
 };
 
 /// Whether a primvar has a value for each corner or vertex.

@@ -16,7 +16,8 @@ struct CentredScan {
   Scan scan;  ///< the translated and rounded scan
   /// The landmarks with translated and rounded `scan_position`.
   std::vector<WrapLandmark> landmarks;
-  Eigen::Vector3d box_centre;  ///< centre of the bounding box in the scan file
+  /// Centre of the scan's bounding box in the coordinates of the scan file.
+  Eigen::Vector3d box_centre;
 };
 /// Translates and rounds a scan and its landmarks.
 CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks);

@@ -61,7 +61,7 @@ Eigen::VectorXd areas_at_vertices(const SkinMesh& skin, const Positions& positio
 struct FeatureFrame {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero(), side, up, normal = Eigen::Vector3d::Zero();
 
-  /// Coordinates along `side`, `up` and `normal`.
+  /// Returns the coordinates of a point along `side`, `up` and `normal`, from `middle`.
   Eigen::Vector3d coordinates(const Eigen::Vector3d& point) const {
     const Eigen::Vector3d offset = point - middle;
     return {offset.dot(side), offset.dot(up), offset.dot(normal)};

@@ -22,8 +22,8 @@ struct HairCut {
   double sideways_combing = 1;  ///< component of the combing direction away from the parting
   double backward_combing = 0;  ///< backward component of the combing direction
   double top_length = 5;        ///< length of the hair on top of the head, cm
-  double side_length = 5;       ///< length above and behind the ears; 0: no hair there
-  double hem_y = -30;  ///< y coordinate of the haircut's lower edge, at which hair is cut, cm
+  double side_length = 5;  ///< length of the hair above and behind the ears, cm; 0: no hair there
+  double hem_y = -30;      ///< y coordinate of the haircut's lower edge, at which hair is cut, cm
   double fringe_y = kNoFringe;  ///< y coordinate of the fringe's lower edge, or kNoFringe
   double volume_factor = 1;     ///< factor on the distance of the hair from the scalp
   double wave_amplitude = 0;    ///< amplitude of waves in the locks

@@ -46,7 +46,7 @@ std::vector<Strand> draw_strands(bool curly) {
     strand.place = static_cast<double>(strip) + place;
     strand.middle = (static_cast<double>(clump) + 0.5) / static_cast<double>(clumps);
     strand.half = is_wisp ? 0.011 : 0.016 * (0.7 + 0.6 * unit("half"));
-    // At its edges, a card shows short single strands.
+    // At the left and right edge, a card shows short single strands.
     strand.start = (0.01 + (strip < kThinStrip ? 0.04 : 0.12) * edge) * unit("start");
     strand.end = 0.86 + 0.14 * of_clump("end") - (0.08 + 0.22 * edge) * unit("end");
     if (is_cap) strand.end = 0.5 + 0.28 * unit("end");

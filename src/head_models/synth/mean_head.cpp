@@ -60,7 +60,7 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector2d rim(foot.x() - eye_centre().x(), foot.y());
   const Vector2d flat = rim + t * (0.26 * c - rim);
   const double r2 = kEyeRadius * kEyeRadius;
-  // The iris is a shallow dish, as sculptors carve it.
+  // The iris has the shape of a shallow dish, as in carved sculptures.
   const double dish = 0.10 * smooth_step(0.62, 0.42, flat.norm());
   return eye_centre() +
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);

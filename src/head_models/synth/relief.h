@@ -44,7 +44,8 @@ class Relief {
     /// Height of a ridge beside the curve, relative to the depth; positive: the ridge is left of
     /// the curve.
     double bulge;
-    Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
+    /// Bounding box, in the front view, of the points that the curve displaces.
+    Eigen::AlignedBox2d affected_box;
   };
   /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
   double grain(const Eigen::Vector3d& position) const;
