@@ -79,7 +79,7 @@ void blend(const BlendOptions& options) {
   if (job.config.smoothing.levels != LevelRepresentation::kExact)
     check_levels(line.face.recipe, job, options.recipe);
   PreparedHeads prepared;
-  // the exact filter needs no prepared heads
+  // The exact filter smooths the heads of the config. Only the fitted levels need prepared heads.
   if (job.config.smoothing.levels == LevelRepresentation::kExact) {
     prepared.filter.emplace(job.smoothing, job.inputs.head_set.heads.front().positions);
   } else {

@@ -20,7 +20,7 @@ namespace crowdface::cli {
 class OptionHandle {
  public:
   explicit OptionHandle(CLI::Option& option) : option_(&option) {}
-  /// Reports an error if the option is not given.
+  /// Reports an error if the user does not give the option.
   OptionHandle required() const;
   /// Accepts only these words as values.
   OptionHandle one_of(const std::vector<std::string>& words) const;

@@ -12,12 +12,13 @@ namespace crowdface::cli {
 
 /// The description of an option, flag or argument of a command, with the texts that the help shows.
 struct OptionDescription {
-  /// such as "-o", "--output"; for an argument its name, such as "config"
+  /// names of the option, such as "-o" and "--output"; for an argument, its name, such as "config"
   std::vector<std::string> names;
-  std::string type;                          ///< name of the value, such as "DIR"; empty for a flag
-  std::vector<std::string> accepted_values;  ///< empty: any value
-  std::string default_value;                 ///< may be empty
-  std::string help;                          ///< what the option does
+  std::string type;  ///< name of the value, such as "DIR"; empty for a flag
+  /// The values that the option accepts; empty: any value.
+  std::vector<std::string> accepted_values;
+  std::string default_value;  ///< default value that the help shows; empty: the help shows none
+  std::string help;           ///< what the option does
   /// is_argument: positional, without dashes; is_repeated: the user may give several values
   bool is_argument = false, is_required = false, is_repeated = false;
 };

@@ -17,13 +17,14 @@
 namespace crowdface::cli {
 
 /// The options that every command has: `--threads`, `--quiet`, `--verbose`, `--log-file`,
-/// `--limit`. Numbers are parsed from text, because CLI11 accepts numbers that overflow.
+/// `--limit`. The members store numbers as text, and `apply` parses them, because CLI11 accepts
+/// numbers that overflow.
 struct CommonOptions {
   std::string threads;  ///< number of threads; empty: one per processor
   bool quiet = false;
   bool verbose = false;
-  std::string log_file;             ///< empty: no log file
-  std::vector<std::string> limits;  ///< such as "vertices=2000000"
+  std::string log_file;             ///< path of the log file; empty: no log file
+  std::vector<std::string> limits;  ///< the values of `--limit`, such as "vertices=2000000"
 
   /// Adds these options to a command.
   void add_to(CLI::App& command);
@@ -47,7 +48,8 @@ struct CacheOption {
 /// The config file, and the options that override values of the config.
 struct ConfigOptions : CacheOption {
   std::string config_file;
-  ConfigOverrides overrides;  ///< values of the options, such as `--set` and `--count`
+  /// The values of `--set`, `--count` and similar options, which override the config.
+  ConfigOverrides overrides;
 
   /// Adds the argument CONFIG and the options to a command.
   void add_to(CLI::App& command);
@@ -61,8 +63,8 @@ struct ConfigOptions : CacheOption {
 struct WriteOptions {
   bool force = false;
   bool dry_run = false;
-  std::string memory_limit;  ///< such as "4 GiB"; empty: the default
-  std::string shard;         ///< such as "2/7"; empty: the whole crowd
+  std::string memory_limit;  ///< value of `--memory`, such as "4 GiB"; empty: the default
+  std::string shard;         ///< value of `--shard`, such as "2/7"; empty: the whole crowd
   bool planned = false;      ///< `--planned`: require a plan in the folder; make no new plan
 
   /// Adds the options, except `--shard` and `--planned`, to a command.

@@ -15,14 +15,15 @@ namespace crowdface::cli {
 
 /// largest number of heads that one command makes
 inline constexpr std::uint64_t kMaxGeneratedHeads = 1000;
-inline constexpr int kMaskSize = 1024;  ///< width and height of masks in pixels
+/// Width and height, in pixels, of the region masks that commands make.
+inline constexpr int kMaskSize = 1024;
 /// smallest and largest accepted size of a texture: its width and height in pixels
 inline constexpr std::uint64_t kMinTexturePx = 64, kMaxTexturePx = 8192;
 
 /// A file to write into a folder of heads. The content depends only on the command line.
 struct HeadFile {
   std::filesystem::path path;
-  std::function<EncodedFile()> make;  ///< returns the content
+  std::function<EncodedFile()> make;  ///< function that returns the content of the file
 };
 
 /// A file with the content `text`.
@@ -42,7 +43,8 @@ struct TaggedHead {
   std::string name;
   bool is_male = false;
   double age_years = 0;
-  std::string extra_tags = {};  ///< further tags, separated by ", "; may be empty
+  /// Tags in addition to sex and age, separated by ", "; may be empty.
+  std::string extra_tags = {};
 };
 
 /// Returns YAML text with the section `faces`, which contains only tags, such as [female, old], and

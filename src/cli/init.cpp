@@ -107,13 +107,13 @@ constexpr std::size_t kHeadsLookedAt = 8;
 
 /// Properties of the heads that are computed from the shapes of the heads.
 struct ShapeAnalysis {
-  Positions first;                         ///< vertices of the first head
-  std::optional<Orientation> orientation;  ///< up and front axes
+  Positions first;                         ///< vertex positions of the first head
+  std::optional<Orientation> orientation;  ///< up and front axes of the heads; nothing: not found
   std::optional<PaintedMasks> masks;
   bool has_uvs = true;
-  /// some head is rotated or shifted relative to the other heads
+  /// whether at least one head is rotated or shifted relative to the other heads
   bool has_misaligned_head = false;
-  double face = 0;  ///< distance from eyes to mouth, in mesh units; 0: not found
+  double face = 0;  ///< distance from the eyes to the mouth, in mesh units; 0: no face was found
 };
 
 /// Removes heads that the command `check` would refuse because of their pose, and logs warnings. A

@@ -51,7 +51,7 @@ class MakeHumanDress {
   const MakeHumanHeads& model_;
   MakeHumanParts parts_;  ///< eyes, lashes, teeth and tongue
   int max_texels_;
-  PaintedMasks lip_mask_;  ///< channel 0 of image 0: the lips
+  PaintedMasks lip_mask_;  ///< mask of the lips: channel 0 of image 0
   /// all different sets of tags that added persons have
   std::set<std::set<std::string>> tag_sets_;
   std::set<std::string> eye_colours_;  ///< eye colours of the added persons

@@ -69,6 +69,9 @@ bool is_hidden(const aiNode& node) {
          (node.mMetaData->Get("Visibility", visibility) && visibility == 0);
 }
 
+/// Collects the meshes of a node and of the nodes below it. If a node is hidden, collects only its
+/// name.
+/// \param above  transform from the axes of the node's parent to the axes of the file
 /// \param hidden  whether a parent of the node is hidden
 void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, bool hidden,
                   int depth, Collected& all) {

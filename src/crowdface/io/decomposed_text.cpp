@@ -47,8 +47,8 @@ std::string_view take_character(std::string_view& text) {
   return character;
 }
 
-/// Maps each composed letter of kMarks to its decomposition: a letter and a mark. This letter may
-/// itself be a composed letter.
+/// Maps each composed letter of kMarks to its decomposition: a letter and a mark. The letter in the
+/// decomposition may itself be a composed letter.
 const std::map<std::string_view, std::string>& pairs_by_composed_letter() {
   static const auto pairs = [] {
     std::map<std::string_view, std::string> result;
@@ -63,7 +63,7 @@ const std::map<std::string_view, std::string>& pairs_by_composed_letter() {
   return pairs;
 }
 
-/// Encodes a code point from U+0800 to U+FFFF.
+/// Encodes a code point from U+0800 to U+FFFF as UTF-8, which needs three bytes.
 std::string three_bytes(std::uint32_t code) {
   return {static_cast<char>(0xe0U | code >> 12U), static_cast<char>(0x80U | (code >> 6U & 0x3fU)),
           static_cast<char>(0x80U | (code & 0x3fU))};

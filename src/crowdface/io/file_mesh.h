@@ -26,21 +26,23 @@ struct MeshTexture {
 /// A mesh as read from a file of any format. Vertices and polygons have the order of the file;
 /// positions have the unit and axes of the file.
 struct FileMesh : Mesh {
-  ColourValues colours;                  ///< #V by 3, sRGB from 0 to 1; or no rows
-  std::vector<MaterialRange> materials;  ///< ranges of polygons, ascending; may be empty
+  ColourValues colours;  ///< vertex colours: #V by 3, sRGB from 0 to 1; or no rows
+  /// Ranges of polygons with the same material, in ascending order; may be empty.
+  std::vector<MaterialRange> materials;
   /// For each vertex, the index of its mesh in the file. Empty for formats that do not split
   /// vertices at seams.
   std::vector<std::uint32_t> mesh_of_vertex;
   /// For each vertex, the id of the unsplit vertex of which it is a copy. Empty if the file has no
   /// ids.
   std::vector<std::uint32_t> vertex_ids;
-  std::vector<MeshTexture> textures;  ///< textures of the materials
+  std::vector<MeshTexture> textures;  ///< textures that the materials of the mesh use
   /// Base colours in linear light, by name of the material, for formats without material files.
   std::map<std::string, std::array<float, 3>> material_colours;
   /// Material files that an OBJ file names. Empty for other formats, which list their textures in
   /// `textures`.
   std::vector<std::string> material_libraries;
-  std::vector<std::string> notes;  ///< repairs and ignored content, one sentence each
+  /// Sentences for the user about repairs and about ignored content.
+  std::vector<std::string> notes;
 };
 
 /// Sets the vertices, texture coordinates and vertex colours of a mesh. If there are no texture

@@ -14,7 +14,7 @@ namespace {
 using namespace std::string_view_literals;
 
 struct Known {
-  std::string_view begin;  ///< start of the file, in lower case
+  std::string_view begin;  ///< text with which the file begins, in lower case
   std::string_view what;
 };
 

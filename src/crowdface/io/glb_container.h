@@ -11,10 +11,10 @@ namespace crowdface {
 
 /// The binary glTF 2.0 container: a header, a JSON chunk and a chunk with the buffer.
 namespace glb {
-inline constexpr std::uint32_t kMagic = 0x46546c67, kContainerVersion = 2;  // "glTF"
+inline constexpr std::uint32_t kMagic = 0x46546c67, kContainerVersion = 2;  // "glTF" and version 2
 /// Type codes of the chunks: "JSON" and "BIN".
 inline constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
-inline constexpr std::size_t kFileHeaderSize = 12, kChunkHeaderSize = 8;  ///< bytes
+inline constexpr std::size_t kFileHeaderSize = 12, kChunkHeaderSize = 8;  ///< header sizes in bytes
 /// Number of bytes of all headers: the file header and the headers of both chunks.
 inline constexpr std::size_t kBinaryHeaderSize = kFileHeaderSize + 2 * kChunkHeaderSize;
 }  // namespace glb

@@ -13,8 +13,8 @@
 
 namespace crowdface {
 
-/// A glTF material: base colour, and the images that it uses, as indices of the file's images
-/// (`GlbOptions::images`; for a `GlbPart`, the images of the part).
+/// A glTF material: its base colour, and the indices of the images that it uses. Each index refers
+/// to `GlbOptions::images` or, for a material of a `GlbPart`, to the images of that part.
 struct GlbMaterial {
   std::string name;                            ///< name of the material; may be empty
   std::array<float, 4> colour = {1, 1, 1, 1};  ///< linear RGB and opacity, each in [0, 1]
@@ -26,7 +26,7 @@ struct GlbMaterial {
     kMask,   ///< alpha makes each texel either visible or invisible
     kBlend,  ///< alpha is the opacity of each texel
   };
-  /// Nothing: kBlend if the opacity in `colour` is below 1, otherwise kOpaque.
+  /// How alpha acts. Nothing: kBlend if the opacity in `colour` is below 1, otherwise kOpaque.
   std::optional<Alpha> alpha = {};
   /// Whether the base colour comes from `GlbOptions::overlay`. The material is then opaque.
   bool uses_overlay = false;

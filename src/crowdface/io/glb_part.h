@@ -65,17 +65,20 @@ class GlbPart {
  private:
   std::string name_;
   Topology topology_;
-  NormalFans fans_;                             ///< the polygons around each vertex, for its normal
-  std::vector<std::uint32_t> source_vertices_;  ///< original vertex of each split vertex
+  NormalFans fans_;  ///< for each vertex, the polygons from which its normal is computed
+  /// For each split vertex (see SplitVertices), its original vertex.
+  std::vector<std::uint32_t> source_vertices_;
   bool has_uvs_;
-  std::vector<std::size_t> index_counts_;  ///< for each material, its number of vertex indices
+  /// For each material, the number of vertex indices of its triangles.
+  std::vector<std::size_t> index_counts_;
   std::vector<GlbMaterial> materials_;
   std::vector<std::size_t> image_sizes_;  ///< number of bytes of each image file
   // The `bytes` of the images and of the skin attributes are empty; `shared_data_` has the data.
   std::vector<GlbImage> images_;
-  std::vector<GlbSkinAttribute> skin_attributes_;  ///< no elements if the mesh is not skinned
-  std::vector<std::string> targets_;               ///< names of the morph targets
-  GivenNormals given_normals_;                     ///< normals that replace computed normals
+  /// The attributes JOINTS_n and WEIGHTS_n; empty if the mesh is not skinned.
+  std::vector<GlbSkinAttribute> skin_attributes_;
+  std::vector<std::string> targets_;  ///< names of the morph targets
+  GivenNormals given_normals_;        ///< normals that replace computed normals
   /// bytes that are the same for all faces: texture coordinates, influences, triangles, images
   std::string shared_data_;
 };

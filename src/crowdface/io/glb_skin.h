@@ -16,21 +16,22 @@ namespace crowdface {
 
 /// Weight of a joint for one vertex.
 struct Influence {
-  std::uint32_t joint;  ///< index of the joint
-  float weight;         ///< the weights of a vertex add up to one
+  std::uint32_t joint;  ///< index of the joint in the rig's list of joints
+  float weight;         ///< weight of the joint; the weights of a vertex add up to one
 };
 
 /// A joint of the rig. All files share the joint; only its position differs from face to face.
 struct GlbJoint {
   std::string name;
   std::uint32_t parent;      ///< index of the parent joint; kNoIndex: no parent
-  Eigen::Matrix3d rotation;  ///< from the joint's axes to the axes of the positions
+  Eigen::Matrix3d rotation;  ///< rotation from the joint's axes to the axes of the face's positions
 };
 
 /// The joints below a face's node, and the joints' weights for the face's vertices.
 struct GlbSkin {
-  std::vector<GlbJoint> joints;               ///< empty: no rig
-  CompressedRows<Influence> influences = {};  ///< one row per vertex
+  std::vector<GlbJoint> joints;  ///< all joints of the rig; empty: the files have no rig
+  /// Row i: the joints that move vertex i, and their weights.
+  CompressedRows<Influence> influences = {};
 
   /// Number of bytes of the inverse bind matrices.
   std::size_t matrix_bytes() const { return joints.size() * 16 * sizeof(float); }
@@ -38,9 +39,9 @@ struct GlbSkin {
 
 /// A vertex attribute of a skinned mesh.
 struct GlbSkinAttribute {
-  std::string name;    ///< JOINTS_n or WEIGHTS_n
+  std::string name;    ///< name of the attribute: JOINTS_n or WEIGHTS_n
   int component_type;  ///< component type of the values as a glTF code, such as gltf::kFloat
-  std::string bytes;   ///< values of all vertices, encoded as in the file
+  std::string bytes;   ///< the attribute's values for all vertices, encoded as in the file
 };
 /// Builds pairs of the attributes JOINTS_n and WEIGHTS_n. A pair holds four influences per vertex.
 /// The vertex with the most influences determines the number of pairs.

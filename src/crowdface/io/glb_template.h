@@ -73,14 +73,16 @@ class GlbTemplate {
   Index point_count_;        ///< number of `GlbOptions::point_names`
   /// The original vertex of each split vertex with an index ≥ #V.
   std::vector<std::uint32_t> copied_vertices_;
-  std::optional<Tangents> tangents_;   ///< set if a material has a normal map
+  /// The tangents for normal mapping; nothing if no material has a normal map.
+  std::optional<Tangents> tangents_;
   std::string shared_data_;            ///< the part of the buffer that is the same in all files
   std::vector<GlbMorphRows> targets_;  ///< the morph targets; `vertices` of each element is empty
   /// Index of the accessor of the first morph target's displacements; the accessors of further
   /// morph targets follow.
   std::size_t first_target_ = 0;
-  GlbSkin skin_;                  ///< only the joints; `influences` is empty
-  std::size_t target_bytes_ = 0;  ///< bytes of the displacements of all targets
+  GlbSkin skin_;  ///< the rig's joints; `influences` is empty
+  /// Number of bytes of the displacements of all morph targets in one file.
+  std::size_t target_bytes_ = 0;
   /// The scene as JSON, without the bounds and names, which differ from face to face.
   std::string json_;
 };

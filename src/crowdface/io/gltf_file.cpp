@@ -322,7 +322,7 @@ std::vector<std::uint32_t> GltfFile::parents() const {
   return parents;
 }
 
-/// Processes each node once, parents before children.
+/// Computes the transform of each node once, after the transform of its parent.
 std::vector<Eigen::Matrix4d> GltfFile::world_transforms(
     const std::vector<std::uint32_t>& parents) const {
   std::vector<Eigen::Matrix4d> worlds(parents.size());

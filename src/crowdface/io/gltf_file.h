@@ -60,6 +60,7 @@ class GltfFile {
   /// \param worlds  result of `world_transforms`.
   std::vector<Eigen::Matrix4d> joint_transforms(std::size_t skin,
                                                 const std::vector<Eigen::Matrix4d>& worlds);
+  /// Reads the joints and weights of a primitive.
   /// \param attributes  the attributes of a primitive with `count` vertices.
   GltfSkinWeights read_skin_weights(const Json& attributes, std::size_t count);
 

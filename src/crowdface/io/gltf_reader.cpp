@@ -189,8 +189,9 @@ class GltfMeshReader {
     ++piece_;
   }
 
+  /// Adds the vertices and triangles of a primitive to the mesh.
   /// \param known  maps an accessor to the vertices that earlier primitives of the same mesh added
-  ///               for this accessor
+  ///                for this accessor
   void add_primitive(const GltfJson& json, int mode, const Eigen::Matrix4d& world_transform,
                      const std::string& material, std::map<std::size_t, VertexRange>& known) {
     const GltfJson& attributes = json.at("attributes");
@@ -391,6 +392,7 @@ class GltfMeshReader {
     mesh_.vertex_ids.insert(mesh_.vertex_ids.end(), part.ids.begin(), part.ids.end());
   }
 
+  /// Adds the triangles of a primitive to the mesh.
   /// \param first, first_uv  rows of the first vertex and of its texture coordinates
   void add_faces(const std::vector<std::uint32_t>& corners, int mode, std::uint32_t first,
                  std::uint32_t first_uv, const Eigen::Matrix4d& world_transform,
@@ -473,6 +475,7 @@ class GltfMeshReader {
     }
   }
 
+  /// Adds the texture that a JSON object refers to under `key` to a material.
   /// \param from  JSON object that may have a texture reference under `key`
   void add_texture(const GltfJson& from, const char* key, const std::string& material,
                    TextureKind kind) {
@@ -505,7 +508,8 @@ class GltfMeshReader {
   GltfFile file_;
   const std::filesystem::path& path_;
   FileMesh mesh_;
-  std::vector<std::string> texture_files_;  ///< for each texture, its file; empty if embedded
+  /// For each texture, the path of its image file; empty if the glTF file embeds the image.
+  std::vector<std::string> texture_files_;
   std::vector<double> points_, uvs_, colours_;
   /// GltfFile::joint_transforms for the skin of the current mesh; empty if the mesh has no skin
   std::vector<Eigen::Matrix4d> joint_transforms_;

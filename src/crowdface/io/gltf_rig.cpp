@@ -18,7 +18,7 @@ namespace {
 
 using Json = GltfFile::Json;
 
-constexpr std::size_t kLongestJointName = 1000;  ///< bytes
+constexpr std::size_t kLongestJointName = 1000;  ///< maximum length of a joint's name in bytes
 
 class RigReader {
  public:

@@ -18,14 +18,16 @@ struct GltfRig {
   /// A joint of the skeleton.
   struct Joint {
     std::string name;
-    std::uint32_t parent;            ///< index of the parent in `joints`; kNoIndex: no parent
-    Eigen::Matrix4d rest_transform;  ///< from the joint's axes to the file's axes
+    std::uint32_t parent;  ///< index of the parent in `joints`; kNoIndex: no parent
+    /// Transform from the joint's axes to the file's axes in the rest pose.
+    Eigen::Matrix4d rest_transform;
   };
   std::vector<Joint> joints;
   Positions positions;  ///< vertices of all meshes, one mesh after the other
   /// the value of `_VERTEX_ID` of each vertex; empty if the file lacks this attribute
   std::vector<std::uint32_t> vertex_ids;
-  CompressedRows<Influence> influences;  ///< one row per vertex
+  /// Row i: the joints that move vertex i, and their weights.
+  CompressedRows<Influence> influences;
 };
 
 /// Reads a GLB file. A mesh without a skin counts as rigidly bound to its parent joint.

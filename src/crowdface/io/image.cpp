@@ -155,7 +155,7 @@ std::uint64_t pixel_bytes(const ImageHeader& header) {
 }
 
 std::mutex reservation_mutex;
-std::uint64_t reserved_bytes = 0;  ///< bytes reserved for all images
+std::uint64_t reserved_bytes = 0;  ///< number of bytes that are reserved for all images together
 
 /// Number of bytes that can still be reserved if at most `most` bytes may be reserved. The caller
 /// must hold the mutex.
@@ -177,6 +177,7 @@ void check_finite(const path& file, const Image& image) {
   }
 }
 
+/// Encodes an image as a file.
 /// \param values  number of values in `picture.pixels`; must be width · height · channels.
 std::string encode(const ImageToEncode& picture, std::size_t values) {
   const auto [form, width, height, channels, pixels] = picture;

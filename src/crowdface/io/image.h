@@ -34,7 +34,8 @@ struct Image {
   /// The pixels row by row, top row first. The channels of each pixel are next to each other.
   std::variant<std::vector<float>, std::vector<std::uint8_t>, std::vector<std::uint16_t>> pixels;
   ImageMemory memory = {};  ///< memory reserved for `pixels`; null: no memory is reserved
-  std::vector<std::string> channel_names = {};  ///< #channels; empty if the format has no names
+  /// One name per channel; empty if the format does not name channels.
+  std::vector<std::string> channel_names = {};
 
   /// Whether the values are single-precision numbers; otherwise they are integers.
   bool has_floats() const { return pixels.index() == 0; }
@@ -57,9 +58,9 @@ struct Image {
 
 /// Limits of image size. Larger images are rejected before memory is allocated for pixels.
 struct ImageLimits {
-  int max_side = 16384;  ///< largest width or height in pixels
+  int max_side = 16384;  ///< maximum of the width and of the height, in pixels
   int max_channels = 16;
-  std::int64_t max_values = 1LL << 30U;  ///< largest width · height · channels
+  std::int64_t max_values = 1LL << 30U;  ///< maximum of width · height · channels
   /// Whether to accept JPEG and WebP; true for colour textures, false for masks.
   bool allows_jpeg = false;
   /// Whether crowdface itself wrote the file, so that `input_limits()` does not apply.

@@ -9,18 +9,21 @@ namespace crowdface {
 
 /// The header of an image file.
 struct ImageHeader {
-  int width = 0, height = 0, depth = 1, channels = 0;           ///< depth: number of slices
-  int x = 0, y = 0;                                             ///< origin of the data window
-  int full_x = 0, full_y = 0, full_width = 0, full_height = 0;  ///< the display window
-  int tile_width = 0, tile_height = 0;                          ///< 0: the image is not tiled
-  int alpha_channel = -1;                  ///< index of the alpha channel; −1: none
-  std::vector<std::string> channel_names;  ///< #channels for OpenEXR; empty for other formats
-  bool is_deep = false;                    ///< several samples per pixel (OpenEXR)
+  /// Size of the image; depth: number of slices.
+  int width = 0, height = 0, depth = 1, channels = 0;
+  int x = 0, y = 0;  ///< upper left corner of the data window, in pixels
+  /// Upper left corner and size of the display window, in pixels.
+  int full_x = 0, full_y = 0, full_width = 0, full_height = 0;
+  int tile_width = 0, tile_height = 0;  ///< size of a tile in pixels; 0: the image is not tiled
+  int alpha_channel = -1;               ///< index of the alpha channel; −1: none
+  /// For OpenEXR, one name per channel; empty for other formats.
+  std::vector<std::string> channel_names;
+  bool is_deep = false;  ///< whether a pixel may have several samples (OpenEXR)
   enum class ValueType { kBytes, kWords, kFloats, kOthers };
   /// Type of the values that `ImageCodec::read` returns: 8-bit integers (kBytes), 16-bit integers
   /// (kWords) or single precision (kFloats). kOthers: the program does not support the values.
   ValueType value_type = ValueType::kOthers;
-  std::string type_name;  ///< value type in the file, for messages
+  std::string type_name;  ///< name of the type that the values have in the file, for messages
 };
 
 /// Pixels to be encoded as a file.
@@ -28,7 +31,7 @@ struct ImageToEncode {
   enum class Form { kPng, kPng16, kJpeg, kExr };  ///< file format; kPng16 has 16 bits per value
   Form form = Form::kPng;
   int width = 0, height = 0, channels = 0;
-  /// row-major; floats for OpenEXR, 16-bit numbers for kPng16, otherwise bytes
+  /// the pixels, row by row: floats for OpenEXR, 16-bit numbers for kPng16, otherwise bytes
   const void* pixels = nullptr;
 };
 

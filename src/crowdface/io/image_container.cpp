@@ -45,6 +45,7 @@ struct PsdSections {
   std::string_view header_and_palette, metadata, picture;
 };
 
+/// Divides a Photoshop file into its sections.
 /// \return nothing if a section is longer than the file.
 std::optional<PsdSections> psd_sections(std::string_view bytes) {
   constexpr std::size_t kHeader = 26;
@@ -70,7 +71,8 @@ std::optional<PsdSections> psd_sections(std::string_view bytes) {
   return PsdSections{begin, *metadata, rest};
 }
 
-/// Whether Photoshop wrote the merged picture; without it, the picture is white.
+/// Whether Photoshop has merged the layers into the section `picture`. If not, the section contains
+/// a white picture.
 bool psd_has_picture(std::string_view metadata) {
   const std::size_t version = metadata.find("8BIM\x04\x21\0\0"sv);  // block 1057
   constexpr std::size_t kFlag = 16;                                 // after size and version
@@ -183,7 +185,8 @@ constexpr std::pair<std::string_view, std::size_t> kFixedTypes[] = {
     {"keycode", 28},    {"lineOrder", 1}, {"timecode", 8},
     {"rational", 8},    {"tiledesc", 9},  {"deepImageState", 1}};
 
-/// A channel list: zero-terminated names, each followed by 16 bytes; an empty name ends the list.
+/// Whether a value is a channel list: zero-terminated names, each followed by 16 bytes; an empty
+/// name ends the list.
 bool is_channel_list(std::string_view value) {
   constexpr std::size_t kOfChannel = 16;
   while (!value.empty() && value.front() != '\0') {
@@ -204,7 +207,7 @@ bool is_preview(std::string_view value) {
          width * height == pixels;
 }
 
-/// A list of strings, each preceded by its length.
+/// Whether a value is a list of strings, each preceded by its length.
 bool is_list_of_texts(std::string_view value) {
   while (value.size() >= 4) {
     const auto length = number_at<std::uint32_t>(value.data());

@@ -110,8 +110,8 @@ class Collector {
 
   void add_library(const std::string& argument) {
     throw_if_interrupted();
-    // The argument may be one name with spaces, or a list of names. It is one name if a file with
-    // this name exists.
+    // The argument of `mtllib` may be one file name with spaces, or a list of file names. It is one
+    // name if a file with this name exists.
     if (exists(argument)) return take_library(argument);
     if (const auto beside = library_beside(argument)) return take_renamed(*beside);
     for (const std::string& name : words_of(argument)) {
@@ -365,7 +365,8 @@ class Collector {
   /// largest number of searches, each of which lists the folder and its subfolders
   static constexpr int kMaxSearches = 64;
   int searches_ = 0;
-  std::map<fs::path, fs::path> destinations_;  ///< for each destination, its source
+  /// Maps the destination of each file to copy to its source.
+  std::map<fs::path, fs::path> destinations_;
   /// Maps the text of a statement to its texture path. Valid only within one material file.
   std::map<std::string, fs::path> textures_of_;
   MaterialFiles files_;

@@ -28,9 +28,9 @@ struct MaterialFile {
 struct SurfaceMaterial {
   std::string name;
   std::optional<std::array<float, 3>> colour = {};  ///< `Kd`: linear RGB, each from 0 to 1
-  float opacity = 1;                                ///< from the statement `d`, or 1 − `Tr`
-  std::filesystem::path colour_map = {};            ///< the file of `map_Kd`; empty: there is none
-  std::filesystem::path opacity_map = {};           ///< the file of `map_d`; empty: there is none
+  float opacity = 1;  ///< opacity: the number of the statement `d`, or 1 − the number of `Tr`
+  std::filesystem::path colour_map = {};  ///< path of the texture of `map_Kd`; empty: there is none
+  std::filesystem::path opacity_map = {};  ///< path of the texture of `map_d`; empty: there is none
 };
 
 /// Result of `find_material_files`.

@@ -35,11 +35,11 @@ class MergedMaterials {
   /// A line of the merged file.
   struct Line {
     std::string text;       ///< the whole line
-    std::string keyword;    ///< the first word; empty: no statement
-    std::string arguments;  ///< the line after the first word
+    std::string keyword;    ///< first word of the line; empty: the line is not a statement
+    std::string arguments;  ///< the text after the first word
     std::string material;   ///< name of the material to which the line belongs
   };
-  std::vector<Line> lines_;  ///< the merged file
+  std::vector<Line> lines_;  ///< the lines of the merged file, in order
 };
 
 }  // namespace crowdface

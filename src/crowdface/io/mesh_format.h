@@ -21,7 +21,7 @@ enum class MeshFormat {
   kObj,     ///< the text of the target head's OBJ file with new positions
   kPly,     ///< binary PLY
   kGlb,     ///< binary glTF 2.0
-  kPoints,  ///< only positions, .npy
+  kPoints,  ///< a NumPy file (.npy) with only the positions
   kUsd,     ///< a USD text layer, .usda
   kEnd,     ///< not a format; its value is the number of formats
 };
@@ -38,10 +38,11 @@ enum class DataStorage {
 
 /// For which meshes an encoder must be given normals.
 enum class FileNormals {
-  kNone,           ///< no mesh needs normals
-  kReducedLevels,  ///< levels of detail; the encoder computes the normals of full meshes
-  kLikeTarget,     ///< all meshes if the file of the target head has normals; else none
-  kAlways,         ///< all meshes need normals
+  kNone,  ///< no mesh needs normals
+  /// Only levels of detail need normals; the encoder computes the normals of full meshes.
+  kReducedLevels,
+  kLikeTarget,  ///< all meshes if the file of the target head has normals; else none
+  kAlways,      ///< all meshes need normals
 };
 
 /// Properties of a format. The program needs them to plan, name, read and check files of the
@@ -55,7 +56,8 @@ struct MeshFormatTraits {
   bool has_polygons;
   bool has_material_file;  ///< whether the file refers to an MTL file
   FileNormals normals;     ///< for which meshes the encoder must be given normals
-  DataStorage shapes, attachments, textures;  ///< where the format stores these data
+  /// Where the format stores shapes, attachments, and textures.
+  DataStorage shapes, attachments, textures;
   /// Function that reads the positions from the file of one face. Null if the format does not keep
   /// the vertex order.
   /// \throws InvalidInput if another program wrote the file.

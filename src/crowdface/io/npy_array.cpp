@@ -30,6 +30,7 @@ double number_of(const char* at) {
 }
 
 using ReadNumber = double (*)(const char*);
+/// Returns the function that reads a number of a type; null for an unknown type.
 /// \param type  NumPy's name of the type, such as "f4"
 ReadNumber reader_of(std::string_view type) {
   if (type == "f4") return number_of<float>;

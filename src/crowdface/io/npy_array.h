@@ -12,11 +12,11 @@ namespace crowdface {
 /// An array of numbers in NumPy's file format.
 struct NpyArray {
   std::vector<std::size_t> shape;  ///< length of each dimension
-  std::vector<double> values;      ///< in C order: the last index varies fastest
+  std::vector<double> values;      ///< the numbers in C order: the last index varies fastest
 
   /// Length of the first dimension; 1 for a single number.
   std::size_t rows() const { return shape.empty() ? 1 : shape[0]; }
-  /// Number of values per row.
+  /// Number of values for each index of the first dimension; 0 for an empty array.
   std::size_t width() const { return rows() == 0 ? 0 : values.size() / rows(); }
 };
 

@@ -123,7 +123,8 @@ std::string with_colours(std::string_view text, const ColourRows& colours) {
 
 std::optional<std::string> move_polypaint_to_vertices(std::string_view text) {
   if (text.find(kPolypaint) == text.npos) return std::nullopt;
-  // The subtools of a file follow one another: vertices, colours, polygons.
+  // The lines of a subtool are together in the file: first its vertices, then its colours, then its
+  // polygons.
   std::vector<Subtool> subtools(1);
   bool are_vertices_complete = false;
   for (const std::string_view line : split_lines(text)) {

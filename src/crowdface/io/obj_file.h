@@ -22,8 +22,10 @@ struct ObjFile {
   /// For each corner, the index of its `vn` line, or kNoIndex. Empty if the file has no `vn` lines.
   std::vector<std::uint32_t> corner_normals;
   std::vector<std::string> material_libraries;  ///< arguments of the `mtllib` lines
-  std::vector<MaterialRange> materials;         ///< materials of the polygons, ascending first_face
-  std::vector<MaterialRange> groups;            ///< groups and objects, ascending first_face
+  /// Ranges of polygons with the same material, in ascending order of first_face.
+  std::vector<MaterialRange> materials;
+  /// Ranges of polygons in the same group or object, in ascending order of first_face.
+  std::vector<MaterialRange> groups;
   std::vector<std::string> notes;   ///< repairs and ignored statements, one sentence each
   bool is_mended = false;           ///< whether `mend_obj` changed the text
   bool has_reversed_faces = false;  ///< whether `with_outward_faces` reversed the polygons

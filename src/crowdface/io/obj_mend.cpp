@@ -268,7 +268,7 @@ class Mender {
     return notes;
   }
 
-  std::string text_;  ///< the text with one statement per line
+  std::string text_;  ///< the text to repair, with one statement per line
   std::vector<bool> bad_uvs_;
   std::uint64_t normals_ = 0, uvs_so_far_ = 0;
   bool drops_normals_ = false, ends_within_line_ = false;

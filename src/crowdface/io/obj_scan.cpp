@@ -340,7 +340,7 @@ class Scanner {
   bool in_cut_line_ = false;  ///< whether the current line is the last and has no line end
   std::vector<std::string_view> words_;
   ObjLineSelection line_selection_;
-  ObjSummary total_, seen_;  ///< counts in the whole text, and in the lines checked so far
+  ObjSummary total_, seen_;  ///< line counts of the whole text, and of the lines checked so far
   ObjScan scan_;
   std::string_view first_unknown_;  ///< first statement that OBJ does not define
   std::size_t first_unknown_line_ = 0;

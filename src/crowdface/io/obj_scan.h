@@ -24,10 +24,12 @@ struct ObjScan {
   Index face_count = 0;                         ///< number of polygons
   Index corner_count = 0;                       ///< number of corners of all polygons
   std::vector<std::string> material_libraries;  ///< arguments of the `mtllib` lines
-  /// In ascending order of first_face; empty if the text uses no material.
+  /// Ranges of polygons with the same material, in ascending order of first_face; empty if the text
+  /// uses no material.
   std::vector<MaterialRange> materials;
-  std::vector<MaterialRange> groups;  ///< groups and objects (`g`, `o`), ascending first_face
-  std::vector<std::string> notes;     ///< ignored statements, one sentence each
+  /// Ranges of polygons in the same group (`g`) or object (`o`), in ascending order of first_face.
+  std::vector<MaterialRange> groups;
+  std::vector<std::string> notes;  ///< ignored statements, one sentence each
 };
 
 /// Line counts and a hash of an OBJ text, from a fast first pass over the text.

@@ -23,7 +23,7 @@ char* copy(std::string_view text, char* out) {
   return out + text.size();
 }
 
-/// Writes three coordinates, then red, green and blue.
+/// Writes the coordinates of vertex i, then its red, green and blue.
 char* write_coloured(char* out, const Positions& rows, const ColourRows& colours, Index i) {
   constexpr double kMaxByte = 255, kSteps = 1e4;
   for (Index c = 0; c < 3; ++c) {
@@ -39,10 +39,11 @@ char* write_coloured(char* out, const Positions& rows, const ColourRows& colours
 
 /// The part of a `v` or `vn` line that holds the numbers x y z.
 struct Coordinates {
-  std::string_view text;  ///< empty if the line is neither `v` nor `vn`
+  std::string_view text;  ///< the three numbers; empty if the line is neither `v` nor `vn`
   bool is_normal = false;
 };
 
+/// Finds the three numbers in a `v` or `vn` line.
 /// \param whole  whether the result includes the rest of a `v` line (`w` and colours)
 Coordinates coordinates_of(std::string_view line, bool whole) {
   if (line.ends_with('\r')) line.remove_suffix(1);

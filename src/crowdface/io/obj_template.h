@@ -54,7 +54,7 @@ class ObjTemplate {
   /// lines or the `vn` lines from 0.
   struct NumberRange {
     std::uint64_t begin = 0;   ///< offset in the text
-    std::uint32_t length = 0;  ///< number of characters
+    std::uint32_t length = 0;  ///< number of characters of the range
     std::uint32_t row : 31 = 0;
     std::uint32_t is_normal : 1 = 0;
   };
@@ -68,9 +68,9 @@ class ObjTemplate {
   };
   /// The new values of the `v` and `vn` lines.
   struct NewValues {
-    const Positions& positions;  ///< one row per `v` line
-    const Positions& normals;    ///< one row per `vn` line
-    const ColourRows& colours;   ///< one row per `v` line, or no rows
+    const Positions& positions;  ///< new positions, one row per `v` line
+    const Positions& normals;    ///< new normals, one row per `vn` line
+    const ColourRows& colours;   ///< new colours, one row per `v` line; or no rows
   };
 
   /// Sets `given_normals_`. For each `vn` line that only one vertex uses, adds the normal of this

@@ -37,7 +37,7 @@ PngData unwrap(const std::string& png) {
     if (kind == "IHDR" && length == kHeader) {
       picture.width = big_endian_at(png.data() + content);
       picture.height = big_endian_at(png.data() + content + 4);
-      // Requires eight bits, RGB, no interlacing.
+      // Require eight bits per value, RGB, and no interlacing.
       check(png[content + 8] == 8 && png[content + 9] == 2 && png[content + 12] == 0);
     } else if (kind == "IDAT") {
       picture.data.append(png, content, length);

@@ -37,7 +37,7 @@ class PlainObjTemplate {
 
  private:
   Index vertex_count_;
-  Normals normals_;  ///< whether files have normals
+  Normals normals_;  ///< whether files have no normals or one normal per vertex
   /// the lines of texture coordinates and polygons, the same in all files
   std::string shared_text_;
 };

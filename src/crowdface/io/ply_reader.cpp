@@ -47,7 +47,8 @@ constexpr std::array<Type, 10> kTypes = {{{"char", "int8", 1, 127, number_in<std
 struct Property {
   std::string name;
   Type type;
-  std::optional<Type> count = {};  ///< number type of a list's length; nothing: not a list
+  /// For a list, the number type of its length; nothing: the property is not a list.
+  std::optional<Type> count = {};
 };
 
 struct Element {

@@ -36,6 +36,7 @@ void fail_if_interrupted(png_structp png) {
   if (is_interrupted()) png_error(png, "interrupted by a signal");
 }
 
+/// Calls `work`, which calls functions of libpng.
 /// \return whether libpng finished `work` without an error.
 template <class Work>
 bool succeeds(png_structp png, const Work& work) {

@@ -23,7 +23,7 @@ constexpr int kMaxCodeBits = 15, kMaxCodeBitsOfLengths = 7;
 struct RunClass {
   std::uint16_t symbol;
   std::uint8_t extra_bits;
-  std::uint16_t first_length;  ///< the shortest run of this class
+  std::uint16_t first_length;  ///< length of the shortest run of this class, in bytes
 };
 
 /// The class of each run length from kMinRun to kMaxRun (RFC 1951, 3.2.5).
@@ -86,11 +86,12 @@ std::vector<int> huffman_lengths(std::vector<std::uint32_t> counts, int limit) {
 }
 
 struct Code {
-  std::uint16_t bits = 0;  ///< in the order of the stream: the first bit is the lowest
+  std::uint16_t bits = 0;  ///< the code's bits; the lowest bit comes first in the stream
   std::uint8_t length = 0;
 };
 
-/// The canonical Huffman code with these lengths (RFC 1951, 3.2.2).
+/// Returns the canonical Huffman code in which the symbols have codes of these lengths, in bits
+/// (RFC 1951, 3.2.2).
 std::vector<Code> codes_of(const std::vector<int>& lengths) {
   std::vector<Code> codes(lengths.size());
   std::uint32_t next = 0;
@@ -121,11 +122,12 @@ std::uint64_t word_at(const std::uint8_t* bytes) {
 std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size) {
   for (i = std::max<std::size_t>(i, 1); i + 7 + kMinRun <= size; i += 8) {
     static_assert(kMinRun == 3);
-    // Byte k is 0 if a run begins at i + k
+    // Byte k of `differences` is 0 if a run begins at i + k.
     const std::uint64_t one = word_at(bytes + i), two = word_at(bytes + i + 1);
     const std::uint64_t differences =
         (word_at(bytes + i - 1) ^ one) | (one ^ two) | (two ^ word_at(bytes + i + 2));
-    // The high bit of the lowest byte that is 0 (Warren, Hacker's Delight, 6-1)
+    // The lowest bit of `zeros` is the high bit of the lowest byte of `differences` that is 0
+    // (Warren, Hacker's Delight, 6-1)
     const std::uint64_t zeros =
         (differences - 0x0101010101010101U) & ~differences & 0x8080808080808080U;
     if (zeros != 0) return i + static_cast<std::size_t>(std::countr_zero(zeros)) / 8;
@@ -137,7 +139,7 @@ std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size)
   return size;
 }
 
-/// Number of bytes, from kMinRun to `most`, that are equal to the first byte.
+/// Length of the run of equal bytes at `bytes`, from kMinRun to `most`.
 std::size_t run_length(const std::uint8_t* bytes, std::size_t most) {
   std::size_t length = kMinRun;
   const std::uint64_t repeated = bytes[0] * std::uint64_t{0x0101010101010101};
@@ -239,7 +241,7 @@ void RunDeflater::write_block(bool is_last) {
   std::vector<std::uint32_t> counts(kSymbols, 0);
   ++counts[kEndOfBlock];
   // Neighbouring bytes are often equal. If they were counted in the same table, each increment
-  // would have to wait for the previous increment of the same number. Four tables are faster.
+  // would have to wait for the previous increment of the same counter. Four tables are faster.
   std::array<std::array<std::uint32_t, 256>, 4> byte_counts{};
   visit_tokens(
       block_, written_,

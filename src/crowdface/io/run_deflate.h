@@ -25,7 +25,7 @@ class RunDeflater {
   /// Compresses the bytes of `block_` as one deflate block.
   void write_block(bool is_last);
 
-  std::string& out_;  ///< receives the stream
+  std::string& out_;  ///< the text to which the compressed stream is appended
   /// The last byte of the previous deflate block, and then the bytes of the next block. The next
   /// block may begin with a run that repeats the last byte.
   std::vector<std::uint8_t> block_;
@@ -34,7 +34,7 @@ class RunDeflater {
   std::size_t written_ = 0;
   std::uint64_t pending_ = 0;   ///< up to 7 bits that are not yet in `out_`
   unsigned pending_count_ = 0;  ///< number of bits in `pending_`
-  std::uint32_t checksum_;      ///< Adler-32 of all bytes that were added
+  std::uint32_t checksum_;      ///< Adler-32 checksum of all uncompressed bytes
 };
 
 }  // namespace crowdface

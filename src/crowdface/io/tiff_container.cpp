@@ -126,9 +126,9 @@ std::uint64_t parts_of(std::uint64_t whole, std::uint64_t part) {
 /// The division of a TIFF image into pieces (strips or tiles). A strip is treated as a tile that is
 /// as wide as the image.
 struct PieceLayout {
-  std::uint64_t width, height;              ///< size of the image
-  std::uint64_t piece_width, piece_height;  ///< size of a piece
-  std::uint64_t bits;                       ///< bits per pixel in one plane
+  std::uint64_t width, height;              ///< size of the image in pixels
+  std::uint64_t piece_width, piece_height;  ///< size of a strip or tile in pixels
+  std::uint64_t bits;                       ///< number of bits per pixel in each plane of the image
   std::uint64_t planes;
   std::vector<std::uint64_t> begins, sizes;
 

@@ -28,7 +28,7 @@ class UsdaMesh {
  public:
   /// What the prim contains in addition to the polygons. These contents are the same in all files.
   struct Options {
-    Subdivision subdivision = Subdivision::kNone;  ///< the mesh's subdivision scheme
+    Subdivision subdivision = Subdivision::kNone;  ///< how viewers subdivide the mesh
     std::vector<std::string> materials = {};       ///< names of the materials; may be empty
     /// for each polygon, the index of its material in `materials`; empty: all polygons use the
     /// first material
@@ -36,7 +36,7 @@ class UsdaMesh {
     /// The blend shapes. If the vertices that a blend shape moves differ from face to face,
     /// `GlbMorphTarget::vertices` is empty.
     std::vector<GlbMorphTarget> targets = {};
-    std::string extra_prim_lines = {};  ///< text lines that are added to the prim
+    std::string extra_prim_lines = {};  ///< lines of USD text that are added to the Mesh prim
   };
 
   /// \param uvs  #T by 2; may be empty.
@@ -45,7 +45,7 @@ class UsdaMesh {
   /// Name of the Mesh prim in a layer, and paths of the prims that the Mesh prim refers to.
   struct PrimPaths {
     std::string face_prim;  ///< path of the parent prim, which contains the skeleton
-    std::string name;       ///< name of the Mesh prim
+    std::string name;       ///< name of the Mesh prim, the last component of its path
     std::string materials;  ///< path of the prim that contains the materials
   };
   /// Adds the Mesh prim to `file`, which then references memory of this object.
@@ -70,7 +70,7 @@ class UsdaMesh {
   std::size_t encoding_memory_bytes() const;
 
  private:
-  /// Adds the blend shapes.
+  /// Adds the prims of the blend shapes.
   void add_shapes(EncodedFile& file, const PrimPaths& prim_paths,
                   std::span<const Displacements> moves, const std::string& what) const;
   /// Binds the materials: one material to the whole mesh, or each material to its polygons.
@@ -82,7 +82,7 @@ class UsdaMesh {
   std::string shared_text_;
   /// prim names of the materials; empty for a material that no polygon uses
   std::vector<std::string> materials_;
-  std::vector<std::string> subsets_;  ///< one per material: the text that lists its polygons
+  std::vector<std::string> subsets_;  ///< for each material, the USD text that lists its polygons
   std::vector<std::string> shapes_;   ///< prim names of the blend shapes
   std::vector<std::string> quoted_shape_names_;  ///< names of the blend shapes, in quotes
   /// for each blend shape, the text of its vertex list; "" if the list differs from face to face

@@ -54,11 +54,11 @@ class UsdaPart {
   std::size_t encoding_memory_bytes() const { return mesh_.encoding_memory_bytes(); }
 
  private:
-  std::string name_;  ///< prim name
+  std::string name_;  ///< name of the Mesh prim
   Topology topology_;
-  NormalFans fans_;  ///< the polygons around each vertex, for its normal
+  NormalFans fans_;  ///< for each vertex, the polygons from which its normal is computed
   UsdaMesh mesh_;
-  std::vector<UsdaSurface> surfaces_;  ///< the appearance of each material
+  std::vector<UsdaSurface> surfaces_;  ///< the appearance of each material of the part
   GivenNormals given_normals_;         ///< normals that replace computed normals
 };
 

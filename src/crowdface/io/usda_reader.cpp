@@ -27,9 +27,10 @@ constexpr std::size_t kLongestStatement = 16;  // words before '='
 
 struct PrimProperty {
   std::vector<double> numbers;
-  std::vector<std::string> texts;  ///< the strings and paths in the value
+  std::vector<std::string> texts;  ///< all strings and paths in the property's value
   std::string interpolation;
-  bool is_time_sample = false;  ///< whether the value is the first time sample
+  /// Whether the property has time samples; the value is then the first time sample.
+  bool is_time_sample = false;
 };
 
 struct Prim {
@@ -52,8 +53,9 @@ struct MeshPrim {
   Eigen::Matrix4d place;
   bool has_final_place;  ///< whether `place` transforms to the layer's axes
   Prim prim;
-  bool is_hidden = false;    ///< whether the prim or a parent is inactive or invisible
-  bool is_animated = false;  ///< whether the prim or a parent has a property with only time samples
+  bool is_hidden = false;  ///< whether the prim, or a prim above it, is inactive or invisible
+  /// Whether the prim, or a prim above it, has a property with only time samples.
+  bool is_animated = false;
 };
 
 /// Whether a primvar has a value for each corner or vertex.
@@ -302,6 +304,7 @@ class UsdaReader {
     if (inherited != nullptr) prim.properties.try_emplace(property, *inherited);
   }
 
+  /// Reads the value of a property and stores it in `prim`.
   /// \param words  the words before '=', such as "uniform", "token" and "orientation"
   void read_property(const std::vector<std::string_view>& words, Prim& prim) {
     constexpr std::string_view kTimeSamples = ".timeSamples";
@@ -311,7 +314,7 @@ class UsdaReader {
     property.is_time_sample = name.ends_with(kTimeSamples) && tokens_.consume('{');
     if (property.is_time_sample) {
       name.resize(name.size() - kTimeSamples.size());
-      // Skips the time code and the colon.
+      // Skip the time code and the colon, which come before the value.
       UsdaToken token = tokens_.next();
       if (token.is('}')) return;
       if (!token.text.ends_with(':')) token = tokens_.next();
@@ -591,10 +594,11 @@ class UsdaReader {
   UsdaTokens tokens_;
   FileMesh mesh_;
   UsdaBindings bindings_;
-  std::vector<MeshPrim> meshes_;  ///< added to `mesh_` when all materials are known
+  /// The Mesh prims of the layer; added to `mesh_` when all materials are known.
+  std::vector<MeshPrim> meshes_;
   std::map<std::string, UvSource> uvs_of_material_;
   std::vector<double> points_, uvs_, colours_;
-  std::vector<std::string> files_;  ///< the file name of each texture
+  std::vector<std::string> files_;  ///< the file name of each texture in `mesh_`
   bool any_colours_ = false;
 };
 

@@ -66,6 +66,7 @@ std::string overlay_lines(const Topology& topology, const GlbOptions& options) {
                 usda_list(places), '\n');
 }
 
+/// Converts a glTF material to the appearance of a USD material.
 /// \param images  paths of the images.
 /// \param shared  see `GlbOptions::shared_folder`.
 UsdaSurface surface_of(const GlbMaterial& material, std::span<const std::string> images,

@@ -54,10 +54,11 @@ class UsdaTemplate {
   void add_points(EncodedFile& file, const Positions& points, const std::string& what) const;
 
   UsdaMesh mesh_;               ///< the Mesh prim of the face
-  std::string layer_metadata_;  ///< the layer's unit and up axis
+  std::string layer_metadata_;  ///< USD text with the layer's unit and up axis
   /// transform of the mesh if the stage's axes differ from the heads' axes; else empty
   std::string axis_transform_;
-  std::vector<GlbMaterial> glb_materials_;     ///< `GlbOptions::materials`
+  /// Materials of the face; a copy of `GlbOptions::materials`.
+  std::vector<GlbMaterial> glb_materials_;
   std::string shared_folder_;                  ///< see `GlbOptions::shared_folder`
   std::vector<std::string> point_prim_names_;  ///< prim names of the points
 };

@@ -28,7 +28,8 @@ constexpr double kEndMm = 200, kRimReachMm = 15;
 /// other surface.
 struct Correspondence {
   bool is_found = false;
-  Eigen::Vector3d normal, offset;  ///< normal of the scan; vector from the skin to the scan
+  /// Normal of the scan at this point; vector from the skin to the scan.
+  Eigen::Vector3d normal, offset;
   double weight = 0;
 };
 
@@ -152,7 +153,7 @@ class Bending {
     }
   }
 
-  /// Adds data terms from each vertex of the skin to the closest point of the scan.
+  /// Adds data terms that pull each vertex of the skin to the closest point of the scan.
   void add_scan_terms(const Positions& current, double reach, double tangential,
                       DataTerms& data_terms) {
     const Positions normals = vertex_normals_or_zero(skin_.triangles, current);
@@ -178,7 +179,8 @@ class Bending {
     }
   }
 
-  /// Adds data terms from sampled points of the scan to the closest point of the skin.
+  /// Adds data terms that pull, for each sampled point of the scan, the closest point of the skin
+  /// to the sampled point.
   void add_skin_terms(const Positions& current, double reach, double tangential,
                       DataTerms& data_terms) {
     const SurfaceTree tree(current, skin_.triangles);

@@ -13,9 +13,11 @@ namespace crowdface {
 /// result of a wrap would depend on the scan's position: discrete choices, such as the nearest
 /// triangle, depend on the last digits of coordinates, and their effects accumulate.
 struct CentredScan {
-  Scan scan;                            ///< the translated and rounded scan
-  std::vector<WrapLandmark> landmarks;  ///< their `scan_position` is translated and rounded
-  Eigen::Vector3d box_centre;           ///< centre of the bounding box in the scan file
+  Scan scan;  ///< the translated and rounded scan
+  /// The landmarks with translated and rounded `scan_position`.
+  std::vector<WrapLandmark> landmarks;
+  /// Centre of the scan's bounding box in the coordinates of the scan file.
+  Eigen::Vector3d box_centre;
 };
 /// Translates and rounds a scan and its landmarks.
 CentredScan centre_scan(const Scan& scan, std::vector<WrapLandmark> landmarks);

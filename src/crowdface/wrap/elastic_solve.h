@@ -13,7 +13,7 @@ namespace crowdface {
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// The area of each vertex: a third of the area of the adjacent triangles, but at least a
-/// thousandth of the mean.
+/// thousandth of the mean of these values.
 Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Positions& positions);
 
 /// The cotangent Laplacian (Pinkall & Polthier 1993), #V by #V, not divided by areas. Weights of
@@ -58,7 +58,8 @@ class ElasticSolver {
   /// When the conjugate gradients stop: after `max_steps` steps or at the `tolerance`.
   struct Limits {
     int max_steps = 60;
-    double tolerance = 1e-3;  ///< residual relative to the right-hand side
+    /// Size of the residual relative to the right-hand side, both measured with the preconditioner.
+    double tolerance = 1e-3;
   };
   /// Starts from `displacements`, #V by 3, and replaces them by an improved solution. The result is
   /// bitwise identical for any number of threads.

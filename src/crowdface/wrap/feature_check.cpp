@@ -61,14 +61,15 @@ Eigen::VectorXd areas_at_vertices(const SkinMesh& skin, const Positions& positio
 struct FeatureFrame {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero(), side, up, normal = Eigen::Vector3d::Zero();
 
-  /// Coordinates along `side`, `up` and `normal`.
+  /// Returns the coordinates of a point along `side`, `up` and `normal`, from `middle`.
   Eigen::Vector3d coordinates(const Eigen::Vector3d& point) const {
     const Eigen::Vector3d offset = point - middle;
     return {offset.dot(side), offset.dot(up), offset.dot(normal)};
   }
 };
 
-/// \param weights  #vertices
+/// Returns the frame of a feature that consists of `vertices`.
+/// \param weights  weight of each of the `vertices`
 /// \param up       the head's direction up
 FeatureFrame feature_frame(const Positions& positions, const Positions& normals,
                            const std::vector<std::uint32_t>& vertices,

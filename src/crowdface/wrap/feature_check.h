@@ -13,7 +13,7 @@ namespace crowdface {
 /// A part of the face whose relief differs from the skin around it: the mouth, the nose, an eye, an
 /// ear.
 struct FaceFeature {
-  std::string name;                          ///< for messages, such as "mouth"
+  std::string name;                          ///< name of the feature for messages, such as "mouth"
   std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
 };
 
@@ -33,6 +33,7 @@ struct ReliefCorrelation {
   /// high.
   double best_correlation_nearby = -1;
 
+  /// Whether the correlation at the feature is so high that the feature cannot be doubtful.
   bool is_high() const { return correlation_at_feature >= 0.7; }
   /// Whether the template's feature probably lies on another part of the scan: the correlation at
   /// the feature is low, or hardly higher than `best_correlation_nearby`. Measurements: On ICT

@@ -29,7 +29,8 @@ constexpr int kSteps = 30;
 /// Limits of even_out_folds: largest number of rounds, number of initial rounds (which do not
 /// shrink the offsets), and number of averaging sweeps in each round.
 constexpr int kMaxAveragingRounds = 10, kPureAveragingRounds = 3, kSweeps = 8;
-constexpr double kSweepFactor = 0.98;  ///< factor for the offsets in each sweep of a later round
+/// Factor by which each sweep shrinks the offsets, in the rounds after the initial rounds.
+constexpr double kSweepFactor = 0.98;
 /// Smallest allowed ratio of two areas of a triangle: the area after the move, projected onto the
 /// triangle's plane before the move, divided by the area before the move.
 constexpr double kMinAreaRatio = 0.05;
@@ -95,7 +96,7 @@ class SmoothFit {
   double stiffness_;
 };
 
-/// Target offsets of the skin's vertices along their normals.
+/// How far the skin's vertices should move along their normals to reach the scan.
 struct TargetOffsets {
   Eigen::VectorXd weights, values;  ///< one weight and one offset for each vertex of the skin
 };

@@ -59,13 +59,14 @@ class PatchMender {
             const std::function<bool(const Triangle&)>& is_bad, const PatchChange& change) const;
 
  private:
-  /// Like `mend`, for one triangle.
+  /// Repairs one triangle as described for `mend`.
   void mend_around(const Triangle& triangle, const std::function<bool(const Triangle&)>& is_bad,
                    const PatchChange& change) const;
 
   const SkinMesh& skin_;
-  VertexFaces triangles_of_vertex_;  ///< triangles around each vertex of the skin
-  int max_rings_ = 0;                ///< largest number of rings of a patch
+  /// For each vertex of the skin, the triangles around the vertex.
+  VertexFaces triangles_of_vertex_;
+  int max_rings_ = 0;  ///< maximum number of rings around the triangle of a patch
 };
 
 }  // namespace crowdface

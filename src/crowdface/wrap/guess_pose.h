@@ -13,7 +13,8 @@ namespace crowdface {
 /// The orientation of the head in a scan without landmarks.
 struct PoseHint {
   Eigen::Vector3d up, front;  ///< directions of the head: unit vectors in the scan's frame
-  std::optional<ReliefMatch> face = {};  ///< face of the scan, if already known
+  /// The face found on the scan; nothing: not yet searched or not found.
+  std::optional<ReliefMatch> face = {};
 };
 
 /// Estimates the similarity from a template to a scan without landmarks. If the relief shows where

@@ -15,11 +15,13 @@
 namespace crowdface {
 namespace {
 
-/// Residuals up to this length are natural differences between people.
+/// A typical residual of the landmarks up to this length is explained by natural differences
+/// between people's faces.
 constexpr double kMaxNaturalMm = 6;
 constexpr double kTimesWorse = 2.5;
 
-constexpr std::size_t kMinCount = 5;  ///< four points cannot reveal a reflection
+/// Minimum number of landmarks: four points cannot reveal a reflection.
+constexpr std::size_t kMinCount = 5;
 
 /// Distances in mm between corresponding landmarks of template and scan after the best similarity
 /// fit.
@@ -38,8 +40,8 @@ double median_residual(const Positions& positions, const std::vector<WrapLandmar
   return nth_smallest(residuals_of(positions, landmarks), landmarks.size() / 2);
 }
 
-/// Root mean square of the residuals. Unlike the median, the root mean square shows a single bad
-/// pair.
+/// Root mean square of the landmarks' residuals. Unlike the median, the root mean square is large
+/// even if only one pair of landmarks is swapped.
 double rms_residual(const Positions& positions, const std::vector<WrapLandmark>& landmarks) {
   double sum = 0;
   for (const double off : residuals_of(positions, landmarks)) sum += off * off;

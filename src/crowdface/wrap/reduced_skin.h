@@ -15,16 +15,18 @@ struct ReducedSkin {
   /// coordinates.
   struct BarycentricPoint {
     std::uint32_t triangle;            ///< index of a triangle of the reduced skin
-    std::array<float, 3> barycentric;  ///< coordinates in this triangle
+    std::array<float, 3> barycentric;  ///< barycentric coordinates of the position in this triangle
   };
-  std::vector<BarycentricPoint> vertex_positions;  ///< one per vertex of the original skin
+  /// For each vertex of the original skin, its position on `mesh`.
+  std::vector<BarycentricPoint> vertex_positions;
   int smoothing_steps = 0;  ///< number of smoothing steps after interpolation
 
   /// Interpolates values at the reduced skin's vertices (one row of three each) to the vertices of
   /// the original skin, and smooths them so that the edges of the reduced skin do not become
   /// visible.
   Positions interpolate(const Positions& values, const SkinMesh& original) const;
-  /// Interpolates one value per vertex, without smoothing.
+  /// Interpolates one value per vertex of the reduced skin to the vertices of the original skin,
+  /// without smoothing.
   std::vector<double> interpolate(const std::vector<double>& values) const;
 };
 

@@ -34,15 +34,16 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const 
 std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_template,
                                                 const WrapResult& result);
 
-/// \throws InvalidInput, with advice, if the result is not a valid wrap of its scan.
+/// Rejects a result that is not a valid wrap of its scan.
+/// \throws InvalidInput, with advice
 void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result,
                      const SkinRegions& regions);
 
 /// Facts for the report that WrapResult does not contain.
 struct WrapFacts {
   std::string template_file, scan_file;  ///< paths of the template and of the scan
-  std::string inputs_digest;             ///< hash of all input files and options
-  std::string mesh_digest;               ///< hash of the written head; empty: no head was written
+  std::string inputs_digest;             ///< hash of all input files and of the options
+  std::string mesh_digest;  ///< hash of the head's mesh file; empty: no head was written
   double output_scale = 1;  ///< factor by which the head was scaled to the size of the scan
   /// Leave-one-out error of the pose by landmark name, in mm: the distance between the landmark and
   /// its prediction. A similarity that is fitted to the other landmarks gives the prediction. A

@@ -12,9 +12,10 @@ namespace crowdface {
 
 /// A surface from a scanner or another program, in any unit and pose, with any triangulation.
 struct Scan {
-  Positions positions;                  ///< #V by 3
-  std::vector<Triangle> triangles;      ///< their normals point outwards
-  std::vector<std::string> notes = {};  ///< repairs and omissions, one sentence each
+  Positions positions;              ///< #V by 3
+  std::vector<Triangle> triangles;  ///< the corners are ordered so that the normals point outwards
+  /// Repairs of the scan, and omitted content, one sentence each.
+  std::vector<std::string> notes = {};
   /// for each triangle: its index among all triangles into which `triangles_of` divides the file's
   /// polygons; empty if the scan does not come from a file
   std::vector<std::uint32_t> file_triangle_indices = {};

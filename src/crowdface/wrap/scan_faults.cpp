@@ -16,7 +16,8 @@
 namespace crowdface {
 namespace {
 
-// an eye counts as closed below this fraction of the template's lid opening
+// An eye counts as closed if its lids are open less than this fraction of the template's lid
+// opening.
 constexpr double kClosed = 0.4;
 // half width, in eyeball radii, of the region in which the opening of the lids is measured
 constexpr double kMiddle = 0.4;

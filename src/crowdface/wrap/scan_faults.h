@@ -14,8 +14,9 @@ inline constexpr double kFarFromScanMm = 3;
 
 /// Regions of the skin for which a report lists distances to the scan separately.
 struct SkinRegions {
-  std::vector<std::string> names;             ///< names of the regions
-  std::vector<std::size_t> region_of_vertex;  ///< one index into `names` per skin vertex; or empty
+  std::vector<std::string> names;  ///< names of the regions
+  /// For each skin vertex, the index of its region in `names`; empty: there are no regions.
+  std::vector<std::size_t> region_of_vertex;
 
   /// Whether a vertex of the skin belongs to the region `name`.
   bool contains(std::uint32_t vertex, const std::string& name) const;

@@ -51,7 +51,7 @@ class ScanSurface {
   ClosestPoint closest_point_of(const SurfaceHit& hit) const;
 
   Scan scan_;          ///< the scan without small loose components
-  Positions normals_;  ///< normals of the vertices
+  Positions normals_;  ///< unit normals of the vertices of `scan_`; zero where undefined
   /// for each vertex: whether the vertex lies on the scan's boundary
   std::vector<bool> is_boundary_vertex_;
   SurfaceTree tree_;  ///< contains the triangles of `scan_`

@@ -15,7 +15,8 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMaxProbes = 3000;  ///< vertices sampled in each step
+/// Maximum number of vertices of the skin that the fit compares with the scan.
+constexpr std::size_t kMaxProbes = 3000;
 /// fraction of the correspondences that is used; the farthest are ignored
 constexpr double kKeptFraction = 0.8;
 constexpr Index kPoseUnknowns = 7;
@@ -26,7 +27,7 @@ constexpr double kScaleDeviation = 0.02;
 struct Match {
   std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d offset;  ///< vector from the vertex to the closest point
-  Eigen::Vector3d normal;  ///< scan normal at the closest point
+  Eigen::Vector3d normal;  ///< normal of the scan at the closest point
   double distance;
 };
 
@@ -139,7 +140,7 @@ void apply(const Eigen::VectorXd& step, const Eigen::Vector3d& middle, ShapeFit&
   fit.coefficients += step.tail(fit.coefficients.size());
 }
 
-/// One Gauss–Newton step.
+/// Improves `fit` by one Gauss–Newton step.
 /// \return number of correspondences.
 std::size_t step(const SkinMesh& skin, const ShapeModel& model, const ScanSurface& scan,
                  const std::vector<WrapLandmark>& landmarks,

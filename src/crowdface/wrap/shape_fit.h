@@ -21,7 +21,8 @@ struct WrapLandmark {
   /// Vertex of the landmark. In the caller's landmarks: index into the template's vertices. During
   /// the wrap: index into the vertices of the template's skin.
   std::uint32_t vertex = 0;
-  Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();  ///< position on the scan
+  /// Position of the landmark on the scan.
+  Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();
   /// true: the program found the landmark by the shape of the surface; false: the user picked it
   bool is_found_by_program = false;
   /// Uncertainty of `scan_position`: standard deviation along each axis. The squared distance of a
@@ -43,8 +44,8 @@ Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vect
 
 /// The pose of a head in a scan, and its coefficients in the shape model.
 struct ShapeFit {
-  Similarity pose;                ///< transform from the template to the scan
-  Eigen::VectorXd coefficients;   ///< #modes, in standard deviations
+  Similarity pose;                ///< similarity from the template's frame to the scan's frame
+  Eigen::VectorXd coefficients;   ///< one coefficient per mode, in standard deviations
   double median_distance_mm = 0;  ///< median distance from the visible skin to the scan
 };
 
@@ -60,7 +61,8 @@ struct ShapeFitOptions {
   /// Weight of the part of a vertex's offset from the scan that lies along the surface. The part
   /// along the normal has weight 1.
   double tangential_weight = 0.1;
-  double landmark_weight = 0.2;  ///< weight of the landmarks relative to the surface
+  /// Weight of the landmarks relative to the weight of the scan's surface.
+  double landmark_weight = 0.2;
 };
 
 /// Finds the similarity and the model coefficients that best fit the skin to the scan, by

@@ -14,7 +14,7 @@ struct ShapeModel {
   /// #V by 3 each, scaled to one standard deviation; the mode with the largest deviation first
   std::vector<Positions> modes;
 
-  /// mean + Σ c_k modes_k
+  /// Returns the shape mean + Σ c_k modes_k for the coefficients c.
   Positions evaluate(const Eigen::VectorXd& coefficients) const;
 };
 

@@ -19,8 +19,9 @@ struct RegressionOptions {
   /// Standard deviation, along each axis, of an additional smooth random deformation with the same
   /// correlation length. This deformation allows shapes that a few heads do not span.
   double smooth_deformation_deviation_mm = 1.8;
-  double noise_deviation_mm = 1;   ///< standard deviation of the scan's noise
-  std::size_t sample_count = 800;  ///< number of sampled vertices of the skin
+  double noise_deviation_mm = 1;  ///< standard deviation of the noise in the scan's positions
+  /// Number of vertices of the skin at which displacements are measured.
+  std::size_t sample_count = 800;
   /// For each round, the largest distance at which the closest point of the scan is used.
   std::vector<double> search_radii_mm = {10, 8, 6, 5, 4, 4, 4};
 };

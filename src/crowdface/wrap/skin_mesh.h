@@ -16,8 +16,9 @@ inline constexpr double kVisibleSkinThreshold = 0.12, kUnfoldedSkinThreshold = 0
 /// The skin of a template as a separate mesh with its own vertex indices.
 struct SkinMesh {
   std::vector<std::uint32_t> vertices;  ///< vertex indices in the template, ascending
-  std::vector<Triangle> triangles;      ///< indices into `vertices`
-  Adjacency adjacency;                  ///< neighbours along edges
+  /// Triangles of the skin; their corners are indices into `vertices`.
+  std::vector<Triangle> triangles;
+  Adjacency adjacency;  ///< for each vertex of the skin, its neighbours along edges
   /// #vertices, 0 … 1: see `vertex_ambient_visibility`
   std::vector<double> ambient_visibility;
 

@@ -17,7 +17,7 @@ struct SurfaceHit {
   std::uint32_t triangle = kNoIndex;       ///< index of the triangle; kNoIndex: nothing found
   std::array<double, 3> barycentric = {};  ///< barycentric coordinates, not negative, with sum 1
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< the point on the mesh
-  double distance = 0;                              ///< distance from the query point
+  double distance = 0;                              ///< distance of this point from the query point
 };
 
 /// The point of a triangle closest to `point` (Ericson 2005, "Real-Time Collision Detection",

@@ -97,7 +97,7 @@ void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& resu
   result.lacks_data.assign(on_boundary.begin(), on_boundary.end());
 }
 
-/// The reduced skin's shape, model and landmarks.
+/// The inputs of a wrap, converted to the vertices of the reduced skin.
 struct ReducedInputs {
   Positions rest;
   std::optional<ShapeModel> model;

@@ -18,8 +18,9 @@ namespace crowdface {
 /// stages of the wrap.
 struct LandmarkResidual {
   std::string name;
-  double pose_distance_mm = 0;       ///< distance when only the pose (a similarity) is fitted
-  double final_distance_mm = 0;      ///< distance after the wrap
+  double pose_distance_mm = 0;  ///< distance when only the pose (a similarity) is fitted
+  /// Distance between the landmark on the wrapped template and on the scan.
+  double final_distance_mm = 0;
   bool is_found_by_program = false;  ///< see `WrapLandmark::is_found_by_program`
   /// whether the final distance is far above the other landmarks' distances; then the landmark is
   /// probably misplaced
@@ -37,10 +38,13 @@ struct FeatureCheck {
 
 /// A template that was wrapped onto a scan, and measures of the quality.
 struct WrapResult {
-  Positions positions;  ///< #V by 3 of the whole template, in its frame, in millimetres
-  Similarity pose;      ///< similarity transform from the template's frame (mm) to the scan's frame
+  /// Vertices of the whole template after the wrap: #V by 3, in the template's frame, in
+  /// millimetres.
+  Positions positions;
+  Similarity pose;  ///< similarity transform from the template's frame (mm) to the scan's frame
   std::vector<LandmarkResidual> landmarks;  ///< the residuals of all landmarks used
-  std::vector<FeatureCheck> features;       ///< set by `wrap_checked` only
+  /// One check per feature; set by `wrap_checked`, empty after `wrap`.
+  std::vector<FeatureCheck> features;
   /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
   /// without them agrees better.
   std::vector<std::string> dropped_landmarks;

@@ -18,7 +18,7 @@ struct WrapTemplate {
   Adjacency adjacency;    ///< neighbours of each vertex along edges
   Components components;  ///< connected components of the mesh
   PartList parts;         ///< the class of each component, and the parts that are not skin
-  HeadAxes axes;          ///< up and front direction of the head
+  HeadAxes axes;          ///< up and front direction of the template's head
   Positions positions;    ///< #V by 3, in millimetres
   SkinMesh skin;
   /// the face found on the skin; nothing if the skin does not have the relief of a face

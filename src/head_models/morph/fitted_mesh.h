@@ -31,12 +31,13 @@ std::filesystem::path picture_path(const std::filesystem::path& file, const std:
 struct FittedMesh {
   /// An alternative material of the mesh.
   struct Picture {
-    std::string name;            ///< name of the material: "brown"
-    std::filesystem::path path;  ///< colour texture; empty: none
+    std::string name;            ///< name of the material, such as "brown"
+    std::filesystem::path path;  ///< path of the colour texture; empty: the material has no texture
   };
-  Topology topology;                                  ///< the polygons, on #V vertices
-  TextureCoordinates uvs;                             ///< #T by 2
-  std::vector<std::array<std::uint32_t, 3>> anchors;  ///< #V: three vertices of the base mesh
+  Topology topology;       ///< the polygons, on #V vertices
+  TextureCoordinates uvs;  ///< #T by 2
+  /// For each vertex, three vertices of the base mesh.
+  std::vector<std::array<std::uint32_t, 3>> anchors;
   Positions weights;  ///< #V by 3: for each vertex, the weights of its three anchors
   Positions offsets;  ///< #V by 3, decimetres: added to the weighted means of the anchors
   std::vector<Picture> pictures;  ///< one for each alternative material

@@ -36,7 +36,8 @@ class HeadModel {
 
 /// Heights (y coordinates) of the eyes and of the mouth in the neutral head.
 struct FeatureHeights {
-  double eye_height = 0, mouth_height = 0;  ///< in centimetres; in MakeHumanMesh in decimetres
+  /// Y coordinates in centimetres; in a MakeHumanMesh, in decimetres.
+  double eye_height = 0, mouth_height = 0;
 };
 
 /// Returns the vertices of all polygons whose material's name contains one of the words, ascending.

@@ -24,7 +24,7 @@ struct Control {
   std::string_view stem, less, more;
   double spread;      ///< standard deviation of the measure
   double aged = 0;    ///< change of the mean per 20 years of age above kUnaged
-  double weight = 0;  ///< change of the mean for the heaviest body
+  double weight = 0;  ///< change of the measure's mean for people with the heaviest body
   /// Change of the mean for women: with MakeHuman's targets for sex alone, many women have the face
   /// of a man.
   double female = 0;
@@ -159,8 +159,8 @@ std::span<const char> sides_of(const Control& control) {
   return std::span(kSides).first(paired ? 2 : 1);
 }
 
-/// Returns the interpolation weights of the targets for min, average and max amount; x is the
-/// amount, 0 … 1.
+/// Returns the weights with which the targets for the minimum, the average and the maximum of an
+/// attribute, such as muscle, are interpolated. x is the attribute's value, 0 … 1.
 std::array<double, 3> amount_weights(double x) {
   return {std::max(0.0, 1 - 2 * x), 1 - std::abs(2 * x - 1), std::max(0.0, 2 * x - 1)};
 }

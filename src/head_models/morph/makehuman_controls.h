@@ -16,10 +16,11 @@ inline constexpr std::array<std::string_view, 3> kAncestries = {"african", "asia
 
 /// Attributes of a person. They determine the means of the person's random measures.
 struct MakeHumanPerson {
-  bool is_male = false;               ///< whether the person is male; false: female
-  double age_years = 0;               ///< age in years, 20 … 80
-  std::array<double, 3> ancestry{};   ///< shares of kAncestries, which sum to 1
-  double muscle = 0.5, weight = 0.5;  ///< amounts, 0 (least) … 1 (most)
+  bool is_male = false;              ///< whether the person is male; false: female
+  double age_years = 0;              ///< age in years, 20 … 80
+  std::array<double, 3> ancestry{};  ///< shares of kAncestries, which sum to 1
+  /// Amounts of muscle and of body weight, 0 (least) … 1 (most).
+  double muscle = 0.5, weight = 0.5;
 };
 /// Returns the random person of head `index` of a seed.
 MakeHumanPerson random_makehuman_person(std::uint64_t seed, std::uint64_t index);

@@ -15,8 +15,8 @@ namespace crowdface {
 /// \param head  the average head; hair outside the head stays outside
 Positions combed_aside(const Positions& hair, const Mesh& head);
 
-/// Moves brows up. Also turns brows that rise steeply to the sides, because such brows look angry.
-///
+/// Moves brows up. Also makes brows more level if they rise steeply from the nose to the temples,
+/// because such brows look angry.
 /// \param brows  #V by 3: both brows
 /// \param head   the average head; each vertex keeps its distance from the head along z
 Positions levelled_brows(const Positions& brows, const Mesh& head);

@@ -17,10 +17,11 @@ namespace crowdface {
 struct MakeHumanMesh {
   /// all vertices of the file, in decimetres; morph targets use the row indices of this matrix
   Positions file_positions;
-  Mesh head;                             ///< skin and eyeballs above the cut, decimetres
-  Mesh body;                             ///< the skin below the cut, decimetres
-  std::vector<std::uint32_t> head_rows;  ///< row of each head vertex in file_positions, ascending
-  std::vector<MaterialRange> materials;  ///< skin, then eyeball_r and eyeball_l
+  Mesh head;  ///< skin and eyeballs above the cut, decimetres
+  Mesh body;  ///< the skin below the cut, decimetres
+  /// For each vertex of `head`, its row in `file_positions`; ascending.
+  std::vector<std::uint32_t> head_rows;
+  std::vector<MaterialRange> materials;  ///< polygons of the skin, of eyeball_r and of eyeball_l
   FeatureHeights heights;                ///< heights of the eyes and of the mouth, decimetres
 };
 
@@ -79,10 +80,11 @@ class MakeHumanHeads : public HeadModel {
   /// Returns the skin and all parts of a head. \param base  all vertices of the head's body
   Positions append_parts(const Positions& base) const;
 
-  MakeHumanMesh mesh_;                    ///< the base mesh
-  MorphTargets targets_;                  ///< all morph targets of the package
-  std::vector<std::uint32_t> eye_rows_;   ///< rows of the eyeballs in the base mesh
-  std::vector<std::uint32_t> skin_rows_;  ///< rows of the skin in the base mesh; set by add_parts()
+  MakeHumanMesh mesh_;                   ///< the base mesh
+  MorphTargets targets_;                 ///< all morph targets of the package
+  std::vector<std::uint32_t> eye_rows_;  ///< rows of the eyeballs' vertices in the base mesh
+  /// Rows of the skin's vertices in the base mesh; set by add_parts().
+  std::vector<std::uint32_t> skin_rows_;
   std::vector<FittedPart> parts_;         ///< see add_parts(); initially empty
   Mesh neutral_;                          ///< see neutral()
   std::vector<MaterialRange> materials_;  ///< see materials()

@@ -123,7 +123,8 @@ struct Wearable {
   double share = 1;
   bool young = false;        ///< whether old people never wear the attachment
   bool is_mirrored = false;  ///< whether left and right of the package's mesh are exchanged
-  double end = -HUGE_VAL;    ///< height in centimetres above the eyes at which hair is cut
+  /// Height at which hair is cut, in centimetres above the eyes; −∞: not cut.
+  double end = -HUGE_VAL;
 };
 // For hair, the tags "male" and "female" come from the package. For brows, the thickness of the
 // brows determines these tags.

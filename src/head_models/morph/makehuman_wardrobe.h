@@ -45,8 +45,8 @@ std::string makehuman_eye_colour(const MakeHumanPerson& person, std::uint64_t se
 /// How irises of an eye colour are made from a texture of the package.
 struct IrisLook {
   std::string_view picture;  ///< name of the material whose texture is used
-  double darkening;          ///< factor on the optical density
-  double greying;            ///< 0: keep the colour … 1: grey
+  double darkening;          ///< factor on the optical density of the texture's iris
+  double greying;  ///< 0: the iris keeps the colour of the texture … 1: the iris is grey
 };
 /// Returns how irises of an eye colour are made. \param colour  a result of makehuman_eye_colour
 IrisLook makehuman_iris_look(const std::string& colour);
@@ -58,9 +58,9 @@ std::string makehuman_hair_colour(const MakeHumanPerson& person, std::uint64_t s
 
 /// The parts that all heads have in addition to skin.
 struct MakeHumanParts {
-  std::vector<FittedPart> fitted_parts;          ///< eyeball_r, eyeball_l, teeth, tongue
+  std::vector<FittedPart> fitted_parts;  ///< the parts eyeball_r, eyeball_l, teeth and tongue
   std::vector<FittedMesh::Picture> eye_colours;  ///< iris textures of the package, by colour
-  std::filesystem::path teeth, tongue;           ///< texture of each part
+  std::filesystem::path teeth, tongue;  ///< texture of the teeth, and texture of the tongue
   AssetLicence eyes_licence, teeth_licence, tongue_licence;
 };
 

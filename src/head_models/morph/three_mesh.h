@@ -16,13 +16,15 @@ namespace crowdface {
 struct ThreeMesh {
   /// A quad.
   struct Face {
-    std::array<std::uint32_t, 4> vertices, uvs;  ///< rows of `positions` and of `uvs`
-    std::uint32_t material;                      ///< index into `material_names`
+    /// For each corner, its row of `positions` and its row of `uvs`.
+    std::array<std::uint32_t, 4> vertices, uvs;
+    std::uint32_t material;  ///< index into `material_names`
   };
   Positions positions;  ///< #V by 3
   TextureCoordinates uvs;
   std::vector<Face> faces;
-  std::vector<std::string> material_names;  ///< one per material
+  /// Names of the materials to which `Face::material` refers.
+  std::vector<std::string> material_names;
 
   /// Returns the name of a quad's material.
   const std::string& material_of(const Face& face) const { return material_names[face.material]; }

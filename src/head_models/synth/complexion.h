@@ -12,7 +12,7 @@ namespace crowdface::synth {
 
 /// An sRGB colour; components in [0, 1].
 using ScreenColour = Eigen::Array3d;
-/// Converts components from 0 … 255.
+/// Converts the components of an sRGB colour from the range 0 … 255 to the range 0 … 1.
 inline ScreenColour from_bytes(double red, double green, double blue) {
   return ScreenColour(red, green, blue) / 255;
 }

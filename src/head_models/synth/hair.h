@@ -62,10 +62,11 @@ class Hair {
   double hanging_fraction(const Eigen::Vector3d& p) const;
 
   HairStyle style_;
-  double recession_;           ///< see Complexion::recession
-  SmoothNoise hairs_, tufts_;  ///< brightness of strands and of tufts of strands
-  SmoothNoise edge_;           ///< makes the hairline irregular
-  SmoothNoise locks_;          ///< varies the thickness of curls and hanging locks
+  double recession_;  ///< see Complexion::recession
+  /// Noise: brightness of single strands; brightness of tufts of strands.
+  SmoothNoise hairs_, tufts_;
+  SmoothNoise edge_;   ///< noise that makes the hairline irregular
+  SmoothNoise locks_;  ///< noise that varies the thickness of curls and of hanging locks
 };
 
 }  // namespace crowdface::synth

@@ -33,7 +33,7 @@ constexpr double kWispFraction = 0.2;  // fraction of the roots that have a card
 
 struct Root {
   Vector3d place, normal;
-  double inside = 0;  ///< distance from the hairline, cm
+  double inside = 0;  ///< distance of the root from the hairline, cm
 };
 
 /// Returns the roots of hair cards, spread over the scalp with a minimum distance. Long hair hides

@@ -18,12 +18,12 @@ struct HairCut {
   bool is_curly = false;
   bool has_bald_crown = false;  ///< whether the crown is bald
   double recession = 0;  ///< hairline recession, 0 … 1; above 0, the cut is not for young people
-  double parting_x = 0;  ///< x coordinate of the parting
+  double parting_x = 0;  ///< x coordinate of the parting on the average head, cm
   double sideways_combing = 1;  ///< component of the combing direction away from the parting
   double backward_combing = 0;  ///< backward component of the combing direction
-  double top_length = 5;        ///< length on top
-  double side_length = 5;       ///< length above and behind the ears; 0: no hair there
-  double hem_y = -30;           ///< y coordinate at which hair is cut
+  double top_length = 5;        ///< length of the hair on top of the head, cm
+  double side_length = 5;  ///< length of the hair above and behind the ears, cm; 0: no hair there
+  double hem_y = -30;      ///< y coordinate of the haircut's lower edge, at which hair is cut, cm
   double fringe_y = kNoFringe;  ///< y coordinate of the fringe's lower edge, or kNoFringe
   double volume_factor = 1;     ///< factor on the distance of the hair from the scalp
   double wave_amplitude = 0;    ///< amplitude of waves in the locks

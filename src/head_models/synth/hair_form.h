@@ -33,7 +33,7 @@ Eigen::Vector3d combing_direction(const HairCut& cut, const Eigen::Vector3d& p);
 /// A hair mesh of quads under construction. Vertex i has texture coordinate i.
 struct HairMesh {
   std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector2d> uvs;  ///< one per point
+  std::vector<Eigen::Vector2d> uvs;  ///< one pair of texture coordinates per point
   Topology topology;
 
   /// Returns the complete mesh. There must be at least one point.

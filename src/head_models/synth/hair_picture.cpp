@@ -16,14 +16,14 @@ constexpr double kWaves = 8;          // minimum number of half waves of a curly
 constexpr double kSwing = 0.075;      // amplitude of these waves, in units of a strip's width
 
 struct Strand {
-  std::uint64_t clump = 0;  ///< number of the clump, unique among all strips
+  std::uint64_t clump = 0;  ///< number of the strand's clump, unique among all strips
   double place = 0;         ///< horizontal position of the root, in units of a strip's width
-  double middle = 0;        ///< horizontal position of the clump's middle
-  double half = 0;          ///< half the strand's width, in units of a strip's width
-  double start = 0;         ///< start as a fraction of the card's length
-  double end = 1;           ///< end as a fraction of the card's length
-  double light = 1;         ///< brightness relative to the hair colour
-  double bend = 0;          ///< amplitude of the strand's own bends, in units of a strip's width
+  double middle = 0;  ///< horizontal position of the clump's middle, in units of a strip's width
+  double half = 0;    ///< half the strand's width, in units of a strip's width
+  double start = 0;   ///< where the strand starts, as a fraction of the card's length
+  double end = 1;     ///< where the strand ends, as a fraction of the card's length
+  double light = 1;   ///< brightness of the strand relative to the hair colour
+  double bend = 0;    ///< amplitude of the strand's own bends, in units of a strip's width
   double waves = 0, phase = 0;  ///< curly hair: number of half waves, and their phase
 };
 
@@ -46,7 +46,7 @@ std::vector<Strand> draw_strands(bool curly) {
     strand.place = static_cast<double>(strip) + place;
     strand.middle = (static_cast<double>(clump) + 0.5) / static_cast<double>(clumps);
     strand.half = is_wisp ? 0.011 : 0.016 * (0.7 + 0.6 * unit("half"));
-    // At its edges, a card shows short single strands.
+    // At the left and right edge, a card shows short single strands.
     strand.start = (0.01 + (strip < kThinStrip ? 0.04 : 0.12) * edge) * unit("start");
     strand.end = 0.86 + 0.14 * of_clump("end") - (0.08 + 0.22 * edge) * unit("end");
     if (is_cap) strand.end = 0.5 + 0.28 * unit("end");
@@ -104,7 +104,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
     for (std::size_t x = 0; x < side; ++x) {
       const bool is_cap = u_of(x) >= kCardStripCount;
       const double light = lights[x] * (is_cap ? 1 : 0.65 + 0.35 * smooth_step(0, 0.3, t));
-      // Single hairs near the hairline; farther away, the cap is closed.
+      // The cap shows single hairs near the hairline. Farther from the hairline, the cap is opaque.
       if (is_cap) {
         const double frayed = t + 0.08 * bends.at({10 * u_of(x), 0, 9});
         covers[x] = std::max(covers[x], smooth_step(0.77, 0.47, frayed));

@@ -47,10 +47,11 @@ class Identity {
   Person person_;
   /// displacements of the measures times their values, and the random asymmetry of nose and jaw
   std::vector<LocalDisplacement> displacements_;
-  Eigen::Vector3d scale_{1, 1, 1};  ///< factors on width, height and depth
+  Eigen::Vector3d scale_{1, 1, 1};  ///< factors on width, height and depth of the head
   double face_length_ = 0;          ///< relative change of the length of the face below the eyes
   double asymmetry_amplitude_ = 0;  ///< amplitude of asymmetry_noise_, cm
-  SmoothNoise asymmetry_noise_;     ///< asymmetry between left and right
+  /// Noise that displaces the left and the right side of the head differently.
+  SmoothNoise asymmetry_noise_;
 };
 
 }  // namespace crowdface::synth

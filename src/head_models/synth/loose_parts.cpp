@@ -36,6 +36,7 @@ struct Row {
   Vector3d middle;
   double height;
 };
+/// Returns the centre and height at one position of a row of teeth.
 /// \param t   position along the row, −1 … 1. \param up  1: upper row, −1: lower row.
 Row row_at(double t, double up) {
   const double x = kArcWidth * t * (1.2 - 0.2 * t * t), z = 7.95 - kArcDepth * t * t;

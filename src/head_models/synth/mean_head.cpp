@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns the ray to a point on the edge of the eye's opening. \param c  unit direction (x
-/// outward, y up).
+/// Returns the ray to a point on the edge of the eye's opening. \param c  unit direction (x away
+/// from the midline of the face, y up).
 GuideRay eye_edge(const Vector2d& c) {
   // Almond shape: pointed corners, an upper lid that is highest towards the nose, and an outer
   // corner slightly above the inner corner.
@@ -60,7 +60,7 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector2d rim(foot.x() - eye_centre().x(), foot.y());
   const Vector2d flat = rim + t * (0.26 * c - rim);
   const double r2 = kEyeRadius * kEyeRadius;
-  // The iris is a shallow dish, as sculptors carve it.
+  // The iris has the shape of a shallow dish, as in carved sculptures.
   const double dish = 0.10 * smooth_step(0.62, 0.42, flat.norm());
   return eye_centre() +
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);

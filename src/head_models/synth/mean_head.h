@@ -10,7 +10,7 @@ namespace crowdface::synth {
 /// A point on the average head in cm: +Y is up, the head faces +Z, the eyes are at y = 0.
 struct SkinPoint {
   Eigen::Vector3d position;
-  Eigen::Vector3d normal;    ///< unit, outward
+  Eigen::Vector3d normal;    ///< unit normal of the skin, which points out of the head
   double relief_weight = 1;  ///< factor on the fine relief: 0 on eyeballs and inside openings
 };
 

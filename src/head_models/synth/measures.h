@@ -23,9 +23,9 @@ struct LocalDisplacement {
 struct Measure {
   std::string_view name;
   double maleness_effect, age_effect, build_effect;  ///< factors of the formula above
-  double spread;                                     ///< standard deviation of the random part
-  LocalDisplacement displacement;                    ///< displacement for a value of 1
-  double mean = 0;                                   ///< value of a person with average attributes
+  double spread;                   ///< standard deviation of the measure's random part
+  LocalDisplacement displacement;  ///< displacement of the skin if the measure has the value 1
+  double mean = 0;                 ///< value of the measure for a person with average attributes
 };
 /// Returns all measures.
 std::span<const Measure> measures();

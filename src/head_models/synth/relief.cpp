@@ -56,7 +56,7 @@ struct WrinkleArea {
   std::string_view name;
   Vector2d pole;  ///< centre of the arcs or rays, cm
   bool has_rays;
-  Vector2d centre, radii;  ///< the wrinkles lie in this ellipse; cm
+  Vector2d centre, radii;  ///< centre and radii of the ellipse in which the wrinkles lie, cm
   double spacing;          ///< mean distance between neighbouring wrinkles, cm
   double depth;            ///< depth of the wrinkles of old people, cm
   /// Person::scaled_age() at which wrinkles begin; at begin + 1, wrinkles have their full depth

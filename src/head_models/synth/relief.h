@@ -40,9 +40,12 @@ class Relief {
   struct Stroke {
     static constexpr int kPieces = 12;  ///< number of straight pieces of the curve
     std::array<Eigen::Vector2d, kPieces + 1> points;
-    double width, depth;  ///< width and depth of the groove
-    double bulge;  ///< height of a ridge beside the curve, relative to the depth; positive: left
-    Eigen::AlignedBox2d affected_box;  ///< region in the front view that the curve changes
+    double width, depth;  ///< width and depth of the curve's groove, cm
+    /// Height of a ridge beside the curve, relative to the depth; positive: the ridge is left of
+    /// the curve.
+    double bulge;
+    /// Bounding box, in the front view, of the points that the curve displaces.
+    Eigen::AlignedBox2d affected_box;
   };
   /// Returns the relief without folds and lines, cm: uneven skin, pores and lip creases.
   double grain(const Eigen::Vector3d& position) const;
@@ -57,25 +60,27 @@ class Relief {
   /// \param side  1, or −1 to add the mirror image of the curve at x = 0.
   void add_stroke(std::size_t fold_index, double side, double depth);
 
+  /// the curves of all folds and lines, and their mirror images
   std::vector<Stroke> strokes_;
-  SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;  ///< displace all folds together
+  /// Noise that displaces all folds of a head together, in x and in y.
+  SmoothNoise fold_offset_noise_x_, fold_offset_noise_y_;
   /// bends wrinkles sideways, by about ±0.45 of the distance between neighbouring wrinkles
   SmoothNoise wrinkle_waves_;
-  SmoothNoise wrinkle_gaps_;  ///< wrinkles have gaps where this noise is low
+  SmoothNoise wrinkle_gaps_;  ///< noise; wrinkles have gaps where its value is low
   /// The wrinkles of an area. Lengths in cm.
   struct Wrinkles {
-    double depth, spacing;  ///< spacing: mean distance between neighbouring wrinkles
+    double depth, spacing;  ///< depth of the wrinkles; mean distance between neighbouring wrinkles
     double offset;          ///< 0 … 1: shifts the wrinkles by this fraction of the spacing
   };
   std::vector<Wrinkles> wrinkles_;
   /// Noise of one wavelength.
   struct Octave {
     SmoothNoise noise;
-    double amplitude;  ///< cm
+    double amplitude;  ///< amplitude of the noise, cm
   };
-  std::vector<Octave> broad_octaves_, fine_octaves_;  ///< uneven skin, and pores
+  std::vector<Octave> broad_octaves_, fine_octaves_;  ///< noise of uneven skin; of pores
   SmoothNoise lip_creases_;  ///< noise that is stretched to creases across the lips
-  double lip_depth_;         ///< amplitude of lip_creases_
+  double lip_depth_;         ///< amplitude of lip_creases_, cm
 };
 
 }  // namespace crowdface::synth

@@ -11,7 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The distance functions of the bodies follow Quilez, "Distance functions" (iquilezles.org).
+// The distance functions of simple bodies, such as ellipsoids and capsules, follow Quilez,
+// "Distance functions" (iquilezles.org).
 
 double ellipsoid(const Vector3d& p, const Vector3d& centre, const Vector3d& radii) {
   const Vector3d q = (p - centre).cwiseQuotient(radii);

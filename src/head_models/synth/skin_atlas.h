@@ -12,7 +12,7 @@ namespace crowdface::synth {
 
 /// The point of the average head that one texel of the skin texture shows.
 struct AtlasTexel {
-  SkinPoint skin;  ///< on the average head
+  SkinPoint skin;  ///< the point on the average head
   /// Coordinate LatticePoint::b in the rings around an eye: 0 at their outline, 1 at the edge of
   /// the lid, 2 at the hole
   double eye_ring_coordinate = 0;

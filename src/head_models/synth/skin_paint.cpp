@@ -202,7 +202,7 @@ void SkinPaint::paint_openings(const AtlasTexel& place, ScreenColour& colour) co
 
 double SkinPaint::brow_coverage(const Vector& p) const {
   if (p.z() < 3) return 0;
-  // An arch above each eye, thickest towards the nose.
+  // A brow is an arch above the eye. The brow is thickest towards the nose.
   const double x = std::abs(p.x()), t = (x - 1.15) / 4.3;
   if (t < -0.15 || t > 1.2) return 0;
   const double arch = 1.95 + 1.45 * t * (1 - t) * (0.8 + 0.6 * t) - 0.12 * t * t +
@@ -212,7 +212,8 @@ double SkinPaint::brow_coverage(const Vector& p) const {
 }
 
 /// Returns the fraction of the skin that single hairs of a brow hide.
-/// \param place  cm outward from the brow's inner end and upward from its middle line.
+/// \param place  point in cm: x from the brow's inner end away from the nose, y up from the brow's
+///               middle line.
 /// \param side   selects the hairs of the left or of the right brow.
 double SkinPaint::brow_hairs(const Vector2d& place, std::uint64_t side) const {
   constexpr double kLength = 4.3, kCell = 0.08, kHair = 0.5;  // cm
@@ -237,7 +238,8 @@ double SkinPaint::brow_hairs(const Vector2d& place, std::uint64_t side) const {
       const Vector2d root = kCell * Vector2d(i + unit(0), j + unit(1));
       const double grown = density(root);
       if (unit(3) >= grown) continue;
-      // Hairs point up near the nose, then outward, and converge towards the middle line.
+      // Hairs point up near the nose and away from the nose farther out, and converge towards the
+      // middle line.
       const double t = std::clamp(root.x() / kLength, 0.0, 1.0);
       const Vector2d direction =
           Vector2d(0.35 + t, 0.9 * (1 - t) * (1 - t) + 0.15 - 1.1 * root.y()).normalized();
@@ -263,7 +265,7 @@ double SkinPaint::beard_coverage(const Vector& p, double strand) const {
   const double below = smooth_step(0.6, -1.1 + 0.4 * lip, over + wander + 0.3 * strand);
   const double neck = smooth_step(-13.4, -11.4, p.y() + wander);
   const double back = smooth_step(-0.5, 0.8, p.z());
-  // Bare patches below the lower lip, on both sides of the chin.
+  // Beards have bare patches below the lower lip, on both sides of the chin.
   const double bare = 0.2 * patch(p, {1.3, -8.4}, {0.9, 0.55});
   return below * neck * back * (1 - on_lips(p, 0.1 * aged_)) * (1 - bare);
 }
@@ -288,7 +290,7 @@ double SkinPaint::beard_coverage(const Vector& p) const {
   const double strand = hairs_.at({p.x(), 0.3 * p.y(), p.z()});
   const double dense = beard_coverage(p, strand) * beard_length(p);
   if (dense <= 0) return 0;
-  // Single hairs: the part of the noise above a threshold. Stubble is finer than a long beard.
+  // Single hairs are where the noise exceeds a threshold. Stubble is finer than a long beard.
   const double stubble = smooth_step(0.9, 0.5, beard_length(p));
   const double hairs = 0.5 + 0.5 * (strand + stubble * (grain_.at(p) - strand));
   const double grown = 0.75 * dense + 0.4 * smooth_step(0.7, 1, dense);

@@ -58,7 +58,7 @@ class SkinPaint {
   Relief relief_;
   SmoothNoise mottle_, blotch_, pores_, freckles_, spots_, hairs_, tufts_, hairline_, grain_,
       flush_;
-  double aged_;  ///< age of the skin: 0 at up to 36 years, 1 from 68 years
+  double aged_;  ///< how aged the skin is: 0 up to 36 years of age, 1 from 68 years of age
   Hair hair_;
   double scalp_hair_;  ///< see the constructor
 };

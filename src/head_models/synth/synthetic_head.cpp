@@ -25,7 +25,7 @@ constexpr std::size_t kVerticesPerBlock = 1024;
 
 SyntheticHeads::SyntheticHeads(Index vertices, Parts parts, Scalp scalp) : scalp_(scalp) {
   require(vertices >= kMin && vertices <= kMax, "synthetic heads of ", vertices, " vertices");
-  // The smallest layout, 5,000 vertices, has edges of 5 mm.
+  // The smallest layout has 5,000 vertices and edges of 5 mm.
   const auto edge_of = [](Index count) {
     return 0.5 * std::sqrt(5000.0 / static_cast<double>(count));
   };

@@ -38,7 +38,7 @@ class SyntheticSkins {
   int size_;
   double scalp_hair_;  ///< parameter `scalp_hair` of SkinPaint
   std::vector<synth::AtlasTexel> atlas_;
-  double texel_cm_ = 0;  ///< distance of neighbouring texels on the skin
+  double texel_cm_ = 0;  ///< typical distance on the skin between neighbouring texels, cm
 };
 
 }  // namespace crowdface
