@@ -37,8 +37,9 @@ struct PicturedCrowd {
 
 /// The files made for the pictures of one face, as bytes.
 struct FacePictures {
-  std::string png;                            ///< PNG file of all views, side by side
-  std::optional<std::string> gallery_script;  ///< from GalleryMeshes; empty without a gallery
+  std::string png;  ///< PNG file of all views, side by side
+  /// the face's script for the gallery, from GalleryMeshes; empty without a gallery
+  std::optional<std::string> gallery_script;
 };
 
 /// Renders the faces of a crowd. Each view has one camera for all faces, fitted to the input heads,
@@ -116,7 +117,7 @@ class CrowdRenders {
 
   PicturedMesh mesh_;
   const FaceTextures* textures_;
-  std::vector<Camera> cameras_;  ///< one per view
+  std::vector<Camera> cameras_;  ///< the camera of each view
   FaceRenderer renderer_;
   const Inputs& inputs_;
   bool shows_textures_;

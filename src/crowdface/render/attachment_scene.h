@@ -52,8 +52,8 @@ class AttachmentScene {
   void mark_pixels(const std::vector<float>& points, float distance);
 
   int size_px_;                  ///< side of the image, in pixels
-  std::vector<bool> may_cover_;  ///< one per pixel
-  std::vector<Part> parts_;      ///< one per attachment
+  std::vector<bool> may_cover_;  ///< for each pixel: the result of may_cover
+  std::vector<Part> parts_;      ///< the attachments of the face
   std::vector<Quad> quads_;      ///< the quads of all attachments, one attachment after another
   std::vector<std::uint8_t> mip_levels_;  ///< for each quad: level for AttachmentSurface::opacity
   std::vector<Eigen::Vector3f> normals_;  ///< vertex normals of all attachments

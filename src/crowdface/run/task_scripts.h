@@ -41,8 +41,9 @@ std::string_view name_of(JobEngine engine);
 /// Options for the render farm's job engine; some engines use only part of them.
 struct JobEngineOptions {
   std::string partition, time_limit;  ///< only for Slurm; empty: the default of the Slurm site
-  std::uint64_t grace_seconds = 60;   ///< time between the termination signal and the time limit
-  std::vector<std::string> hosts;     ///< only for GNU parallel: ssh hosts; empty: this machine
+  /// only for Slurm: seconds between SIGTERM and the time limit of a task
+  std::uint64_t grace_seconds = 60;
+  std::vector<std::string> hosts;  ///< only for GNU parallel: ssh hosts; empty: this machine
   std::vector<std::string> extra_arguments;  ///< further arguments for the engine, passed unchanged
 };
 

@@ -21,7 +21,9 @@ struct TraitReport {
   struct TargetComparison {
     TraitTarget target;                       ///< the requested distribution
     double mean = 0, standard_deviation = 0;  ///< mean and standard deviation of the sampled faces
-    double max_difference = 0;                ///< see kolmogorov_smirnov_distance
+    /// largest difference between the cumulative distributions of the sampled faces and of the
+    /// request, see kolmogorov_smirnov_distance
+    double max_difference = 0;
     /// The values of random faces, which need not satisfy the limits, form a range. These are the
     /// fractions of the requested distribution below this range and above this range.
     double fraction_below = 0, fraction_above = 0;

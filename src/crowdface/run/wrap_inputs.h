@@ -55,9 +55,10 @@ struct WrapInputs {
   /// The landmarks that the program can detect on a scan: for the name of each landmark, the vertex
   /// of the template at this landmark.
   std::map<std::string, std::uint32_t> detected_landmarks;
-  std::vector<FaceFeature> features;  ///< features of the template's face
-  int texture_size = 0;               ///< texels per side of baked textures; 0: none
-  Digest digest;                      ///< hash of all inputs in this struct
+  /// mouth, nose, eyes and ears of the template, as far as its landmarks are known
+  std::vector<FaceFeature> features;
+  int texture_size = 0;  ///< texels per side of baked textures; 0: none
+  Digest digest;         ///< hash of all inputs in this struct
 };
 
 /// Reads the files that the options name. \throws Error that names the faulty file or option.

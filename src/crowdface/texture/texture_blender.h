@@ -16,7 +16,8 @@ namespace crowdface {
 
 /// Options of TextureBlender.
 struct TextureBlendOptions {
-  StatisticsScale statistics_scale;  ///< how many smoothing iterations the statistics use
+  /// how far the statistics of the heads' maps are smoothed over the mesh
+  StatisticsScale statistics_scale;
   /// for each vertex: the vertex's weight in means over the face; not all weights may be zero
   std::vector<double> vertex_areas;
   /// For each vertex, whether it gets only the target's colours, as eyes and teeth do; may be
