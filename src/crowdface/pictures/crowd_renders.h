@@ -123,7 +123,8 @@ class CrowdRenders {
   bool shows_textures_;
   int max_texels_;  ///< largest width and height of a texture in rendered images
   AttachmentSurfaces attachment_surfaces_;
-  const GalleryMeshes* gallery_ = nullptr;  ///< null: render_files makes no gallery scripts
+  /// the gallery's meshes, for `render_files`; null: render_files makes no gallery scripts
+  const GalleryMeshes* gallery_ = nullptr;
 };
 
 /// Reads a rendered image from the crowd's folder. \throws MissingInput, InvalidInput.

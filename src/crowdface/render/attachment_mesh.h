@@ -66,9 +66,10 @@ class AttachmentSurface {
 
 /// An attachment placed on a face.
 struct AttachmentMesh {
-  const AttachmentSurface* surface;         ///< topology and materials of the attachment
-  const Positions* positions;               ///< vertex positions on the face, #V by 3
-  LinearRgb tint = LinearRgb::Constant(1);  ///< a factor for each channel of the colour
+  const AttachmentSurface* surface;  ///< topology and materials of the attachment
+  const Positions* positions;        ///< vertex positions on the face, #V by 3
+  /// tint of the attachment: a factor for each channel of its colours
+  LinearRgb tint = LinearRgb::Constant(1);
 };
 
 /// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.

@@ -47,7 +47,7 @@ struct WrapInputs {
   double mm_per_unit = 10;           ///< millimetres per unit of the template
   HeadFrame frame;                   ///< up and front axes of the template
   std::optional<PoseHint> hint;      ///< up and front directions of the scans; empty if unknown
-  WrapTemplate wrap_template;        ///< the template, separated into skin and other parts
+  WrapTemplate wrap_template;        ///< the template's mesh, separated into skin and other parts
   SkinRegions regions;               ///< regions of the template's skin
   std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology
   std::size_t model_head_count = 0;  ///< number of heads of the shape model

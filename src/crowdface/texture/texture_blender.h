@@ -49,7 +49,8 @@ class TextureBlender {
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param texels             the mesh rasterized into the layout of `textures`.
-  /// \param filter             a filter of the mesh, with the umbrella or the lazy operator.
+  /// \param filter             a smoothing filter of the mesh, with the umbrella or the lazy
+  ///                           operator.
   /// \param regions, textures  these objects and the textures' maps must outlive the blender.
   /// \param find_statistics    a function that may look up the statistics in a cache.
   TextureBlender(
