@@ -18,8 +18,9 @@ namespace crowdface {
 /// The tasks that make a crowd, independent of the job engine. Paths are absolute and valid on all
 /// machines.
 struct TaskJob {
-  std::filesystem::path program;              ///< the crowdface executable
-  std::vector<std::string> config_arguments;  ///< words of the command line: config file, overrides
+  std::filesystem::path program;  ///< the crowdface executable
+  /// words of every task's command line: the config file and the overrides of its values
+  std::vector<std::string> config_arguments;
   /// words of every task's command line that limit the sizes of inputs (`--limit`)
   std::vector<std::string> input_limit_arguments;
   std::string crowd_name;  ///< name of the crowd

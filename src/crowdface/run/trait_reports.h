@@ -14,7 +14,7 @@ namespace crowdface {
 
 /// The statistics of one measurement over the faces of a crowd, for reports.
 struct TraitReport {
-  std::size_t trait_index = 0;  ///< index into measurements()
+  std::size_t trait_index = 0;  ///< index of the measurement in measurements()
   /// quartiles of the measurement over the heads, and over the faces of the crowd
   Quartiles head_values, crowd_values;
   /// Compares the sampled faces with the distribution that the config requests.
