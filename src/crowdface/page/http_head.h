@@ -12,8 +12,9 @@ namespace crowdface {
 /// The request line and header fields of an HTTP/1.1 request (RFC 9112).
 struct HttpHead {
   std::string method;
-  std::string path;                                         ///< percent-decoded, without the query
-  std::vector<std::pair<std::string, std::string>> fields;  ///< names (in lower case) and values
+  std::string path;  ///< the requested path, percent-decoded, without the query
+  /// names (in lower case) and values of the header fields
+  std::vector<std::pair<std::string, std::string>> fields;
   bool closes_connection = false;  ///< whether the connection ends after this request
   /// Number of header fields with this name.
   std::size_t count(std::string_view name) const;

@@ -112,7 +112,8 @@ struct Connection {
   /// While a request arrives: the time at which its head or body began. While an answer is sent:
   /// the time at which the client last accepted bytes.
   Clock::time_point since = Clock::now();
-  std::optional<HttpAnswer> answer;  ///< set by a thread of the pool; guarded by State::mutex
+  /// the answer to the request, which a thread of the pool computes; guarded by State::mutex
+  std::optional<HttpAnswer> answer;
 };
 
 }  // namespace
@@ -128,9 +129,9 @@ struct LocalServer::State {
   std::list<Connection> connections;
   std::mutex mutex;
   std::condition_variable changed;
-  /// requests to answer; guarded by `mutex`
+  /// complete requests that wait for an answer, and their connections; guarded by `mutex`
   std::deque<std::pair<Connection*, HttpRequest>> queued_requests;
-  bool stopping = false;  ///< guarded by `mutex`
+  bool stopping = false;  ///< whether the server stops; guarded by `mutex`
 
   std::optional<HttpAnswer> refusal(const HttpHead& head) const;
   bool comes_from_us(const HttpHead& head) const;

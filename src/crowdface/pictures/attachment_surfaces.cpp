@@ -16,7 +16,8 @@
 namespace crowdface {
 namespace {
 
-/// Opacity at a texel: the alpha channel, or the first channel if the image has no alpha channel.
+/// Returns the opacity at pixel (x, y) of an opacity image: the alpha channel, or the first channel
+/// if the image has no alpha channel.
 float opacity_at(const Image& image, int x, int y) {
   const int channel = image.alpha_channel >= 0 ? image.alpha_channel : 0;
   return std::clamp(image.at(x, y, channel), 0.0F, 1.0F);

@@ -33,14 +33,14 @@ class AttachmentSurfaces {
   /// A colour texture file: its colours and its alpha channel.
   struct Picture {
     std::shared_ptr<const Texture> colours;
-    std::shared_ptr<const MipMap> opacity;  ///< null: no alpha channel
+    std::shared_ptr<const MipMap> opacity;  ///< the alpha channel of the file; null if it has none
   };
   /// Converts a material for rendering; reads the textures that the material names.
   AttachmentMaterial material_of(const SurfaceMaterial& source) const;
 
   int max_px_;
   bool shows_textures_;
-  mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;
+  mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;  ///< results of `at`
   // Textures by file path; many attachments share the same texture file.
   mutable LazyMap<std::filesystem::path, Picture> colour_maps_;
   mutable LazyMap<std::filesystem::path, std::shared_ptr<const MipMap>> opacity_maps_;

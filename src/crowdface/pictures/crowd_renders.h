@@ -37,8 +37,9 @@ struct PicturedCrowd {
 
 /// The files made for the pictures of one face, as bytes.
 struct FacePictures {
-  std::string png;                            ///< PNG file of all views, side by side
-  std::optional<std::string> gallery_script;  ///< from GalleryMeshes; empty without a gallery
+  std::string png;  ///< PNG file of all views, side by side
+  /// the face's script for the gallery, from GalleryMeshes; empty without a gallery
+  std::optional<std::string> gallery_script;
 };
 
 /// Renders the faces of a crowd. Each view has one camera for all faces, fitted to the input heads,
@@ -116,13 +117,14 @@ class CrowdRenders {
 
   PicturedMesh mesh_;
   const FaceTextures* textures_;
-  std::vector<Camera> cameras_;  ///< one per view
+  std::vector<Camera> cameras_;  ///< the camera of each view
   FaceRenderer renderer_;
   const Inputs& inputs_;
   bool shows_textures_;
   int max_texels_;  ///< largest width and height of a texture in rendered images
   AttachmentSurfaces attachment_surfaces_;
-  const GalleryMeshes* gallery_ = nullptr;  ///< null: render_files makes no gallery scripts
+  /// the gallery's meshes, for `render_files`; null: render_files makes no gallery scripts
+  const GalleryMeshes* gallery_ = nullptr;
 };
 
 /// Reads a rendered image from the crowd's folder. \throws MissingInput, InvalidInput.

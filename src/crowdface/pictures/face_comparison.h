@@ -41,8 +41,9 @@ class FaceComparison {
 
   const PicturedCrowd& crowd_;
   const Config::MeshComparison& comparison_;
-  CrowdDirectory other_crowd_;  ///< the crowd that `comparison_` names, if any
-  Positions reference_mesh_;    ///< the mesh with which all faces are compared; may have no rows
+  /// the folder of the crowd that the config names for comparison (`comparison_`), if any
+  CrowdDirectory other_crowd_;
+  Positions reference_mesh_;  ///< the mesh with which all faces are compared; may have no rows
 };
 
 /// Checks the mesh file that the config names for comparison, if any. Adds errors to `problems`.

@@ -77,7 +77,8 @@ class GalleryMeshes {
   VertexColours colours_;
   /// visible fraction of the sky at the vertices of the reduced mesh, on the mean head
   std::vector<float> sky_visibility_;
-  /// one per vertex of the reduced mesh; empty if there are no textures
+  /// for each vertex of the reduced mesh: its position in the heads' textures; empty if there are
+  /// no textures
   std::vector<TexturePoint> texture_points_;
   Eigen::Vector3d box_min_, box_max_;  ///< bounding box of all heads and the shoulders of the body
 

@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// Result of write_sheets.
 struct WrittenSheets {
-  std::size_t pages = 0;  ///< number of pages with faces
+  std::size_t pages = 0;  ///< number of sheet pages that show the crowd's faces
   std::vector<std::filesystem::path> files;
 };
 

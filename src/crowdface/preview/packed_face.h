@@ -16,7 +16,7 @@ namespace crowdface {
 struct PackingGrid {
   /// the cube's corner with the smallest coordinates
   Eigen::Vector3d low_corner = Eigen::Vector3d::Zero();
-  double step = 1;  ///< length of a grid step
+  double step = 1;  ///< length of a grid step, in the unit of the packed positions
 
   /// Returns a cube around all heads. On each side, the cube has a margin of a quarter of the
   /// heads' largest extent, because faces may extend beyond the heads.

@@ -17,8 +17,9 @@ namespace crowdface {
 struct AttachmentMaterial {
   LinearRgb colour = LinearRgb::Constant(0.5F);  ///< linear colour, used if `texture` is null
   std::shared_ptr<const Texture> texture = {};   ///< texture with the colours, or null
-  std::shared_ptr<const MipMap> opacity = {};    ///< opacity in the first channel, or null: opaque
-  float opacity_factor = 1;                      ///< factor on the opacity, 0 … 1
+  /// image with the opacity in the first channel; null: the material is opaque
+  std::shared_ptr<const MipMap> opacity = {};
+  float opacity_factor = 1;  ///< factor on the opacity, 0 … 1
 };
 
 /// The mesh of an attachment, such as hair or glasses, that is rendered with a face. Polygons look
@@ -65,9 +66,10 @@ class AttachmentSurface {
 
 /// An attachment placed on a face.
 struct AttachmentMesh {
-  const AttachmentSurface* surface;         ///< topology and materials
-  const Positions* positions;               ///< vertex positions on the face, #V by 3
-  LinearRgb tint = LinearRgb::Constant(1);  ///< a factor for each channel of the colour
+  const AttachmentSurface* surface;  ///< topology and materials of the attachment
+  const Positions* positions;        ///< vertex positions on the face, #V by 3
+  /// tint of the attachment: a factor for each channel of its colours
+  LinearRgb tint = LinearRgb::Constant(1);
 };
 
 /// Interpolation weights of a quad's four vertices at a point (u, v) of the quad.

@@ -42,7 +42,7 @@ class AttachmentScene {
   struct Part {
     const AttachmentSurface* surface;  ///< mesh and materials of the attachment
     std::uint32_t first_quad;          ///< index of the attachment's first quad in `quads_`
-    LinearRgb tint;                    ///< a factor for each channel of the colour
+    LinearRgb tint;  ///< tint of the attachment: a factor for each channel of its colours
   };
   /// Returns the attachment to which a quad of the scene belongs.
   const Part& part_of(std::uint32_t quad) const;
@@ -52,10 +52,11 @@ class AttachmentScene {
   void mark_pixels(const std::vector<float>& points, float distance);
 
   int size_px_;                  ///< side of the image, in pixels
-  std::vector<bool> may_cover_;  ///< one per pixel
-  std::vector<Part> parts_;      ///< one per attachment
+  std::vector<bool> may_cover_;  ///< for each pixel: the result of may_cover
+  std::vector<Part> parts_;      ///< the attachments of the face
   std::vector<Quad> quads_;      ///< the quads of all attachments, one attachment after another
-  std::vector<std::uint8_t> mip_levels_;  ///< for each quad: level for AttachmentSurface::opacity
+  /// for each quad: the level of the opacity's mip map, see AttachmentSurface::opacity
+  std::vector<std::uint8_t> mip_levels_;
   std::vector<Eigen::Vector3f> normals_;  ///< vertex normals of all attachments
   std::unique_ptr<const RayScene> scene_;
 };

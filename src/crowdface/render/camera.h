@@ -22,7 +22,7 @@ struct Camera {
   double distance = 1;                              ///< distance between target and camera
   double tan_half_fov = 0.17632698070846498;        ///< tangent of half the field of view
 
-  /// Position of the camera.
+  /// Position of the camera, in the unit of the mesh files.
   Eigen::Vector3d position() const { return target + distance * back; }
   /// Half the side of the image, measured in the plane through `target`, the point that the camera
   /// looks at.

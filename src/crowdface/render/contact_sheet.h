@@ -27,10 +27,10 @@ struct HeatLegend {
 /// Grid and texts of a contact sheet.
 struct SheetOptions {
   int columns = 6;
-  int rows = 0;            ///< 0: as many as needed; unused cells stay blank
-  std::string title = {};  ///< top left
+  int rows = 0;  ///< number of rows of cells; 0: as many as needed; unused cells stay blank
+  std::string title = {};                           ///< text at the top left of the sheet
   std::optional<HeatLegend> legend = std::nullopt;  ///< legend of a heat map; empty: none
-  std::string note = {};                            ///< top right, such as "sheet 2 of 5"
+  std::string note = {};  ///< text at the top right of the sheet, such as "sheet 2 of 5"
 };
 
 /// Positions and sizes of the parts of a sheet, in pixels.

@@ -109,13 +109,15 @@ struct FaceRenderer::PreparedMesh {
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
   std::vector<std::optional<LinearRgb>> quad_colours;  ///< linear colour of each quad; or empty
-  /// empty if there are no texture coordinates
+  /// texture coordinates of each quad; empty if the mesh has none
   std::vector<TexturedQuad> quad_uvs;
   Eyeballs eyeballs;
   RayDevice device;
   Occluders occluders;
   WorkspacePool workspaces;
-  std::optional<float> winding;  ///< winding of the average face, which all faces share
+  /// result of winding_sign for the average face, which holds for all faces; empty without
+  /// average face
+  std::optional<float> winding;
 
   PreparedMesh(const Topology& mesh, const RenderOptions& choice)
       : topology(mesh),

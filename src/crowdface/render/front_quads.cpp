@@ -4,8 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/render/front_quads.cpp"
 #include "hwy/foreach_target.h"
-// Highway requires this order: foreach_target.h first, then the code that is compiled once per
-// target.
+// Highway requires this order: foreach_target.h first, then the code that is compiled once for each
+// instruction set.
 #include <algorithm>
 #include <limits>
 
@@ -115,7 +115,8 @@ constexpr float kBoxMargin = 1e-2F;
 struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
-  alignas(64) std::int32_t square[kCount];  ///< last square that the box overlaps; −1: not visible
+  /// index of the last square of the image that the box overlaps; −1: the quad is not visible
+  alignas(64) std::int32_t square[kCount];
   alignas(64) std::int32_t in_one_square[kCount];    ///< not 0: the box overlaps only this square
   alignas(64) std::int32_t no_pixel_centre[kCount];  ///< 1: no pixel centre is in the box
   /// Box relative to `square`, packed into four bytes: left (lowest byte), top, right, bottom.

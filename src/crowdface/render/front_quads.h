@@ -74,8 +74,9 @@ class PixelSamples {
 /// The samples of a pixel: their positions in the pixel, and the index of the first sample among
 /// the samples of all pixels.
 struct SampledPixel {
-  const PixelSamples* samples = nullptr;  ///< null: no samples in this pixel
-  std::uint32_t first_sample = 0;         ///< index of the pixel's first sample
+  /// positions of the samples in the pixel; null: the pixel has no samples
+  const PixelSamples* samples = nullptr;
+  std::uint32_t first_sample = 0;  ///< index of the pixel's first sample
 };
 
 /// A depth buffer: the nearest quad at each sample. The lists are padded by kMaxLanes.

@@ -37,16 +37,17 @@ struct HeadScene {
   float winding_sign;                           ///< +1, or −1 if the winding is inside out
   /// vertex colours, which override all other colours; or nullptr
   const VertexColours* colours;
-  const std::vector<Quad>& quads;                             ///< polygons, split into quads
-  const std::vector<SurfaceKind>& kinds;                      ///< kind of each quad
-  const std::vector<std::optional<LinearRgb>>& quad_colours;  ///< linear, of each quad; or empty
+  const std::vector<Quad>& quads;         ///< polygons, split into quads
+  const std::vector<SurfaceKind>& kinds;  ///< kind of each quad
+  /// linear colour of each quad that has a colour of its own; or empty
+  const std::vector<std::optional<LinearRgb>>& quad_colours;
   const std::vector<TexturedQuad>& textured_quads;  ///< texture coordinates of each quad; or empty
-  const TextureSet* texture_set;                    ///< textures, or nullptr
+  const TextureSet* texture_set;                    ///< textures of the head, or nullptr
   std::vector<float> skin_lightness;   ///< skin_lightness() of each colour texture of `texture_set`
   const Eyeballs& eyeballs;            ///< which vertices form eyeballs
   std::vector<EyeballSphere> eyes;     ///< position and size of each eyeball
   Eigen::Vector3f gaze;                ///< viewing direction of the eyes, a unit vector
-  const AttachmentScene* attachments;  ///< attachments, or nullptr
+  const AttachmentScene* attachments;  ///< attachments that are rendered with the head, or nullptr
   bool ambient_occlusion;              ///< whether surfaces block light from the sky
   Eigen::Vector3f viewer_position;     ///< position of the camera
 

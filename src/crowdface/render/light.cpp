@@ -57,7 +57,8 @@ class ByteTable {
   }
 
  private:
-  static constexpr float kWhite = 1.5F;  ///< this value and all larger values map to 255
+  /// this linear value and all larger values map to the byte 255
+  static constexpr float kWhite = 1.5F;
   static constexpr std::size_t kSteps = 6144;
   /// for each byte: the smallest linear value that maps to it
   std::array<float, 257> smallest_of_byte_{};

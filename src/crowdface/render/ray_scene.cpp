@@ -19,8 +19,8 @@ namespace {
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 
-/// Packet types. If a packet is wider than the processor's SIMD vectors, Embree traces its rays one
-/// by one.
+/// Embree's types for a packet of eight rays. If a packet is wider than the processor's SIMD
+/// vectors, Embree traces its rays one by one.
 struct EightRays {
   static constexpr std::size_t kCount = 8;
   using Rays = RTCRay8;
@@ -156,8 +156,8 @@ struct RayScene::State {
   std::vector<float> points;
   std::vector<Triangle> triangles;  ///< triangles of the split quads; used only with kMovable
   RTCScene scene = nullptr;
-  RTCGeometry geometry = nullptr;  ///< null if there are no quads
-  Opacity opacity;                 ///< empty: opaque
+  RTCGeometry geometry = nullptr;  ///< the quads, as Embree's geometry; null if there are no quads
+  Opacity opacity;  ///< opacity at each point of the quads; empty: all quads are opaque
 
   State(const RayDevice::State& embree, std::vector<float> first)
       : device(embree.device), takes_sixteen(embree.takes_sixteen), points(std::move(first)) {}

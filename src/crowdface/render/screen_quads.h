@@ -59,7 +59,8 @@ class ScreenQuads {
   std::span<const Quad> quads_;             ///< the quads of the last `project`
   int squares_per_row_ = 0;                 ///< number of squares in a row
   std::vector<ProjectedVertex> projected_;  ///< all vertices, projected to the image
-  std::vector<SquareLists> square_lists_;   ///< one entry per block of consecutive quads
+  /// for each block of consecutive quads: the quads that overlap each square of the image
+  std::vector<SquareLists> square_lists_;
 };
 
 }  // namespace crowdface

@@ -4,8 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/render/shading.cpp"
 #include "hwy/foreach_target.h"
-// Highway requires this order: foreach_target.h first, then the code that is compiled once per
-// target.
+// Highway requires this order: foreach_target.h first, then the code that is compiled once for each
+// instruction set.
 #include <algorithm>
 #include <numbers>
 

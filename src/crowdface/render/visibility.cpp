@@ -22,7 +22,8 @@ using Vector = Eigen::Vector3f;
 
 constexpr int kRays = 64;  // per vertex
 constexpr std::size_t kVerticesPerBlock = 64;
-// Lengths as fractions of the head's largest extent.
+// Length of the visibility rays, and the distance of their origins from the surface, both as
+// fractions of the head's largest extent.
 constexpr float kReach = 0.3F;
 constexpr float kClearance = 5e-4F;
 

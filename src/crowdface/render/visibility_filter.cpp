@@ -4,8 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/render/visibility_filter.cpp"
 #include "hwy/foreach_target.h"
-// Highway requires this order: foreach_target.h first, then the code that is compiled once per
-// target.
+// Highway requires this order: foreach_target.h first, then the code that is compiled once for each
+// instruction set.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -68,13 +68,14 @@ class AttachmentsInFormat {
     for (const auto& [kind, most] : max_bytes_by_kind) bytes += most;
     return bytes;
   }
-  /// Like the function above, if one file of the face contains each attachment.
+  /// Like the function above, for a format in which exactly one file of a face contains each
+  /// attachment.
   std::size_t encoding_memory_bytes() const {
     return encoding_memory_bytes([](const Attachment&) { return 1U; });
   }
 
  private:
-  std::map<const Attachment*, FormatData> data_of_attachment_;  ///< the converted attachments
+  std::map<const Attachment*, FormatData> data_of_attachment_;  ///< the data of each attachment
 };
 
 /// The mesh and the attachments of a crowd, converted for one file format. Holds only data that are

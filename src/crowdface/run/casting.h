@@ -19,8 +19,8 @@ namespace crowdface {
 /// The vector space in which casting compares faces, and the coarse skin mesh on which casting
 /// checks faces for defects.
 struct CastingSpace {
-  FaceSpace face_space;  ///< compares faces
-  ProxySkin proxy_skin;  ///< checks faces for defects
+  FaceSpace face_space;  ///< the vector space
+  ProxySkin proxy_skin;  ///< the coarse skin mesh
 };
 /// Computes the casting space of a config.
 /// \param cache  folder that caches the precomputed tables of the space; empty: no cache
@@ -32,7 +32,8 @@ CastingSpace casting_space(const Config& config, const Inputs& inputs,
 CastingOptions casting_options(const Config& config, const Inputs& inputs,
                                const Eigen::MatrixXd& head_distances);
 
-/// Distances between the faces of a crowd and, for comparison, between the input heads.
+/// Distances, in millimetres, between the faces of a crowd and, for comparison, between the input
+/// heads.
 struct CrowdDistances {
   Quartiles between_heads;  ///< distances between input heads
   Quartiles between_faces;  ///< distances between faces of the crowd
@@ -54,7 +55,8 @@ struct FamilyReport {
   Quartiles founder_distances;  ///< distances from the members to the founder
   /// smallest distance from a member to a face outside the family; 0 if there is no such face
   double nearest_outsider_mm = 0;
-  double silhouette_coefficient = 0;  ///< see mean_silhouette_coefficient
+  /// how clearly the members differ from all other faces, see mean_silhouette_coefficient
+  double silhouette_coefficient = 0;
   /// Strangers are random faces, sampled with the settings of the family's group. For each child
   /// and each of its parents, casting computes the fraction of strangers that are nearer to the
   /// child than the parent is. This is the largest of these fractions; empty if the family has no

@@ -28,8 +28,8 @@ Json to_json(const Quartiles& q) {
           {"max", rounded(q.max)}};
 }
 
-/// Quartiles of the distances from each face to its nearest neighbour. Omits the key "pairs" (the
-/// number of pairs of faces), because not all pairs are measured.
+/// Converts the quartiles of the distances from each face to its nearest neighbour. Omits the key
+/// "pairs" (the number of pairs of faces), because not all pairs are measured.
 Json nearest_to_json(const Quartiles& q) {
   Json json = to_json(q);
   if (json.is_object()) json.erase("pairs");
@@ -58,7 +58,7 @@ Json asked_to_json(const DiversityOptions& diversity) {
           {"max_weight", diversity.max_weight}};
 }
 
-/// The number of faces in each group, and the distances between the faces of a group.
+/// Returns the number of faces in each group, and the distances between the faces of each group.
 Json groups_to_json(const std::vector<Group>& groups, const CrowdPlan& crowd_plan) {
   Json json = Json::object();
   for (const Group& group : groups) {
@@ -72,7 +72,8 @@ Json groups_to_json(const std::vector<Group>& groups, const CrowdPlan& crowd_pla
   return json;
 }
 
-/// The number of faces per tag. A face counts for each tag of its typical head (see typical_head).
+/// Returns the number of faces for each tag. A face counts for each tag of its typical head (see
+/// typical_head).
 Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   Json json = Json::object();
   for (const FacePlan& face : crowd_plan.crowd) {
@@ -84,8 +85,8 @@ Json tags_to_json(const Config& config, const CrowdPlan& crowd_plan) {
   return json;
 }
 
-/// For each kind, name and colour of attachments: the number of faces that wear such an
-/// attachment. Also contains the quotas for sampled faces.
+/// Returns, for each kind, name and colour of attachments, the number of faces that wear such an
+/// attachment. The result also has the quotas for sampled faces.
 Json attachments_to_json(const Config::Attachments& attachments, const CrowdPlan& crowd_plan) {
   const auto wears = [&](const FacePlan& face, const std::string& word) {
     return std::any_of(attachments.items.begin(), attachments.items.end(), [&](const auto& item) {

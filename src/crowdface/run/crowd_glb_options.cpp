@@ -31,7 +31,7 @@ GlbMaterial glb_material(const std::string& name, SurfaceKind kind,
   return {name, {colour(0), colour(1), colour(2), opacity}};
 }
 
-/// A PNG image of a whole eyeball, seen from the front.
+/// Returns a PNG image of a whole eyeball with its iris, seen from the front.
 std::string iris_png() {
   constexpr int kSide = 64;
   const EyeballSphere eye{Eigen::Vector3f::Zero(), 1};

@@ -15,8 +15,9 @@
 namespace crowdface {
 namespace {
 
-/// For each contact: the mean region weights of the contact's two profiles. Result: #contacts by
-/// #regions; each row sums to one.
+/// A contact is a pair of skin surfaces that almost touch, such as the lips. Returns, for each
+/// contact, the mean region weights of the points on both surfaces. Result: #contacts by #regions;
+/// each row sums to one.
 std::vector<std::vector<double>> contact_masks(const SkinContacts& contacts,
                                                const RegionWeights& regions) {
   std::vector<std::vector<double>> masks;
@@ -200,8 +201,8 @@ std::vector<SkinContacts::Range> FaceBuilder::contact_ranges(const Recipe& recip
   return ranges;
 }
 
-/// Extends each range to include the range of the mirrored contact, because a face whose asymmetry
-/// is not 1 combines both sides.
+/// Extends the allowed range of each contact's gap to include the range of the mirrored contact,
+/// because a face whose asymmetry is not 1 combines both sides.
 void FaceBuilder::include_mirrored_gap_ranges(std::vector<SkinContacts::Range>& ranges) const {
   const std::vector<SkinContacts::Range> own = ranges;
   for (std::size_t p = 0; p < own.size(); ++p) {

@@ -36,7 +36,7 @@ class FaceBuilder {
   /// The face that the previous call of `rebuild` built. The next call starts from this face.
   struct PreviousFace {
     std::optional<Recipe> recipe;  ///< recipe of this face; empty before the first call
-    Positions blended_positions;   ///< #V by 3, before the steps of `finish`
+    Positions blended_positions;   ///< positions of this face before the steps of `finish`, #V by 3
   };
   /// Gives the same result as `build` for one recipe, but is faster if the recipe differs in only a
   /// few regions from the recipe of the previous call.
@@ -98,14 +98,18 @@ class FaceBuilder {
   mutable std::shared_ptr<const MirrorMap> mirror_;  ///< null before the first call of `mirror`
   /// the region masks for blending
   RegionWeights regions_;
-  std::optional<CrowdBlender> blender_;   ///< empty with `levels: exact`
-  std::optional<FacePoses> poses_;        ///< empty if all heads have one pose
-  std::optional<SkinContacts> contacts_;  ///< corrects gaps; always set after construction
+  /// blends the fitted smoothing levels; empty with `levels: exact`, which smooths for each face
+  std::optional<CrowdBlender> blender_;
+  /// rotates faces to the common pose of the heads; empty if all heads have this pose
+  std::optional<FacePoses> poses_;
+  /// corrects the gaps between skin surfaces that almost touch; always set after construction
+  std::optional<SkinContacts> contacts_;
   /// #contacts by #regions: the region weights at each contact; each row sums to one
   std::vector<std::vector<double>> contact_masks_;
-  bool corrects_contacts_;                ///< whether `correct_contacts` corrects gaps
-  double mm_per_unit_;                    ///< millimetres per unit of the mesh files
-  std::optional<PartFollower> follower_;  ///< empty if there are no parts besides the skin
+  bool corrects_contacts_;  ///< whether `correct_contacts` corrects gaps
+  double mm_per_unit_;      ///< millimetres per unit of the mesh files
+  /// moves eyes, teeth and other parts with the skin; empty if there is only skin
+  std::optional<PartFollower> follower_;
 };
 
 }  // namespace crowdface

@@ -48,20 +48,24 @@ struct FinishedFace {
   std::shared_ptr<FaceTextureEncoder::Encoded> textures =
       std::make_shared<FaceTextureEncoder::Encoded>();
   std::optional<BlendedPicture> body_texture;  ///< texture of the body; empty if nothing shows it
-  std::optional<FacePictures> pictures;        ///< empty if the face is not rendered
+  /// images of the face and its gallery script; empty if the face is not rendered
+  std::optional<FacePictures> pictures;
 
-  const FaceEncoders* encoders = nullptr;  ///< null if no mesh files are written
+  /// encode the mesh files of the face; null if no mesh files are written
+  const FaceEncoders* encoders = nullptr;
   // FaceEncoders::prepare computes the following members.
   Positions normals;  ///< #V vertex normals; no rows if no file contains normals
   Positions points;   ///< positions of the named points (PointCarrier) on this face
   Positions joints;   ///< positions of the rig's joints
-  std::vector<std::string_view> images;  ///< see FaceMesh::images
-  std::vector<std::string> image_names;  ///< see FaceMesh::image_names
+  /// content of each image file of the face's textures, see FaceMesh::images
+  std::vector<std::string_view> images;
+  std::vector<std::string> image_names;  ///< paths of these image files, see FaceMesh::image_names
   /// The data of the face at one level of detail, which `meshes` refers to.
   struct ReducedMesh {
     Positions positions, normals;
     ColourRows colours;
-    std::vector<Displacements> moves;  ///< one per blend shape
+    /// for each blend shape: displacements of the vertices of the reduced mesh
+    std::vector<Displacements> moves;
     std::vector<PlacedAttachment> placed_attachments;
   };
   std::deque<ReducedMesh> reduced_meshes;  ///< one per level of detail
@@ -135,9 +139,10 @@ class FaceEncoders {
   /// for each level of detail, the encoders of the attachments' separate OBJ files; empty if no
   /// format needs such files
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
-  /// empty if faces have no blended textures
+  /// encodes the faces' blended textures; empty if faces have none
   std::optional<FaceTextureEncoder> texture_encoder_;
-  /// `points_`: empty if the inputs have no named points. `joints_`: empty if no file has a rig.
+  /// Move the named points (`points_`) and the joints of the rig (`joints_`) with a face. `points_`
+  /// is empty if the inputs have no named points; `joints_` is empty if no file has a rig.
   std::optional<PointCarrier> points_, joints_;
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals
   std::optional<NormalFans> fans_;

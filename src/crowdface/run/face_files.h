@@ -36,7 +36,7 @@ struct FaceFile {
 struct MeshFileOptions {
   const std::vector<MeshFormat>& formats;  ///< formats of the mesh files
   std::filesystem::path folder;            ///< folder of the meshes
-  std::string stem;                        ///< first part of the file names
+  std::string stem;                        ///< first part of the file names, such as the face's id
   /// whether the face has files for levels of detail, blend shapes and named points
   bool includes_all_variants = true;
 };

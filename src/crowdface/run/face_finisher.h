@@ -14,11 +14,12 @@ namespace crowdface {
 
 /// Computes the data that a face's files contain in addition to the blended positions.
 struct FaceFinisher {
-  const FaceTextures& textures;            ///< blends a face's textures
-  const FaceAttachments& attachments;      ///< places attachments on a face
-  const FaceShapes& shapes;                ///< transfers blend shapes to a face
-  const FaceEncoders* encoders = nullptr;  ///< null: no meshes are written
-  const CrowdRenders* renders = nullptr;   ///< null: nothing is rendered
+  const FaceTextures& textures;        ///< blends a face's textures
+  const FaceAttachments& attachments;  ///< places attachments on a face
+  const FaceShapes& shapes;            ///< transfers blend shapes to a face
+  /// encode the face's mesh files; null: no meshes are written
+  const FaceEncoders* encoders = nullptr;
+  const CrowdRenders* renders = nullptr;  ///< render the face; null: nothing is rendered
 
   /// Completes a blended face: adds shapes, attachments, textures and renders. The renders are the
   /// same whether the positions come from blending or from the face's mesh file. Thread-safe.

@@ -215,8 +215,8 @@ FaceStages::FaceStages(const Config& config, const Inputs& inputs, const Prepare
   const std::uint64_t bytes_of_threads =
       static_cast<std::uint64_t>(thread_count()) * bytes_per_thread;
   max_waiting_bytes_ = std::min(bytes_of_threads, FaceWriter::kMinWaitingBytes);
-  // Encoded files of up to `max_waiting_bytes_` wait in the queue. The batch that is being written
-  // may have the same size.
+  // Encoded files with up to `max_waiting_bytes_` bytes wait in the queue. The batch that is being
+  // written may have the same size.
   fixed_bytes += bytes_of_threads + 2 * max_waiting_bytes_;
   const std::uint64_t one_face = builder.memory_bytes(1);
   faces_per_group_ = faces_at_once(fixed_bytes, one_face, memory_bytes);

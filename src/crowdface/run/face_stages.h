@@ -60,9 +60,11 @@ class FaceStages {
   const FaceTextures& textures_;        ///< blends the faces' textures
   const FaceAttachments& attachments_;  ///< places attachments on the faces
   const FaceShapes& shapes_;            ///< transfers blend shapes to the faces
-  std::optional<SkinCheck> check_;      ///< empty if no mesh is judged
-  std::size_t faces_per_group_;         ///< number of faces that are blended in one batch
-  std::uint64_t max_waiting_bytes_;     ///< maximum size of encoded files that wait to be written
+  /// finds defects in the skin of a face's whole mesh; empty if the config asks for no such check
+  std::optional<SkinCheck> check_;
+  std::size_t faces_per_group_;  ///< number of faces that are blended in one batch
+  /// maximum total size, in bytes, of the encoded files that wait to be written
+  std::uint64_t max_waiting_bytes_;
 };
 
 }  // namespace crowdface

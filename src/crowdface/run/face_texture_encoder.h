@@ -83,8 +83,9 @@ class FaceTextureEncoder {
 
   const Config& config_;
   const Inputs& inputs_;
-  std::vector<PictureName> pictures_;               ///< the result of face_picture_names
-  std::map<Index, Materials> materials_of_target_;  ///< key: index of the target head
+  std::vector<PictureName> pictures_;  ///< names of the images of a face, from face_picture_names
+  /// the materials of each target head; the key is the index of the head
+  std::map<Index, Materials> materials_of_target_;
 };
 
 }  // namespace crowdface

@@ -14,8 +14,8 @@
 namespace crowdface {
 namespace {
 
-/// The smoothing trajectories of all heads at some vertices, computed from the same smoothing
-/// levels as blending.
+/// Returns, for each head, how far smoothing displaces some vertices at each stored smoothing level
+/// (the trajectories). Uses the same fitted or exact levels as blending.
 std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inputs,
                                         const PreparedHeads& prepared, const FaceSamples& samples) {
   const std::vector<std::uint64_t> levels = stored_smoothing_levels(inputs.max_level);

@@ -42,11 +42,12 @@ class FaceTraits {
   /// face.
   void mirror_landmark_vertices(Positions& face) const;
 
-  std::vector<std::size_t> trait_indices_;   ///< indices into measurements()
-  HeadLandmarks landmarks_;                  ///< the landmarks that the traits need
-  FaceBuilder builder_;                      ///< corrects contacts and poses
-  double mm_per_unit_;                       ///< millimetres per unit of the mesh files
-  std::shared_ptr<const MirrorMap> mirror_;  ///< null unless the config asks for mirrored faces
+  std::vector<std::size_t> trait_indices_;  ///< indices into measurements()
+  HeadLandmarks landmarks_;                 ///< the landmarks that the traits need
+  FaceBuilder builder_;  ///< corrects the contacts (such as lips) and the pose of a face
+  double mm_per_unit_;   ///< millimetres per unit of the mesh files
+  /// mirrors faces; null unless the config asks for mirrored faces
+  std::shared_ptr<const MirrorMap> mirror_;
   /// the heads placed on a common body; null unless the config has `neck`
   std::shared_ptr<const HeadsOnBody> heads_on_body_;
   /// the vertices of the landmarks and, if there is a neck, of the ring of vertices at the neck
@@ -54,9 +55,9 @@ class FaceTraits {
   /// the vertices on which the exact landmark positions depend, ascending; `heads_` holds the
   /// heads' data at these vertices
   FaceSamples samples_;
-  HeadsAtSamples heads_;  ///< the heads' data at the vertices `samples_`
-  Index vertex_count_;    ///< number of vertices of a head
-  std::optional<FaceMeasurer> measurer_;
+  HeadsAtSamples heads_;                  ///< the heads' data at the vertices `samples_`
+  Index vertex_count_;                    ///< number of vertices of a head
+  std::optional<FaceMeasurer> measurer_;  ///< estimates the landmarks of candidate faces
 };
 
 /// Returns an object that measures the traits that the config names; null if the config names none.

@@ -71,11 +71,12 @@ class FaceWriter {
   std::uint64_t max_waiting_bytes_;
   std::function<void()> on_recorded_;
   std::mutex mutex_;
-  std::condition_variable changed_;  ///< notified when a member below changes
-  Batch waiting_;                    ///< faces and files that wait to be written
-  bool is_writing_ = false;          ///< whether the writing thread is writing a batch
-  bool is_closing_ = false;          ///< whether the destructor has been called
-  std::exception_ptr error_;         ///< the exception of a failed write
+  /// notified when `waiting_`, `is_writing_`, `is_closing_` or `error_` changes
+  std::condition_variable changed_;
+  Batch waiting_;             ///< faces and files that wait to be written
+  bool is_writing_ = false;   ///< whether the writing thread is writing a batch
+  bool is_closing_ = false;   ///< whether the destructor has been called
+  std::exception_ptr error_;  ///< the exception of a failed write
   double busy_seconds_ = 0;
   std::thread thread_;  // declared last, because the thread uses the other members
 };

@@ -38,8 +38,8 @@ class IrisCover {
  private:
   /// An eyeball of a face.
   struct Eye {
-    Eigen::Vector3d centre;
-    double radius;  ///< radius of the eyeball
+    Eigen::Vector3d centre;  ///< centre of the eyeball, in the unit of the mesh files
+    double radius;           ///< radius of the eyeball, in the unit of the mesh files
   };
   /// Returns the eyes of a mesh in the topology of the heads. \param positions  #V by 3
   std::vector<Eye> eyes_of(const Positions& positions) const;

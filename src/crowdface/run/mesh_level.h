@@ -22,8 +22,9 @@ namespace crowdface {
 /// one level of detail. A level of detail keeps the same fraction of triangles in attachments as in
 /// faces, but at least 300 triangles, so that small attachments stay whole.
 struct MeshLevel {
-  std::size_t level_number = 0;             ///< 0: the whole mesh
-  const DetailLevel* face_level = nullptr;  ///< null: the whole mesh
+  std::size_t level_number = 0;  ///< number of the level of detail; 0 is the whole mesh
+  /// the reduced mesh that faces have at this level; null: the whole mesh
+  const DetailLevel* face_level = nullptr;
   /// the reduced form of each attachment that any face wears, and of the body; empty for the whole
   /// mesh
   std::map<const Attachment*, DetailLevel> attachments;

@@ -212,7 +212,8 @@ class OverriddenPlan {
 
   const Config& config_;
   const std::vector<FacePlan>& crowd_;
-  std::map<std::string, const FacePlan*> faces_;  ///< key: id of the face
+  /// the faces of the crowd; the key is the face's id
+  std::map<std::string, const FacePlan*> faces_;
   NamedFaces not_for_head_, without_tint_, not_in_group_, replaced_;
   std::vector<std::string> warnings_;
 };

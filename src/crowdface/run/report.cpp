@@ -29,7 +29,8 @@ using Json = nlohmann::ordered_json;
 /// The text in report.json between the summary and the list of faces.
 constexpr std::string_view kBeforeFaces = ",\n  \"faces\": [";
 
-/// Minimum, median and maximum of a set of distances in casting.json; null if the set is empty.
+/// Returns the minimum, median and maximum of the distances that `of`, a value of casting.json,
+/// describes; null if there are no distances.
 Json distribution(const Json& of) {
   if (of.is_null()) return nullptr;
   return {{"min", of["min"]}, {"median", of["median"]}, {"max", of["max"]}};

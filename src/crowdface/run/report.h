@@ -60,7 +60,8 @@ class StageTimer {
   StageTimer& operator=(const StageTimer&) = delete;
 
  private:
-  std::atomic<double>& stage_seconds_;  ///< time of the stage
+  /// total time of the stage, in seconds; the destructor increases it
+  std::atomic<double>& stage_seconds_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -24,8 +24,8 @@ class ScarcityWarning {
 
  private:
   const CastingOptions& casting_;
-  CapacityForecast forecast_;  ///< estimates the number of faces at which casting will end
-  std::uint64_t cast_face_count_ = 0;
+  CapacityForecast forecast_;          ///< estimates the number of faces at which casting will end
+  std::uint64_t cast_face_count_ = 0;  ///< number of faces that casting has accepted so far
   bool has_warned_ = false;
   bool has_logged_scarcity_ = false;
 };

@@ -34,6 +34,7 @@ class ShardProgress {
 
   std::filesystem::path file_;
   ShardNotes notes_;  ///< the shard's state and number of finished faces
+  /// time at which the run of the shard started, and time of the last write of `file_`
   Clock::time_point start_ = Clock::now(), last_write_ = start_;
   std::mutex mutex_;
 };

@@ -18,8 +18,9 @@ namespace crowdface {
 /// The tasks that make a crowd, independent of the job engine. Paths are absolute and valid on all
 /// machines.
 struct TaskJob {
-  std::filesystem::path program;              ///< the crowdface executable
-  std::vector<std::string> config_arguments;  ///< words of the command line: config file, overrides
+  std::filesystem::path program;  ///< the crowdface executable
+  /// words of every task's command line: the config file and the overrides of its values
+  std::vector<std::string> config_arguments;
   /// words of every task's command line that limit the sizes of inputs (`--limit`)
   std::vector<std::string> input_limit_arguments;
   std::string crowd_name;  ///< name of the crowd
@@ -41,8 +42,9 @@ std::string_view name_of(JobEngine engine);
 /// Options for the render farm's job engine; some engines use only part of them.
 struct JobEngineOptions {
   std::string partition, time_limit;  ///< only for Slurm; empty: the default of the Slurm site
-  std::uint64_t grace_seconds = 60;   ///< time between the termination signal and the time limit
-  std::vector<std::string> hosts;     ///< only for GNU parallel: ssh hosts; empty: this machine
+  /// only for Slurm: seconds between SIGTERM and the time limit of a task
+  std::uint64_t grace_seconds = 60;
+  std::vector<std::string> hosts;  ///< only for GNU parallel: ssh hosts; empty: this machine
   std::vector<std::string> extra_arguments;  ///< further arguments for the engine, passed unchanged
 };
 

@@ -14,14 +14,16 @@ namespace crowdface {
 
 /// The statistics of one measurement over the faces of a crowd, for reports.
 struct TraitReport {
-  std::size_t trait_index = 0;  ///< index into measurements()
+  std::size_t trait_index = 0;  ///< index of the measurement in measurements()
   /// quartiles of the measurement over the heads, and over the faces of the crowd
   Quartiles head_values, crowd_values;
   /// Compares the sampled faces with the distribution that the config requests.
   struct TargetComparison {
     TraitTarget target;                       ///< the requested distribution
     double mean = 0, standard_deviation = 0;  ///< mean and standard deviation of the sampled faces
-    double max_difference = 0;                ///< see kolmogorov_smirnov_distance
+    /// largest difference between the cumulative distributions of the sampled faces and of the
+    /// request, see kolmogorov_smirnov_distance
+    double max_difference = 0;
     /// The values of random faces, which need not satisfy the limits, form a range. These are the
     /// fractions of the requested distribution below this range and above this range.
     double fraction_below = 0, fraction_above = 0;

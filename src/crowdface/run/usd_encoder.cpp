@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Converts a material to USD.
-/// \param file_of  returns the path by which USD layers refer to a texture
+/// \param file_of  returns the path by which USD layers refer to a texture of the material
 template <class FileOf>
 UsdaSurface surface_of(const SurfaceMaterial& material, const FileOf& file_of) {
   UsdaSurface surface;

@@ -34,8 +34,8 @@ struct WrapOptions {
   /// the command options of the same names
   bool no_pictures = false, force = false, dry_run = false, estimate = false;
   bool removes_shading = false;  ///< `--delight`: see BakeOptions::removes_shading
-  bool strict = false;           ///< whether to refuse doubtful heads
-  Shard shard;                   ///< the part of the batch to wrap
+  bool strict = false;  ///< whether to refuse heads with a doubtful feature or a misplaced landmark
+  Shard shard;          ///< the part of the batch to wrap
 };
 
 /// A value of `--landmarks`: the program neither reads landmarks from files nor detects landmarks.
@@ -43,21 +43,23 @@ inline constexpr const char* kNoLandmarks = "none";
 
 /// The inputs of `crowdface wrap` that are equal for all scans.
 struct WrapInputs {
-  ObjFile file;                      ///< the template
-  double mm_per_unit = 10;           ///< millimetres per unit of the template
-  HeadFrame frame;                   ///< up and front axes of the template
-  std::optional<PoseHint> hint;      ///< up and front directions of the scans; empty if unknown
-  WrapTemplate wrap_template;        ///< the template, separated into skin and other parts
-  SkinRegions regions;               ///< regions of the template's skin
+  ObjFile file;                  ///< the template
+  double mm_per_unit = 10;       ///< millimetres per unit of the template
+  HeadFrame frame;               ///< up and front axes of the template
+  std::optional<PoseHint> hint;  ///< up and front directions of the scans; empty if unknown
+  WrapTemplate wrap_template;    ///< the template's mesh, separated into skin and other parts
+  /// regions of the template's skin, for which reports list the distances to the scan
+  SkinRegions regions;
   std::optional<ShapeModel> model;   ///< statistical shape model in the template's topology
   std::size_t model_head_count = 0;  ///< number of heads of the shape model
   LandmarkFile landmarks;            ///< landmarks that the user gave; empty if none
   /// The landmarks that the program can detect on a scan: for the name of each landmark, the vertex
   /// of the template at this landmark.
   std::map<std::string, std::uint32_t> detected_landmarks;
-  std::vector<FaceFeature> features;  ///< features of the template's face
-  int texture_size = 0;               ///< texels per side of baked textures; 0: none
-  Digest digest;                      ///< hash of all inputs in this struct
+  /// mouth, nose, eyes and ears of the template, as far as its landmarks are known
+  std::vector<FaceFeature> features;
+  int texture_size = 0;  ///< texels per side of baked textures; 0: none
+  Digest digest;         ///< hash of all inputs in this struct
 };
 
 /// Reads the files that the options name. \throws Error that names the faulty file or option.

@@ -29,9 +29,11 @@ constexpr std::string_view kPageHead = R"(<!doctype html>
 /// The content of one scan's section on the page.
 struct ScanRow {
   std::string name, picture;
-  std::string worst_feature;  ///< the face feature that agrees least with the scan
-  double agreement = 1;       ///< agreement of the feature `worst_feature` with the scan
-  double distance_mm = 0;     ///< 95th percentile of the distance between skin and scan
+  /// the feature, such as "nose", whose relief changed most in the wrap
+  std::string worst_feature;
+  /// correlation between the reliefs of template and wrapped head at `worst_feature`
+  double agreement = 1;
+  double distance_mm = 0;  ///< 95th percentile of the distance between skin and scan
   bool has_head = false;
   std::vector<std::string> warnings;
 

@@ -4,7 +4,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/smooth/tile_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway requires foreach_target.h first, then the headers that are compiled once per target.
+// Highway requires foreach_target.h first, then the headers that are compiled once for each
+// instruction set.
 #include "crowdface/core/fused_lanes-inl.h"
 
 #include "hwy/highway.h"

@@ -16,7 +16,7 @@ namespace crowdface {
 /// \param values  height by width by #channels.
 template <class Value>
 void fill_uncovered(const SurfaceTexels& texels, std::span<const Value> fill, Value* values) {
-  // Sizes of the parallel tasks.
+  // How many rows and how many gutter texels one parallel task fills.
   constexpr int kRowsPerBlock = 16;
   constexpr std::size_t kGutterTexelsPerBlock = 1 << 14;
   const std::size_t channels = fill.size();

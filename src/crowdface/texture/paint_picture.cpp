@@ -32,7 +32,8 @@ struct RowBuffer {
 
   std::vector<float> values, ramps;
   std::vector<StoredRow> heads;
-  std::vector<float*> sums;  ///< for each channel: the row of blended values inside `values`
+  /// for each channel: pointer to the first blended value of the row of texels, inside `values`
+  std::vector<float*> sums;
 };
 
 /// Blends the covered texels of row y, span by span from left to right. Blending a span may also

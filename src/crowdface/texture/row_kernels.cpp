@@ -8,7 +8,8 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "crowdface/texture/row_kernels.cpp"
 #include "hwy/foreach_target.h"
-// Highway requires foreach_target.h first, then the headers that are compiled once per target.
+// Highway requires foreach_target.h first, then the headers that are compiled once for each
+// instruction set.
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -146,8 +146,8 @@ void normalized_convolution(const ChebyshevFilter& filter, std::uint64_t level, 
   }
 }
 
-/// The means of a head's three channels over the samples at a vertex, followed by 1; four zeros if
-/// the head has no map there.
+/// Returns the means of a head's three channels over the sampled texels of a vertex, followed by 1;
+/// four zeros if the head has no map there.
 Row<float> mean_numbers(std::span<const Sample> samples, const HeadMaps& maps, std::size_t head) {
   Eigen::Array3d sum = Eigen::Array3d::Zero();
   double count = 0;

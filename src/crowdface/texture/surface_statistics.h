@@ -41,7 +41,7 @@ struct StatisticsScale {
 };
 
 /// Computes the statistics of the heads' maps.
-/// \param filter  a filter of the mesh, with the umbrella or the lazy operator.
+/// \param filter  a smoothing filter of the mesh, with the umbrella or the lazy operator.
 /// \param texels  #pictures: the rasterized surface in each picture.
 /// \param maps    #pictures by #heads.
 SurfaceStatistics surface_statistics(const ChebyshevFilter& filter,

@@ -42,7 +42,7 @@ class SurfaceTexels {
   };
   /// The texels [begin, end) of one row that one triangle covers.
   struct Span {
-    std::uint32_t triangle;    ///< index of the triangle, see `triangle()`
+    std::uint32_t triangle;    ///< index of the triangle that covers the texels, see `triangle()`
     std::uint16_t begin, end;  ///< columns; `end` is exclusive
   };
   /// An uncovered texel near the surface (`target`), which gets the colour of a covered texel

@@ -19,8 +19,8 @@ namespace {
 
 constexpr Index kVerticesPerBlock = 1024;
 
-using HeadWeights =
-    std::vector<double>;  ///< one weight per head; the weights sum to one, or all are zero
+/// The weight of each head in a blended colour. The weights sum to one, or all are zero.
+using HeadWeights = std::vector<double>;
 
 /// Each head's weight in the target colours: the recipe's colour weights if given, otherwise the
 /// head's share of the target shape.
@@ -71,8 +71,9 @@ HeadWeights normalized_over_painted(std::initializer_list<const HeadWeights*> ch
 
 /// The heads' weights in one texture image of one face.
 struct FaceWeights {
-  HeadWeights of_target;  ///< for vertices that get only the target's colour
-  HeadWeights of_face;    ///< the weights W_h of TextureBlender
+  /// the heads' weights at vertices that get only the target's colours, such as vertices of eyes
+  HeadWeights of_target;
+  HeadWeights of_face;  ///< the weights W_h of TextureBlender
   /// for each region: the weights v_h of TextureBlender at vertices that lie only in this region
   std::vector<HeadWeights> of_region;
 };

@@ -16,7 +16,8 @@ namespace crowdface {
 
 /// Options of TextureBlender.
 struct TextureBlendOptions {
-  StatisticsScale statistics_scale;  ///< how many smoothing iterations the statistics use
+  /// how far the statistics of the heads' maps are smoothed over the mesh
+  StatisticsScale statistics_scale;
   /// for each vertex: the vertex's weight in means over the face; not all weights may be zero
   std::vector<double> vertex_areas;
   /// For each vertex, whether it gets only the target's colours, as eyes and teeth do; may be
@@ -48,7 +49,8 @@ class TextureBlender {
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param texels             the mesh rasterized into the layout of `textures`.
-  /// \param filter             a filter of the mesh, with the umbrella or the lazy operator.
+  /// \param filter             a smoothing filter of the mesh, with the umbrella or the lazy
+  ///                           operator.
   /// \param regions, textures  these objects and the textures' maps must outlive the blender.
   /// \param find_statistics    a function that may look up the statistics in a cache.
   TextureBlender(
