@@ -226,7 +226,7 @@ TEST(Yaml, SixtyFourLevelsAreFine) {
 TEST(Yaml, TooManyValuesAndTooLongFilesAreRefused) {
   std::string many = "[";
   for (int i = 0; i < 100'001; ++i) many += "1,";
-  EXPECT_THAT(parse(many + "]").problems.messages().at(0), HasSubstr("more than 100000 values"));
+  EXPECT_THAT(parse(many + "]").problems.messages().at(0), HasSubstr("at most 100000 values"));
   const std::string comment = "a: 1\n#" + std::string(1 << 20, 'x');
   EXPECT_THAT(parse(comment).problems.messages().at(0), StartsWith("f:1:1: more than 1 MiB"));
 }
