@@ -37,8 +37,9 @@ bool begins_like_a_log(const std::string& path) {
 void open_log(const std::string& path) {
   const std::filesystem::path file = checked_output_path(path);
   if (path_exists(file) && !begins_like_a_log(file)) {
-    throw CannotCreate(
-        concat(path, ": --log-file: expected a new file or an existing log, found another file"));
+    throw CannotCreate(concat(path,
+                              ": --log-file: expected a new file or an existing log, found a file "
+                              "that is not a log; choose another name"));
   }
   add_log_file(file);
 }

@@ -134,7 +134,8 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
 }
 
 /// Runs a generated script, waits until the script ends, and passes the script's exit code on.
-void run_script(const fs::path& script) {
+/// \param crowd  the crowd's folder, for the message.
+void run_script(const fs::path& script, const fs::path& crowd) {
   std::string program = "bash", argument = script.string();
   std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};
   pid_t child = 0;
@@ -155,7 +156,8 @@ void run_script(const fs::path& script) {
                        (code >= static_cast<int>(ExitCode::kUsage) &&
                         code <= static_cast<int>(ExitCode::kInterrupted));
   throw RecoverableError(is_ours ? static_cast<ExitCode>(code) : ExitCode::kIoError,
-                         concat(script.string(), ": ended with code ", code));
+                         concat(script.string(), ": ended with code ", code, "; crowdface status ",
+                                crowd.string(), " shows the failed tasks"));
 }
 
 void submit(const SubmitOptions& options) {
@@ -175,7 +177,7 @@ void submit(const SubmitOptions& options) {
   if (options.print) {
     print(concat(file.string(), "\n"));
   } else {
-    run_script(file);
+    run_script(file, tasks.directory.root);
   }
 }
 

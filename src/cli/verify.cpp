@@ -33,9 +33,9 @@ void verify(const VerifyOptions& options) {
   tell("not finished: ", check.unfinished_items);
   tell("", check.remarks);
   if (!check.is_intact()) {
-    throw InvalidInput(concat(options.directory, ": of ", check.file_count, " files ",
-                              count(check.missing_files.size(), "missing, "),
-                              count(check.altered_files.size(), "altered; "),
+    throw InvalidInput(concat(options.directory, ": ", check.file_count,
+                              " files expected: ", count(check.missing_files.size(), "missing, "),
+                              count(check.altered_files.size(), "altered, "),
                               count(check.unfinished_items.size(), "not finished"),
                               check.remarks.empty() ? "" : "; " + join(check.remarks, "; "),
                               "; to repair the crowd, run crowdface generate with its config"));

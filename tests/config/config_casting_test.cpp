@@ -212,7 +212,8 @@ TEST_F(ConfigTest, KeysThatOtherKeysOverrideAreTold) {
       "attachments.items: hat: each head that has its tags also has a tag of without, female; no "
       "face wears it");
   tells("attachments: {from: wardrobe, quotas: {hat: 0.3}}\n",
-        "attachments: none and quotas replace those of the folder, also for beard (10 faces)");
+        "attachments: none and quotas of the config replace the shares of the attachments' folder, "
+        "also for beard (10 faces)");
   touch("heads/tags.yaml", "faces: {tags: {ann: [old], bob: [old]}}");
   EXPECT_THAT(warnings("", kPlain.substr(0, kPlain.size() - 2) + ", tags: {bob: [young]}}\n"),
               ElementsAre(HasSubstr("faces.tags: replaces tags.yaml beside the heads, so 1 of 3 "
@@ -310,7 +311,7 @@ TEST_F(ConfigTest, AgesMayBeInYears) {
   };
   refused(
       all + "sampling: {age: 8 years}\n",
-      "the heads are 18 to 70.5 years old; younger faces, found \"8 years\", need heads of this");
+      "expected an age from 18 to 70.5 years, the ages of the heads, found \"8 years\"; younger");
   refused(all + "changes: {mob_0001: {age: 71 years}}\n", "older faces");
   refused(all + "sampling: {age: [0.5, 60 years]}\n", "or years, such as");
   refused(all + "sampling: {age: [30 years, 0.5]}\n", "two ages in years");
@@ -394,9 +395,9 @@ TEST_F(ConfigTest, GroupsThatCannotBeMeantAreRefused) {
     EXPECT_THAT(told(), HasSubstr(phrase)) << more;
   };
   refused("groups: [{share: 0.5}]\n", "name");
-  refused("groups: [{name: a}, {name: a}]\n", "two groups are called \"a\"");
+  refused("groups: [{name: a}, {name: a}]\n", "two groups are called \"a\"; rename one");
   refused("groups: [{name: a, share: 0.7}, {name: b, share: 0.7}]\n", "more than 1");
-  refused("groups: [{name: a, share: 0.7, count: 1}]\n", "not both");
+  refused("groups: [{name: a, share: 0.7, count: 1}]\n", "found both");
   refused("groups: [{name: a, count: 1000}]\n", "the counts sum to 1000");
   refused("groups: [{name: a, tags: [purple]}]\n", "these tags; no head has any tag");
   EXPECT_FALSE(read(kTagged + "groups: [{name: a, tags: [elderly]}]\n"));
@@ -531,8 +532,7 @@ TEST_F(ConfigTest, BandsThatCannotBeMeantAreRefused) {
   refused("sampling: {bands: {build: {}, skin: {sources: all}}}\n", "smoothness: missing");
   refused("sampling: {bands: {skin: {smoothness: 900 mm}}}\n", "up to smoothing.max_size");
   refused("sampling: {bands: {skin: {smoothnes: 8 mm}}}\n", "did you mean \"smoothness\"");
-  refused("sampling: {bands: {a: 0.9, b: 0.5, c: 0.3, d: 0.2, e: 0.1}}\n",
-          "beyond the limit of 4 bands");
+  refused("sampling: {bands: {a: 0.9, b: 0.5, c: 0.3, d: 0.2, e: 0.1}}\n", "expected at most 4");
   refused("groups: [{name: g, bands: {skin: 8 mm}}]\n", "no band of sampling.bands is called");
   refused("recipes: [{id: a, regions: {all: {bands: {skin: {}}}}}]\n", "the config has no bands");
   refused(kDetail + "recipes: [{id: a, regions: {all: {bands: {skinn: {}}}}}]\n", "\"skin\"");
@@ -566,7 +566,7 @@ TEST_F(ConfigTest, CastingThatCannotBeMeantIsRefused) {
       "expected drawn, a head, a recipe's id or a member");
   refused("families: [{name: a, members: 2, max_distance: 1 mm, inherit: {all: mother}}]\n",
           "only in a family with parents");
-  refused("sampling: {age: 0.5}\n", "no head is tagged old");
+  refused("sampling: {age: 0.5}\n", "no head has the tag old");
   refused("believability: {max_flipped: 2}\n", "from 0 to 1");
   refused("review: nowhere.yaml\n", "missing");
   touch("review.yaml");

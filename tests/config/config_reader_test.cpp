@@ -73,7 +73,7 @@ TEST_F(ReadConfig, FoldersSayWhichArraysAreNoHeads) {
               ::testing::HasSubstr("left out is faces.npy (1)"));
   const std::string left_out =
       "left out are all.npy (it has 4 heads: save each head to its own "
-      "file), scan.stl, weights.npy (an array of 7 is no list of points) (3)";
+      "file), scan.stl, weights.npy (an array of 7 is not a list of points) (3)";
   EXPECT_TRUE(left_out_meshes_message(folder_ / "points").ends_with(left_out))
       << left_out_meshes_message(folder_ / "points");
   std::string of_pattern;
@@ -333,7 +333,7 @@ TEST_F(ReadConfig, TagsLieBesideTheHeads) {
   EXPECT_THAT(told(), HasSubstr("heads/tags.yaml:1:"));
   touch("heads/tags.yaml", "known better");
   EXPECT_FALSE(read(kPlain));
-  EXPECT_THAT(told(), HasSubstr("heads/tags.yaml:1:1: faces.tags is missing"));
+  EXPECT_THAT(told(), HasSubstr("heads/tags.yaml:1:1: expected faces.tags"));
 }
 
 TEST_F(ReadConfig, AttachmentsComeFromAFolder) {

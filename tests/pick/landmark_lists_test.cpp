@@ -269,7 +269,7 @@ TEST(LandmarkLists, ManyPointsAreCheap) {
   for (int i = 0; i < 300'000; ++i) text += "<point active=\"0\"\n";
   const auto read = [&](const char* last) { return parse_landmark_list(text + last, "many.pp"); };
   EXPECT_EQ(read("<point x=\"1\" y=\"2\" z=\"3\" name=\"chin\"/>")->size(), 1U);
-  expect_error(ExitCode::kUsage, {"many.pp:300002: expected a number y"},
+  expect_error(ExitCode::kUsage, {"many.pp:300002: expected a number for the coordinate y"},
                [&] { read("<point x=\"1\"/>"); });
 }
 
@@ -282,7 +282,7 @@ TEST(LandmarkLists, WhatIsWrongIsNamedWithItsPlace) {
   refuse("a.csv", "chin,1,2\n", ":1: expected a vertex or x, y, z");
   refuse("b.csv", "chin,1,2,3\nchin,1,2,3\n", ":2: two landmarks are called \"chin\"");
   refuse("c.pp", "<PickedPoints>\n<point x=\"1\" y=\"a\" z=\"3\" name=\"chin\"/>",
-         ":2: expected a number y");
+         ":2: expected a number for the coordinate y");
   refuse("d.json", R"({"chin": [1, 2]})", "chin: expected a vertex or x, y, z");
   refuse("e.csv", "chin,1.5\n", "the number of a vertex");
   refuse("f.json", "{}", "found none");

@@ -411,8 +411,8 @@ TEST_F(Changes, ThatOverrideOtherKeysAreTold) {
     return !face.at("index").is_null() && face.at("target") == "ann";
   }));
   EXPECT_THAT(warnings(concat('{', young, ": {wears: [braid]}}")),
-              has(concat("changes: 1 face with attachments that are not for the head, by tags or "
-                         "without: ",
+              has(concat("changes: 1 face with attachments whose key tags or without excludes "
+                         "the head: ",
                          young, " (braid, ann)")));
   EXPECT_THAT(warnings(concat('{', young, ": {wears: [], hair: red}}")),
               has(concat("changes: 1 face with a hair colour that does not show, because nothing "
@@ -423,9 +423,10 @@ TEST_F(Changes, ThatOverrideOtherKeysAreTold) {
                          "target: ",
                          young, " (ann, elderly)")));
   review("a.yaml", concat("changes: {", young, ": {hair: black}}"));
-  EXPECT_THAT(warnings(concat('{', young, ": {hair: red}}")),
-              has(concat("changes: 1 face of which a review replaces changes of the config: ",
-                         young, " (hair)")));
+  EXPECT_THAT(
+      warnings(concat('{', young, ": {hair: red}}")),
+      has(concat("changes: 1 face whose changes in the config are replaced by those of a review: ",
+                 young, " (hair)")));
 }
 
 TEST_F(Changes, AreStillThereAfterSheet) {

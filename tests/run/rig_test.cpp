@@ -265,7 +265,7 @@ TEST(GltfRig, BrokenScenesAreRefused) {
                        for (int k = 0; k < 2000; ++k) keys += concat(R"(,"k)", k, R"(":0)");
                        return keys + "},";
                      }()),
-         {"its JSON cannot be read"});
+         {"JSON that cannot be read"});
 
   // One megabyte became gigabytes.
   constexpr const char* kOften = "far more numbers";

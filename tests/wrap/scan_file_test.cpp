@@ -277,7 +277,7 @@ TEST(ScanFile, DamagedFilesAreRefusedByName) {
                   "property list uchar int vertex_index\nend_header\n0 0 0\n", x,
                   " 0 0\n0 1 0\n3 0 1 2\n");
   };
-  refuse("beyond.ply", ply_of(1e30), "none farther than 1e+09");
+  refuse("beyond.ply", ply_of(1e30), "not farther than 1e+09");
   refuse("flat.ply", ply_of(0), "triangles without area");
   refuse("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "face");
   refuse("scan.xyz", "1 2 3\n", ".glb");

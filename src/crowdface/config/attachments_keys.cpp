@@ -48,8 +48,9 @@ void read_item_tags(const YamlNode& node, Attachment& item, ConfigDraft& draft) 
   item.tags = *tags;
   const bool any = !heads_with_tags(*tags, draft.config.faces).empty();
   if (!any && draft.are_heads_known && draft.are_tags_known) {
-    draft.complaints.add_at(node,
-                            "no head has all of these tags, so no face would get this attachment");
+    draft.complaints.add_at(
+        node, concat("no head has all of these tags, so no face would get this attachment",
+                     known_tags(draft.config.faces)));
   }
 }
 
@@ -100,7 +101,8 @@ bool is_ending_taken(const std::string& name, const Config& config) {
 void check_item(const YamlNode& node, const Attachment& item, ConfigDraft& draft) {
   const auto& items = draft.config.attachments.items;
   if (std::ranges::find(items, item.name, &Attachment::name) != items.end()) {
-    draft.complaints.add_at(node, concat("two attachments are called ", quoted(item.name)));
+    draft.complaints.add_at(
+        node, concat("two attachments are called ", quoted(item.name), "; rename one"));
   } else if (is_ending_taken(item.name, draft.config)) {
     draft.complaints.add_at(node, concat("other files of a face already have the name ",
                                          quoted(item.name), "; choose another name"));
@@ -145,8 +147,9 @@ void read_fractions_without_item(const YamlNode& node, const Attachments& attach
   for (const YamlEntry& entry : node.entries) {
     const auto share = number(0, 1).read(entry.value, draft);
     if (!contains(kinds, entry.key)) {
-      draft.complaints.add_at(entry.value, concat("no attachment is of the kind ",
-                                                  quoted(entry.key), suggestion(entry.key, kinds)));
+      draft.complaints.add_at(entry.value,
+                              concat("no attachment is of the kind ", quoted(entry.key),
+                                     suggestion_or_choices(entry.key, kinds)));
     } else if (share) {
       fractions[entry.key] = *share;
     }
@@ -211,7 +214,7 @@ void read_item_quotas(const YamlNode& node, Attachments& attachments, ConfigDraf
     if (item == nullptr) {
       draft.complaints.add_at(
           entry.value, concat("no attachment is of the kind, name or colour ", quoted(entry.key),
-                              suggestion(entry.key, words_of_items(attachments))));
+                              suggestion_or_choices(entry.key, words_of_items(attachments))));
       continue;
     }
     // Refuse quotas that break one of these rules:
@@ -277,7 +280,7 @@ void check_excluded(const YamlNode& items, const Attachments& attachments, Confi
     for (const YamlNode& name : excludes->value.items) {
       if (contains(known, name.text)) continue;
       draft.complaints.add_at(name, concat("no attachment has the name or kind ", quoted(name.text),
-                                           suggestion(name.text, known)));
+                                           suggestion_or_choices(name.text, known)));
     }
   }
 }
@@ -333,7 +336,8 @@ void read_attachments_of_folder(const YamlNode& node, Attachments& attachments,
   remove_unwearable(attachments, draft.config.faces);
   if (any && attachments.items.empty()) {
     log_warning(concat(file.string(),
-                       ": no head has the tags of any attachment, so the faces get none of these"));
+                       ": no head has the tags of any attachment, so faces get no attachment from "
+                       "this file; give heads these tags under faces.tags"));
   }
 }
 
@@ -372,9 +376,11 @@ void warn_of_ignored_quotas(const YamlNode& node, const Attachments& from, Confi
   std::erase_if(lost, [&](const std::string& kind) { return kinds.contains(kind); });
   if (lost.empty()) return;
   draft.warnings.push_back(concat(node.path,
-                                  ": none and quotas replace those of the folder, also for ",
+                                  ": none and quotas of the config replace the shares of the "
+                                  "attachments' folder, also for ",
                                   join(std::vector<std::string>(lost.begin(), lost.end())), " (",
-                                  draft.config.crowd.count, " faces); write shares for each kind"));
+                                  draft.config.crowd.count,
+                                  " faces); write shares for each of these kinds"));
 }
 
 void read_attachments(const YamlNode& node, Config& config, ConfigDraft& draft) {

@@ -22,8 +22,8 @@ void read_change_of_age(const YamlNode& node, FaceChange& change, ConfigDraft& d
     const SamplingOptions& sampling = *draft.config.sampling;
     if ((is_older ? sampling.heads_tagged_old : sampling.heads_tagged_young).empty() &&
         draft.are_tags_known && draft.are_heads_known) {
-      draft.complaints.add_at(
-          node, concat("no head is tagged ", is_older ? "old" : "young", " under faces.tags"));
+      draft.complaints.add_at(node, concat("no head has the tag ", is_older ? "old" : "young",
+                                           "; add the tag to heads under faces.tags"));
     }
     return;
   }
@@ -53,12 +53,12 @@ void read_wears(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
     const std::string& name = (*names)[i];
     const auto item = std::ranges::find(items, name, &Config::Attachment::name);
     if (item == items.end()) {
-      draft.complaints.add_at(
-          node.items[i], concat("no attachment is called ", quoted(name), suggestion(name, known)));
+      draft.complaints.add_at(node.items[i], concat("no attachment is called ", quoted(name),
+                                                    suggestion_or_choices(name, known)));
     } else if (const auto [other, is_new] = by_kind.emplace(item->kind, name); !is_new) {
-      draft.complaints.add_at(node.items[i],
-                              concat(name, " and ", other->second, " are both of the ", "kind ",
-                                     item->kind, ", of which a face wears at most one"));
+      draft.complaints.add_at(
+          node.items[i], concat(name, " and ", other->second, " are both of the ", "kind ",
+                                item->kind, ", of which a face wears at most one; remove one"));
     } else {
       const auto excluded = std::ranges::find_if(*names, [&](const std::string& worn) {
         return std::ranges::any_of(items, [&](const Config::Attachment& one) {
@@ -67,7 +67,9 @@ void read_wears(const YamlNode& node, FaceChange& change, ConfigDraft& draft) {
         });
       });
       if (excluded == names->end()) continue;
-      draft.complaints.add_at(node.items[i], concat(name, " excludes ", *excluded));
+      draft.complaints.add_at(
+          node.items[i], concat("a face cannot wear ", name, " and ", *excluded, ", because ", name,
+                                " excludes ", *excluded, "; remove one"));
     }
   }
   change.attachments = *names;
@@ -85,7 +87,7 @@ void read_takes_off(const YamlNode& node, FaceChange& change, ConfigDraft& draft
     if (contains(known, (*words)[i])) continue;
     draft.complaints.add_at(node.items[i],
                             concat("no attachment or kind is called ", quoted((*words)[i]),
-                                   suggestion((*words)[i], known)));
+                                   suggestion_or_choices((*words)[i], known)));
   }
   change.removed_attachments = *words;
 }
@@ -97,8 +99,9 @@ void check_takes_off(const FaceChange& change, const YamlNode& node, ConfigDraft
     if (!contains(*change.attachments, item.name)) continue;
     for (const std::string& word : {item.name, item.kind}) {
       if (!contains(change.removed_attachments, word)) continue;
-      draft.complaints.add_at(node.find("takes_off")->value,
-                              concat(quoted(word), " contradicts wears: [", item.name, ']'));
+      draft.complaints.add_at(
+          node.find("takes_off")->value,
+          concat(quoted(word), " contradicts wears: [", item.name, "]; remove one of the two"));
     }
   }
 }
@@ -109,7 +112,9 @@ void check_hair(const FaceChange& change, const YamlNode& node, ConfigDraft& dra
   if (!change.hair) return;
   const auto& items = draft.config.attachments.items;
   if (std::ranges::none_of(items, [](const auto& item) { return item.tint != Tint::kNone; })) {
-    draft.complaints.add_at(hair->value, "requires attachments with a tint");
+    draft.complaints.add_at(
+        hair->value,
+        "requires attachments with a tint; add the key tint to items under attachments");
   }
 }
 
@@ -151,7 +156,7 @@ const Keys<FaceChange>& change_keys() {
         if (std::ranges::find(groups, name, &Group::name) != groups.end()) return true;
         const auto known = texts_of(groups, [](const Group& group) { return group.name; });
         draft.complaints.add_at(
-            node, concat("no group is called ", quoted(name), suggestion(name, known)));
+            node, concat("no group is called ", quoted(name), suggestion_or_choices(name, known)));
         return false;
       });
   static const Keys<FaceChange> keys = {

@@ -164,7 +164,8 @@ Codec<double> age_fraction() {
     }
     const auto has = [&](const std::vector<Eigen::Index>& heads, const char* tag) {
       if (!heads.empty() || !draft.are_tags_known || !draft.are_heads_known) return true;
-      draft.complaints.add_at(node, concat("no head is tagged ", tag, " under faces.tags"));
+      draft.complaints.add_at(
+          node, concat("no head has the tag ", tag, "; add the tag to heads under faces.tags"));
       return false;
     };
     const SamplingOptions& sampling = *draft.config.sampling;
@@ -197,9 +198,10 @@ Codec<double> age_in_years() {
             if (*years >= *youngest && *years <= *oldest) return years;
             const bool is_younger = *years < *youngest;
             draft.complaints.add_at(
-                node, concat("the heads are ", *youngest, " to ", *oldest, " years old; ",
-                             is_younger ? "younger" : "older", " faces, found ", quoted(node.text),
-                             ", need heads of this age"));
+                node, concat("expected an age from ", *youngest, " to ", *oldest,
+                             " years, the ages of the heads, found ", quoted(node.text), "; ",
+                             is_younger ? "younger" : "older", " faces need ",
+                             is_younger ? "younger" : "older", " heads"));
             return std::nullopt;
           },
           [](double years, const WriteContext&) { return concat(format_number(years), " years"); },
@@ -293,9 +295,9 @@ Codec<Range> range(const Codec<double>& one) {
             const auto high = one.read(node.items[1], draft);
             if (!low || !high) return std::nullopt;
             if (*low <= *high) return Range{*low, *high};
-            draft.complaints.add_at(
-                node, concat("expected [low, high], found ", quoted(node.items[0].text), " before ",
-                             quoted(node.items[1].text)));
+            draft.complaints.add_at(node,
+                                    concat("expected [low, high] with low at most high, found [",
+                                           node.items[0].text, ", ", node.items[1].text, ']'));
             return std::nullopt;
           },
           [=](const Range& range, const WriteContext& context) {

@@ -38,8 +38,8 @@ std::optional<Eigen::Index> find_head(const std::string& name, const YamlPlace& 
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return found - names.begin();
   if (draft.are_heads_known) {
-    draft.complaints.add(
-        place, concat(path, ": no head is called ", quoted(name), suggestion(name, names)));
+    draft.complaints.add(place, concat(path, ": no head is called ", quoted(name),
+                                       suggestion_or_choices(name, names)));
   }
   return std::nullopt;
 }

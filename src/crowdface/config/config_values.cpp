@@ -196,4 +196,12 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   return nearest ? concat("; did you mean ", quoted(*nearest), '?') : std::string();
 }
 
+std::string suggestion_or_choices(std::string_view word,
+                                  const std::vector<std::string>& candidates) {
+  constexpr std::size_t kMaxChoices = 12;
+  std::string text = suggestion(word, candidates);
+  if (!text.empty() || candidates.empty() || candidates.size() > kMaxChoices) return text;
+  return concat("; expected ", candidates.size() > 1 ? "one of " : "", join(candidates));
+}
+
 }  // namespace crowdface

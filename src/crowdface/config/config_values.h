@@ -108,4 +108,8 @@ std::string yaml_entry(std::string_view key, std::string_view value);
 /// Returns an empty text if no candidate is similar.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
+/// Like suggestion(), but lists the candidates, if they are few, when none is similar.
+std::string suggestion_or_choices(std::string_view word,
+                                  const std::vector<std::string>& candidates);
+
 }  // namespace crowdface

@@ -252,9 +252,11 @@ void read_faces(const YamlNode& node, Config& config, ConfigDraft& draft) {
   YamlNode section = node;
   const bool has_files = node.find("files") != nullptr;
   if (node.kind == YamlNode::Kind::kMap && has_files == (node.find("directory") != nullptr)) {
-    draft.complaints.add_at(node, has_files
-                                      ? "either directory or files, not both"
-                                      : "directory or files is missing; where are the heads?");
+    draft.complaints.add_at(
+        node,
+        has_files
+            ? "expected either directory or files, found both"
+            : "expected directory (the folder of the heads) or files (the heads), found neither");
     std::erase_if(section.entries, [](const YamlEntry& entry) {
       return entry.key == "directory" || entry.key == "files";
     });

@@ -31,7 +31,11 @@ Codec<std::size_t> group() {
             const auto& groups = draft.config.groups;
             const auto found = std::ranges::find(groups, *name, &Group::name);
             if (found != groups.end()) return static_cast<std::size_t>(found - groups.begin());
-            draft.complaints.add_at(node, concat("no group is called ", quoted(*name)));
+            draft.complaints.add_at(
+                node, concat("no group is called ", quoted(*name),
+                             suggestion_or_choices(*name, texts_of(groups, [](const Group& group) {
+                               return group.name;
+                             }))));
             return std::nullopt;
           },
           [](std::size_t index, const WriteContext& context) {
@@ -163,7 +167,8 @@ std::string write_inherit(const FamilyOptions& family, const WriteContext& conte
 void check_name(const YamlNode& node, const FamilyOptions& family, ConfigDraft& draft) {
   const auto& families = draft.config.families;
   if (std::ranges::find(families, family.name, &FamilyOptions::name) != families.end()) {
-    draft.complaints.add_at(node, concat("two families are called ", quoted(family.name)));
+    draft.complaints.add_at(
+        node, concat("two families are called ", quoted(family.name), "; rename one"));
   }
   if (family.name.find_first_not_of("0123456789") == std::string::npos) {
     draft.complaints.add_at(node,

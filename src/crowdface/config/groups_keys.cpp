@@ -74,8 +74,8 @@ void restrict_targets_to_tags(const YamlNode& node, Group& group, ConfigDraft& d
   const bool had_some = !own.empty();
   std::erase_if(own, [&](const WeightedHead& target) { return !contains(bound, target.head); });
   if (had_some && own.empty()) {
-    draft.complaints.add_at(targets->value,
-                            concat("no target has all of the group's tags, ", join(wanted)));
+    draft.complaints.add_at(targets->value, concat("no target has all of the group's tags, ",
+                                                   join(wanted), "; change targets or tags"));
   }
 }
 
@@ -108,8 +108,9 @@ void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
     }
   }
   if (known && had_some && (sampling.targets.empty() || sampling.sources.empty())) {
-    draft.complaints.add_at(
-        node, "the group has no head left, because each of its heads has one of these tags");
+    draft.complaints.add_at(node,
+                            "the group has no head left, because each of its heads has one of "
+                            "these tags; remove a tag");
   }
   for (const std::string& band : emptied) {
     draft.complaints.add_at(
@@ -166,10 +167,11 @@ const Keys<Group>& group_keys() {
 void check_group(const YamlNode& node, const Group& group, ConfigDraft& draft) {
   const auto& groups = draft.config.groups;
   if (std::ranges::find(groups, group.name, &Group::name) != groups.end()) {
-    draft.complaints.add_at(node, concat("two groups are called ", quoted(group.name)));
+    draft.complaints.add_at(node,
+                            concat("two groups are called ", quoted(group.name), "; rename one"));
   }
   if (node.find("share") != nullptr && node.find("count") != nullptr) {
-    draft.complaints.add_at(node, "either share or count, not both");
+    draft.complaints.add_at(node, "expected either share or count, found both");
   }
 }
 

@@ -17,9 +17,11 @@ namespace {
 void check_tag(const YamlNode& node, const Config::Faces& faces, Complaints& out) {
   const std::string& tag = node.text;
   if (contains(faces.names, tag)) {
-    out.add_at(node, concat("the tag ", quoted(tag), " is also the name of a head"));
+    out.add_at(node,
+               concat("the tag ", quoted(tag), " is also the name of a head; rename the tag"));
   } else if (tag == "all" || tag == "target") {
-    out.add_at(node, concat("a tag cannot have the reserved name ", quoted(tag)));
+    out.add_at(node, concat("a tag cannot have the name ", quoted(tag),
+                            ", because the word is reserved; rename the tag"));
   }
 }
 
@@ -103,7 +105,8 @@ void read_tags_from_head_folders(Config::Faces& faces, ConfigDraft& draft) {
       read(of_heads, faces, draft);
     }
     if (root && !has_any) {
-      draft.complaints.add(root->place, "faces.tags is missing: the tags of the heads");
+      draft.complaints.add(
+          root->place, "expected faces.tags, the tags of the heads, or faces.ages, found neither");
     }
   }
   draft.are_tags_known = draft.complaints.size() == complaints_before;

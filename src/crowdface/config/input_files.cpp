@@ -68,7 +68,7 @@ std::string objection_to_array(const fs::path& file) {
   if (shape->size() >= 2 && (shape->back() == 3 || shape->front() == 3)) return {};
   std::string sizes;
   for (const std::size_t size : *shape) sizes += concat(sizes.empty() ? "" : " by ", size);
-  return concat("an array of ", sizes, " is no list of points");
+  return concat("an array of ", sizes, " is not a list of points");
 }
 
 /// Returns a message that names the files that may contain a mesh but are not in `heads`, with the
@@ -105,7 +105,7 @@ std::string left_out_message(const std::string& where, const std::vector<fs::pat
                 count, ")",
                 has_heads       ? to_read_all
                 : has_objection ? ""
-                                : ": no format of heads; export the heads as OBJ");
+                                : ": crowdface cannot read this format; export the heads as OBJ");
 }
 
 /// Returns whether a name matches a pattern with the wildcards `*` and `?`. After a mismatch, the
@@ -350,7 +350,7 @@ std::string objection_to_head_name(const std::string& name, const fs::path& file
                   ", because the word is reserved; rename ", quoted_file);
   }
   if (contains(other_names, name)) {
-    return concat("two heads are called ", quoted(name), "; the second is ", quoted_file);
+    return concat("two heads are called ", quoted(name), "; rename the second, ", quoted_file);
   }
   return {};
 }

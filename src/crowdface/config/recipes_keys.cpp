@@ -50,7 +50,7 @@ void read_part(const YamlNode& node, const Keys<Part>& keys, Part& part, ConfigD
   for (const auto& [one, other] :
        {std::pair("position", "weights"), {"smoothness", "iterations"}}) {
     if (node.find(one) == nullptr || node.find(other) == nullptr) continue;
-    draft.complaints.add_at(node, concat("either ", one, " or ", other, ", not both"));
+    draft.complaints.add_at(node, concat("expected either ", one, " or ", other, ", found both"));
   }
 }
 

@@ -28,8 +28,10 @@ void read_mask_image(const YamlNode& node, Regions& regions, ConfigDraft& draft)
   } else if (find_tiles(*mask).empty()) {
     draft.complaints.add_at(
         node,
-        concat("no tile of the mask ", quoted(text),
-               " exists; expected a file such as the one with 1001 in place of <UDIM>"),
+        concat(
+            "no tile of the mask ", quoted(text),
+            " exists; expected files whose names have a tile number in place of <UDIM>, such as ",
+            quoted(udim_tile_path(*mask, 1001).filename().string())),
         ExitCode::kMissingInput);
   }
   regions.mask.push_back(text);
@@ -55,7 +57,7 @@ void read_region_name(const YamlNode& node, Regions& regions, Complaints& out) {
   if (!name) return;
   if (reserved.contains(*name)) {
     out.add_at(node, concat("a region cannot have the name ", quoted(*name),
-                            ", because the word is reserved"));
+                            ", because the word is reserved; rename the region"));
   } else if (contains(names, *name)) {
     out.add_at(node, concat("the region ", quoted(*name), " is named twice"));
   }

@@ -222,7 +222,7 @@ std::vector<std::size_t> read_locked_bands(const YamlNode& node, ConfigDraft& dr
           item, names.empty()
                     ? "the config has no regions, so nothing can be locked"
                     : concat(banded ? "no region or band is called " : "no region is called ",
-                             quoted(*name), suggestion(*name, names)));
+                             quoted(*name), suggestion_or_choices(*name, names)));
     }
     locked.insert(locked.end(), found.begin(), found.end());
   }

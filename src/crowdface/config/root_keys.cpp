@@ -93,7 +93,9 @@ void check_textures(const YamlNode& node, bool, ConfigDraft& draft) {
   for (const std::string& tag : *textures.matching_tags) {
     const bool known = std::ranges::any_of(draft.config.faces.tags,
                                            [&](const auto& tags) { return contains(tags, tag); });
-    if (!known) complain("alike", concat("no head has the tag ", quoted(tag)));
+    if (!known)
+      complain("alike",
+               concat("no head has the tag ", quoted(tag), known_tags(draft.config.faces)));
   }
 }
 

@@ -67,7 +67,7 @@ PerRegion split_by_region(const YamlNode& node, const Names& parameters, ConfigD
     }
   }
   if (!direct.entries.empty() && split.whole) {
-    draft.complaints.add_at(node, "either default or the values directly, not both");
+    draft.complaints.add_at(node, "expected either default or values without default, found both");
   } else if (!direct.entries.empty()) {
     split.whole = std::move(direct);
   } else if (node.entries.empty()) {
@@ -160,8 +160,9 @@ std::optional<PositionDistribution> read_position(const YamlNode& node, ConfigDr
   const KindKeys& own = keys_of(position.kind);
   for (const YamlEntry& entry : node.entries) {
     if (contains(own.keys, entry.key)) continue;
-    draft.complaints.add(entry.key_place, concat(entry.value.path, ": the distribution ",
-                                                 word_of(position.kind), " has no ", entry.key));
+    draft.complaints.add(entry.key_place,
+                         concat(entry.value.path, ": the distribution ", word_of(position.kind),
+                                " does not use this key; remove it"));
   }
   if (!own.advice_if_last_is_missing.empty() && node.find(own.keys.back()) == nullptr) {
     draft.complaints.add(node.place, concat(node.path, '.', own.keys.back(), ": missing; ",
@@ -229,7 +230,7 @@ void check_band_name(const YamlEntry& entry, const SamplingOptions& sampling, Co
   } else if (reserved.contains(entry.key) || contains(regions, entry.key)) {
     why = "is a reserved word or the name of a region; rename the band";
   } else if (sampling.bands.size() == kMaxBands) {
-    why = concat("is beyond the limit of ", kMaxBands, " bands");
+    why = concat("is one band too many; expected at most ", kMaxBands);
   }
   if (!why.empty()) draft.complaints.add(entry.key_place, concat(quoted(entry.key), ' ', why));
 }
@@ -244,8 +245,12 @@ void read_bands(const YamlNode& node, SamplingOptions& sampling, ConfigDraft& dr
     auto band = std::ranges::find(sampling.bands, entry.key, &BandSampling::name);
     if (band == sampling.bands.end()) {
       if (!of_crowd) {
-        draft.complaints.add(entry.key_place,
-                             concat("no band of sampling.bands is called ", quoted(entry.key)));
+        draft.complaints.add(
+            entry.key_place,
+            concat("no band of sampling.bands is called ", quoted(entry.key),
+                   suggestion_or_choices(
+                       entry.key, texts_of(sampling.bands,
+                                           [](const BandSampling& one) { return one.name; }))));
         continue;
       }
       check_band_name(entry, sampling, draft);

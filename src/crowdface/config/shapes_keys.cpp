@@ -37,7 +37,8 @@ ShapeFiles list_shapes(const YamlNode& node, const fs::path& folder, const fs::p
                        "digits, '_', '-' and '.', found ",
                        quoted(name)));
     } else if (std::ranges::any_of(shapes, [&](const auto& one) { return one.first == name; })) {
-      draft.complaints.add_at(node, concat("two shapes are called ", quoted(name)));
+      draft.complaints.add_at(
+          node, concat("two shapes are called ", quoted(name), "; rename one of the files"));
     }
     shapes.emplace_back(name, file);
   }
@@ -59,7 +60,8 @@ void read_shape_directory(const YamlNode& node, Shapes& shapes, ConfigDraft& dra
     return draft.complaints.add_at(node, error.what(), error.code());
   }
   if (shapes.template_files.empty()) {
-    draft.complaints.add_at(node, concat("there is no OBJ file in ", quoted(node.text)));
+    draft.complaints.add_at(
+        node, concat("expected an OBJ file for each shape, found none in ", quoted(node.text)));
   }
 }
 

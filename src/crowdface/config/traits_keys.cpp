@@ -151,13 +151,17 @@ std::vector<TraitTarget> read_trait_table(const YamlNode& node, const std::files
                *deviation > kLargestTrait) {
       complain("expected numbers in mm, degrees or as a ratio, and a deviation above 0");
     } else if (std::ranges::find(targets, *trait, &TraitTarget::trait) != targets.end()) {
-      complain(concat("a second line for ", fields[0]));
+      complain(concat("expected one line for each measurement, found a second for ", fields[0]));
     } else {
       targets.push_back({*trait, *mean, *deviation});
     }
   }
   if (targets.empty() && draft.complaints.empty()) {
-    draft.complaints.add_at(node, concat(file.string(), " has no measurement"));
+    draft.complaints.add_at(
+        node,
+        concat(
+            file.string(),
+            ": expected lines of a measurement, its mean and its standard deviation, found none"));
   }
   std::ranges::sort(targets, {}, &TraitTarget::trait);
   return targets;

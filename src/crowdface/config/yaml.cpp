@@ -130,7 +130,8 @@ class TreeBuilder : public YAML::EventHandler {
     node.kind = kind;
     node.place = place(mark);
     if (++nodes_ > kMaxNodes) {
-      fail(node.place, concat("more than ", kMaxNodes, " values in one file"));
+      fail(node.place, concat("expected at most ", kMaxNodes,
+                              " values in one file; split the file, or check that it is a config"));
     }
     if (!frames_.empty() && !expects_key()) node.path = child_path(frames_.back());
     return node;
@@ -150,7 +151,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    complain(place(mark), concat("tags (", quoted(tag), ") are not supported; leave it out"));
+    complain(place(mark), concat("tags (", quoted(tag), ") are not supported; leave the tag out"));
   }
 
   void open(YamlNode::Kind kind, const YAML::Mark& mark) {
@@ -158,7 +159,8 @@ class TreeBuilder : public YAML::EventHandler {
     frame.node = make(kind, mark);
     const std::uint64_t most = input_limits().yaml_depth;
     if (frames_.size() >= most) {
-      fail(frame.node.place, concat("nested more than ", most, " levels deep"));
+      fail(frame.node.place, concat("expected at most ", most,
+                                    " nested levels (--limit yaml_depth=NUMBER allows more)"));
     }
     frames_.push_back(std::move(frame));
   }

@@ -99,8 +99,9 @@ std::optional<YamlNode> read_yaml(const std::string& file, Complaints& out) {
     const OpenedFile opened = open_for_reading(file);
     text.resize(read_up_to(opened.descriptor, text.data(), text.size(), file));
   } catch (const MissingInput&) {
-    return refuse(path_exists(file) ? "expected a regular file that can be read"
-                                    : "the config cannot be opened");
+    return refuse(path_exists(file)
+                      ? "expected a regular file that can be read"
+                      : "the file does not exist or cannot be opened; check its path");
   }
   return parse_yaml(text, file, out);
 }

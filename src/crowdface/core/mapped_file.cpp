@@ -69,7 +69,9 @@ void on_bus_error(int signal, siginfo_t* info, void*) {
   std::signal(signal, SIG_DFL);
 }
 
-constexpr std::string_view kWasTruncated = ": was truncated while it was being read";
+constexpr std::string_view kWasTruncated =
+    ": was truncated while it was being read; write the file again, then run the same command "
+    "again";
 
 int begin_watch(char* begin, std::size_t size, OnTruncation on_truncation, const fs::path& path) {
   for (std::size_t i = 0; i < watches.size(); ++i) {

@@ -47,7 +47,7 @@ fs::path checked_output_path(const fs::path& path) {
   const fs::file_status status = fs::symlink_status(file, error);
   if (!fs::status_known(status)) refuse(concat("cannot be created: ", error.message()));
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    refuse("expected a regular file, or none yet");
+    refuse("exists and is not a regular file; choose another name");
   }
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error)) {

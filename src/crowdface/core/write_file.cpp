@@ -144,7 +144,7 @@ void sync_directory(const fs::path& directory) {
   // Accept this error: a folder that is writable but not readable cannot be synced.
   if (!descriptor.valid() && errno == EACCES) return;
   if (!descriptor.valid() || !sync_to_disk(descriptor.get())) {
-    throw_with_errno<IoError>(directory, "cannot be synchronised");
+    throw_with_errno<IoError>(directory, "the folder cannot be written to disk");
   }
 }
 

@@ -14,7 +14,8 @@ Positions read_face_positions(const CrowdDirectory& directory, const std::string
       std::ranges::find_if(formats, [](MeshFormat one) { return traits_of(one).read != nullptr; });
   if (format == formats.end()) {
     throw MissingInput(concat(directory.meshes().string(), ": this crowd has no meshes",
-                              formats.empty() ? "" : " that can be read back"));
+                              formats.empty() ? "" : " that crowdface can read",
+                              "; add obj to output.meshes and run crowdface generate"));
   }
   const std::filesystem::path path = directory.mesh(id, *format);
   Positions positions = traits_of(*format).read(path, vertices);

@@ -79,7 +79,8 @@ void DroppedFiles::add(const std::string& name, std::uint64_t offset, std::strin
   const std::lock_guard lock(mutex_);
   const auto size = expected_bytes_.find(name);
   if (size == expected_bytes_.end())
-    throw UsageError(concat(quoted(name), ": this file was not announced"));
+    throw UsageError(
+        concat(quoted(name), ": this file was not among the dropped files; drop all files again"));
   std::uint64_t& arrived = received_bytes_[name];
   if (offset != arrived || bytes.size() > size->second - arrived) {
     throw UsageError(concat(quoted(name), ": the file changed while it was read; drop it again"));

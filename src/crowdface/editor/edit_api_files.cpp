@@ -84,7 +84,7 @@ HttpAnswer EditApi::save_face(const HttpRequest& request, const std::string&) {
   require_masks_of_config();
   const auto file = folder_.path() / concat(face.id, extension_of(*format));
   if (body.contains("ask") && body["ask"] == true && path_exists(file)) {
-    return error_answer(409, concat(file.filename().string(), " exists"));
+    return error_answer(409, concat(file.filename().string(), " already exists"));
   }
   painting_.apply_masks();
   return json_answer(file_json(folder_.save(session_.job(), face, *format, mesh_writer())));

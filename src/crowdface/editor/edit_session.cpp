@@ -73,7 +73,9 @@ std::optional<std::vector<FacePlan>> crowd_of_job(const Job& job) {
     std::vector<FacePlan> faces;
     for (PlanLine& line : read_plan(directory.plan(), job.names)) {
       if (line.settings_hash != job.settings.hex()) {
-        return refuse("they were planned with other settings");
+        return refuse(
+            "they were planned with other heads, masks or smoothing; run crowdface generate to "
+            "plan them again");
       }
       faces.push_back(std::move(line.face));
     }

@@ -119,7 +119,8 @@ std::string objection_to_pose(const HeadPose& pose, const std::string& head) {
   if (pose.scale > kOtherUnit || pose.scale < 1 / kOtherUnit) {
     return concat("head ", head, ": expected heads in one unit, found ",
                   format_fixed(pose.scale, 2),
-                  " times the size of the others (faces.align: none skips this check)");
+                  " times the size of the others; export this head in the unit of the others "
+                  "(faces.align: none skips this check)");
   }
   return {};
 }

@@ -102,8 +102,10 @@ TextureMap map_of(const Image& image, const NeededMap& needed) {
       return make_texture_map(needed.width, needed.height, linear_light_of(image));
     case MapContent::kSlopes:
       if (!holds_normals(image)) {
-        throw InvalidInput(concat(needed.path.string(),
-                                  ": expected a normal map, whose third channel is the brightest"));
+        throw InvalidInput(
+            concat(needed.path.string(),
+                   ": expected a normal map, in which blue is the brightest channel, found another "
+                   "image; if this is a height map, name it with bump instead of norm"));
       }
       return make_texture_map(needed.width, needed.height, normal_slopes_of(image),
                               MapCoding::slope_coding());

@@ -48,7 +48,8 @@ std::shared_ptr<const MirrorMap> required_mirror_map(const Config& config, const
   if (found.partner_fraction() < kMinShare) {
     throw InvalidInput(concat(config.file.string(), ": ", key, ": the heads are not symmetric ",
                               "enough: expected ", 100 * kMinShare, " % of the vertices to have ",
-                              "a mirror image, found ", describe_mirror(config, found)));
+                              "a mirror image, found ", describe_mirror(config, found),
+                              "; remove this key, or use heads with a symmetric mesh"));
   }
   return std::make_shared<const MirrorMap>(std::move(found.map));
 }

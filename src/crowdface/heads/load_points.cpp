@@ -63,7 +63,9 @@ Positions read_set(const YamlNode& node, std::vector<std::string>& names, Compla
   }
   for (const YamlEntry& entry : node.entries) {
     if (std::ranges::find(names, entry.key) != names.end()) continue;
-    complaints.add_at(entry.value, "the first head has no such point");
+    complaints.add_at(
+        entry.value,
+        "no point of the first head has this name; expected the same points for all heads");
   }
   return positions;
 }
@@ -114,7 +116,8 @@ void read_points_file(const std::filesystem::path& file, const YamlNode& root,
   if (!complaints.expect_map(root, kExpected)) return;
   for (const YamlEntry& entry : root.entries) {
     if (entry.key == "template" || entry.key == "points" || entry.key == "heads") continue;
-    complaints.add(entry.key_place, concat("unknown key ", quoted(entry.key)));
+    complaints.add(entry.key_place, concat("unknown key ", quoted(entry.key),
+                                           "; expected one of template, points, heads"));
   }
   const YamlEntry *points = root.find("points"), *heads = root.find("heads");
   if ((points == nullptr) == (heads == nullptr)) {

@@ -214,7 +214,7 @@ std::pair<fs::path, std::string> store_textures(const HeadFile& head, const Cach
   try {
     return keep_in(cache);
   } catch (const RecoverableError& error) {
-    log_warning(concat("textures cannot be kept: ", error.what()));
+    log_warning(concat("textures cannot be stored in the cache: ", error.what()));
     return keep_in(scratch_folder());
   }
 }

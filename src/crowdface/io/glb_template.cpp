@@ -290,8 +290,11 @@ Positions read_glb_positions(const std::filesystem::path& path, Index vertices) 
   const MappedFile file(path);
   const auto need = [&](bool is_so) {
     if (is_so) return;
-    refuse_file(path, concat("expected a GLB file as crowdface writes it for ", vertices,
-                             " vertices, found another"));
+    refuse_file(
+        path,
+        concat(
+            "expected a GLB file as crowdface writes it for ", vertices,
+            " vertices, found different contents; run crowdface generate to write the file again"));
   };
   const auto chunks = glb_chunks(file.bytes());
   need(chunks.has_value());

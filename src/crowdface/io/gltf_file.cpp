@@ -120,17 +120,22 @@ Eigen::Vector3d transform_point(const Eigen::Matrix4d& matrix, const double* poi
 GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)) {
   if (bytes.starts_with("glTF")) {
     if (bytes.size() >= glb::kFileHeaderSize && number_at<std::uint32_t>(bytes.data() + 4) == 1) {
-      fail("expected glTF 2.0, found version 1: export it again, or gltf-transform copy");
+      fail(
+          "expected glTF 2.0, found version 1: export it again, or convert it (gltf-pipeline -i "
+          "in.glb -o out.glb)");
     }
     const auto chunks = glb_chunks(bytes);
     if (!chunks)
-      fail("expected a binary glTF 2.0 file (GLB), found one that is cut off or damaged");
+      fail(
+          "expected a binary glTF 2.0 file (GLB), found one that is cut off or damaged: copy or "
+          "export it again");
     scene_ = parse_shallow_json(chunks->json);
     binary_ = chunks->binary;
   } else {
     scene_ = parse_shallow_json(bytes);
   }
-  if (!scene_.is_object()) fail("expected a glTF 2.0 file, found that its JSON cannot be read");
+  if (!scene_.is_object())
+    fail("expected a glTF 2.0 file, found JSON that cannot be read: export it again");
   remaining_numbers_ = kMaxNumbersPerByte * binary_.size();
 }
 
@@ -284,7 +289,8 @@ std::vector<double> GltfFile::read_values(std::size_t accessor, std::size_t widt
                   values.value("byteOffset", std::size_t{0}), type, some, width, accessor);
     for (std::size_t i = 0; i < some; ++i) {
       if (!(at[i] >= 0 && at[i] < static_cast<double>(count))) {
-        fail(concat("accessor ", accessor, " names row ", at[i], " of ", count));
+        fail(concat("sparse accessor ", accessor, ": expected rows below ", count, ", found ",
+                    at[i]));
       }
       std::copy_n(moved.begin() + static_cast<std::ptrdiff_t>(i * width), width,
                   numbers.begin() +

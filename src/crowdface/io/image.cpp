@@ -116,13 +116,15 @@ void check_png_claim(const path& file, std::string_view bytes, const ImageHeader
 }
 
 void check_kind(const path& file, std::string_view format, const ImageHeader& spec) {
-  if (spec.is_deep || spec.depth > 1) refuse_file(file, "expected a flat image, found a deep one");
+  if (spec.is_deep || spec.depth > 1)
+    refuse_file(file, "expected a flat image, found a deep one: save it without depth samples");
   // Only OpenEXR has display windows. In other formats, an image that differs in size from the full
   // image is a crop.
   const bool has_windows = format == "openexr";
   if (!has_windows && (spec.width != spec.full_width || spec.height != spec.full_height)) {
     refuse_file(file, concat("expected the whole image, found ", spec.width, " x ", spec.height,
-                             " pixels of ", spec.full_width, " x ", spec.full_height));
+                             " pixels of ", spec.full_width, " x ", spec.full_height,
+                             ": save the whole image"));
   }
 }
 

@@ -59,7 +59,7 @@ bool is_own_output_name(const fs::path& relative) {
 
 /// The reason why a file with this name is not copied; empty if it is copied.
 std::string_view reason_not_copied(const fs::path& relative) {
-  if (!stays_inside(relative)) return "has a name that cannot be copied";
+  if (!stays_inside(relative)) return "has a path that leads out of its folder";
   if (is_own_output_name(relative)) return "has a name that belongs to crowdface's own files";
   // The ledger and the report of a run are UTF-8, so they cannot contain other names.
   if (!is_utf8(relative.native())) return "has a name that is not UTF-8";
@@ -207,7 +207,7 @@ class Collector {
       return refuse(concat(objection, " and is not copied"));
     }
     if (!exists(relative)) {
-      return refuse("is missing; OBJ files still name it, renders omit it");
+      return refuse("is missing; OBJ files still name it, but renders omit it");
     }
     if (::access((folder_ / relative).c_str(), R_OK) != 0) {
       throw_if_system_error(folder_ / relative, {errno, std::generic_category()});

@@ -123,7 +123,7 @@ Positions read_npy(const std::filesystem::path& path) {
   if (!bytes.starts_with(header) || bytes.size() != header.size() + npy_encode_bytes(rows)) {
     refuse_file(path,
                 "expected positions as crowdface writes them (.npy, float32, n by 3), found "
-                "something else");
+                "different contents; run crowdface generate to write the file again");
   }
   return read_singles(bytes.data() + header.size(), rows, kVectorSize, path.string());
 }

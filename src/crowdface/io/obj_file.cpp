@@ -85,9 +85,10 @@ void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const Obj
                           [&](std::uint32_t uv) { return uv == kNoIndex || uv < scan.uvs.rows(); });
   if (loaded != scan.positions.rows() || topology.face_count() != scan.face_count ||
       topology.corner_count() != scan.corner_count || !in_range) {
-    refuse_file(result.path, concat("expected ", scan.positions.rows(), " vertices and ",
-                                    scan.face_count, " faces, but the loader made ", loaded,
-                                    " and ", topology.face_count(), " of it"));
+    refuse_file(result.path,
+                concat("expected ", scan.positions.rows(), " vertices and ", scan.face_count,
+                       " faces, as the lines of the file say, but reading gave ", loaded, " and ",
+                       topology.face_count(), ": export it again, and please report this"));
   }
 }
 

@@ -92,7 +92,9 @@ Positions read_ply_positions(const std::filesystem::path& path) {
   const std::size_t size = vertex_size(with_normals, with_colours);
   if (!bytes.starts_with(header) ||
       static_cast<std::size_t>(vertices) > (bytes.size() - header.size()) / size) {
-    refuse_file(path, "expected a PLY file as crowdface writes it, found another");
+    refuse_file(path,
+                "expected a PLY file as crowdface writes it, found different contents; run "
+                "crowdface generate to write the file again");
   }
   return read_singles(bytes.data() + header.size(), vertices, size, path.string());
 }

@@ -65,7 +65,7 @@ void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
     for (const double offset : read_npy_array(offsets).values) {
       const auto end = index_of(offset, topology.corner_count() + 1, offsets);
       if (!topology.face_offsets.empty() && end < topology.face_offsets.back() + 3) {
-        refuse_file(offsets, "expected faces of three corners or more, found a smaller one");
+        refuse_file(offsets, "expected faces of at least 3 corners, found a smaller one");
       }
       topology.face_offsets.push_back(end);
     }
@@ -78,7 +78,8 @@ void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
     const fs::path corner_uvs = folder / "topology" / kTopologyArrays[3];
     if (!is_file(uvs) || !is_file(corner_uvs)) return;
     const NpyArray rows = read_npy_array(uvs);
-    if (rows.width() != 2) refuse_file(uvs, "expected two numbers per row");
+    if (rows.width() != 2)
+      refuse_file(uvs, concat("expected two numbers per row, found ", rows.width()));
     mesh.uvs = Eigen::Map<const TextureCoordinates>(rows.values.data(), rows_of(rows), 2);
     for (const double row : read_npy_array(corner_uvs).values) {
       topology.corner_uvs.push_back(row == -1 ? kNoIndex
@@ -95,7 +96,10 @@ void read_faces_beside(const fs::path& folder, FileMesh& mesh) {
     if (!is_file(file)) continue;
     const NpyArray faces = read_npy_array(file);
     const bool sound = faces.shape.size() == 2 && (faces.width() == 3 || faces.width() == 4);
-    if (!sound) refuse_file(file, "expected an array of n by 3 or n by 4");
+    if (!sound)
+      refuse_file(
+          file,
+          "expected an array of n by 3 or n by 4 vertex numbers, found an array of another shape");
     for (std::size_t f = 0; f < faces.rows(); ++f) {
       for (std::size_t c = 0; c < faces.width(); ++c) {
         topology.corner_vertices.push_back(

@@ -156,7 +156,8 @@ std::string defect_of(const Directory& directory, bool jpeg) {
                                          ? directory.first(kTileLength, 0)
                                          : std::min(directory.first(kRowsPerStrip, height), height);
   for (const std::uint64_t side : {width, height, piece_width, piece_height}) {
-    if (side < 1 || side > kMaxSide) return concat("expected a picture, found a side of ", side);
+    if (side < 1 || side > kMaxSide)
+      return concat("expected an image of 1 to ", kMaxSide, " pixels a side, found ", side);
   }
   if (depth < 1 || depth > kMaxBits || samples < 1 || samples > kMaxSamples) {
     return concat("expected samples of 8, 16 or 32 bits, found ", samples, " of ", depth);

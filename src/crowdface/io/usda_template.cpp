@@ -176,8 +176,11 @@ Positions read_usda_positions(const std::filesystem::path& path, Index vertices)
   const MappedFile file(path);
   const std::string_view bytes = file.bytes();
   const auto refuse = [&] {
-    refuse_file(path, concat("expected a USD layer as crowdface writes it for ", vertices,
-                             " vertices, found another"));
+    refuse_file(
+        path,
+        concat(
+            "expected a USD layer as crowdface writes it for ", vertices,
+            " vertices, found different contents; run crowdface generate to write the file again"));
   };
   const std::size_t begin = bytes.find(kUsdaPoints);
   if (!bytes.starts_with("#usda ") || bytes.find(kCreator) == bytes.npos || begin == bytes.npos) {

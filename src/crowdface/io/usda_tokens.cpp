@@ -19,7 +19,9 @@ constexpr std::string_view kSigns = "()[]{}=,;", kEnds = "()[]{}=,;\"'@<#";
 UsdaTokens::UsdaTokens(std::string_view text, const std::string& name) : text_(text), name_(name) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);  // byte-order mark
   if (!text_.starts_with("#usda")) {
-    fail("expected a USD layer as text (#usda 1.0), found another");
+    fail(
+        "expected a USD layer as text, which begins with #usda, found another file: convert it "
+        "(usdcat -o head.usda FILE)");
   }
 }
 

@@ -25,7 +25,7 @@ std::vector<MaskBand> parse_bands(std::string_view text) {
   for (const std::string_view name : split(text, ',')) {
     const MaskBand band = band_of(name);
     if (contains(bands, band)) {
-      throw UsageError(concat("--bands: ", name, " stands there twice"));
+      throw UsageError(concat("--bands: ", name, " is given twice"));
     }
     bands.push_back(band);
   }

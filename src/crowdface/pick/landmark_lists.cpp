@@ -91,7 +91,8 @@ void read_picked_points(std::string_view text, LandmarkList& list) {
     std::vector<double> point;
     for (const char* axis : {"x", "y", "z"}) {
       const auto number = parse_double(attribute_of(tag, axis));
-      if (!number) list.fail(where, concat("expected a number ", axis, " of the point"));
+      if (!number)
+        list.fail(where, concat("expected a number for the coordinate ", axis, " of the point"));
       point.push_back(*number);
     }
     list.add(std::string(attribute_of(tag, "name")), point, where);

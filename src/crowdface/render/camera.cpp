@@ -83,7 +83,8 @@ Heights heights_of(std::span<const Positions* const> heads, const Eigen::Vector3
     for (Index i = 0; i < head->rows(); ++i) {
       const double height = head->row(i).dot(up);
       if (!head->row(i).allFinite()) {
-        throw InvalidInput(concat("a camera needs finite positions, vertex ", i + 1, " is not"));
+        throw InvalidInput(concat("a camera needs finite positions, but that of vertex ", i + 1,
+                                  " is not finite"));
       }
       heights.low = std::min(heights.low, height);
       heights.high = std::max(heights.high, height);

@@ -22,7 +22,8 @@ void check_finite(const Eigen::Ref<const Positions>& some, Index first) {
   if (some.allFinite()) return;
   Index i = 0;
   while (some.row(i).allFinite()) ++i;
-  throw InvalidInput(concat("a render needs finite positions, vertex ", first + i + 1, " is not"));
+  throw InvalidInput(concat("a render needs finite positions, but that of vertex ", first + i + 1,
+                            " is not finite"));
 }
 
 }  // namespace

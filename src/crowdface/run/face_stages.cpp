@@ -85,8 +85,9 @@ std::uint64_t placement_memory_bytes(const Config& config, const Inputs& inputs,
 }
 
 [[noreturn]] void refuse_memory(std::string_view least, std::uint64_t memory_bytes) {
-  throw UsageError(concat("this job needs ", least, " of memory, ", format_bytes(memory_bytes),
-                          " are allowed (--memory); fewer threads (--threads) need less"));
+  throw UsageError(concat("this job needs ", least, " of memory, but --memory allows ",
+                          format_bytes(memory_bytes),
+                          "; use fewer threads (--threads), or allow more memory"));
 }
 
 /// Returns the maximum number of faces in memory at the same time: the faces of the group that is

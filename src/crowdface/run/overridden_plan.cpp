@@ -61,13 +61,14 @@ class OverriddenPlan {
         find_replaced(change);
       }
     }
-    not_for_head_.add_warning(" with attachments that are not for the head, by tags or without",
+    not_for_head_.add_warning(" with attachments whose key tags or without excludes the head",
                               warnings_);
     without_tint_.add_warning(
         " with a hair colour that does not show, because nothing worn has a tint", warnings_);
     not_in_group_.add_warning(" on a target outside the group, because lock keeps the target",
                               warnings_);
-    replaced_.add_warning(" of which a review replaces changes of the config", warnings_);
+    replaced_.add_warning(" whose changes in the config are replaced by those of a review",
+                          warnings_);
     return std::move(warnings_);
   }
 

@@ -75,11 +75,11 @@ std::vector<std::string> population_warnings(const std::vector<TraitReport>& rep
     const Measurement& of = measurements()[report.trait_index];
     warnings.push_back(
         concat("population: ", of.name, " has the mean ", format_trait(of, comparison.mean),
-               " and the standard deviation ", format_trait(of, comparison.standard_deviation),
-               ", ", format_trait(of, comparison.target.mean), " and ",
-               format_trait(of, comparison.target.deviation),
-               " were asked for; of the asked distribution, ",
-               format_fixed(kPercent * comparison.fraction_below, 0), " % lie below and ",
+               " (asked for: ", format_trait(of, comparison.target.mean),
+               ") and the standard deviation ", format_trait(of, comparison.standard_deviation),
+               " (asked for: ", format_trait(of, comparison.target.deviation), "); ",
+               format_fixed(kPercent * comparison.fraction_below, 0),
+               " % of the requested distribution lie below and ",
                format_fixed(kPercent * comparison.fraction_above, 0),
                " % above all faces that can be drawn from these heads"));
   }

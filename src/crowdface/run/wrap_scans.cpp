@@ -243,7 +243,7 @@ std::string likely_causes(const WrapInputs& shared, const Scan& scan,
   std::string part =
       net_area_fraction(scan) < kPart
           ? ""
-          : "; the scan seems to be only a part of a head, whose place is not found without "
+          : "; the scan seems to be only a part of a head, which cannot be placed without "
             "landmarks: pick four or more";
   if (!shared.hint) return part;
   const auto face = find_scan_face(scan, std::nullopt);

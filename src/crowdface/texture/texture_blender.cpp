@@ -282,7 +282,8 @@ BlendedPicture TextureBlender::blend(const Recipe& recipe, std::size_t picture) 
     return map && map->mapped_file && map->mapped_file->was_truncated();
   };
   if (std::ranges::any_of(maps, is_truncated)) {
-    throw IoError("a texture in the cache was truncated while it was in use; run again");
+    throw IoError(
+        "a texture in the cache was truncated while it was in use; run the same command again");
   }
   return blended;
 }

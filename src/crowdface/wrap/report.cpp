@@ -207,10 +207,14 @@ std::vector<std::string> wrap_warnings(const WrapTemplate& wrap_template, const 
   if (const double lacking = fraction_without_data(wrap_template, result);
       lacking > kMaxWithoutData) {
     warnings.push_back(concat("the scan has no data for ", format_fixed(100 * lacking, 0),
-                              " % of the skin, whose shape is estimated"));
+                              " % of the skin; the shape there is estimated"));
   }
   if (result.folded_triangle_count > 0) {
-    warnings.push_back(concat(result.folded_triangle_count, " triangles are flipped"));
+    warnings.push_back(concat(result.folded_triangle_count,
+                              result.folded_triangle_count == 1
+                                  ? " triangle of the wrapped head is"
+                                  : " triangles of the wrapped head are",
+                              " flipped: check the head there, or pick landmarks nearby"));
   }
   if (model_head_count > 0 && model_head_count < kFewHeads) {
     warnings.push_back(concat("a model of ", model_head_count,

@@ -127,11 +127,14 @@ Scan scan_of(FileMesh& mesh, const std::filesystem::path& path) {
                              "Reconstruction; Metashape: Build Model)"));
   }
   if (!(scan.positions.array().abs() <= kFarthest).all()) {
-    refuse_file(path, concat("expected finite positions, none farther than ", kFarthest,
-                             " from the origin, found another"));
+    refuse_file(path, concat("expected positions that are not farther than ", kFarthest,
+                             " from the origin, found a farther one: move the scan near the origin "
+                             "before exporting it"));
   }
   refuse_coarse_numbers(scan, path);
-  if (!has_area(scan)) refuse_file(path, "expected a surface, found triangles without area");
+  if (!has_area(scan))
+    refuse_file(path,
+                "expected a surface, found only triangles without area: export the scan again");
   weld_vertices(scan);
   refuse_fan(scan, path);
   return remove_covering_layers(scan);
