@@ -212,7 +212,7 @@ TEST(Yaml, DepthBombIsRefused) {
     while (bomb.size() < 100'000) bomb += opening;
     const auto [root, problems] = parse(bomb);
     ASSERT_EQ(problems.size(), 1u) << opening;
-    EXPECT_THAT(problems.messages()[0], HasSubstr("at most 64 nested levels")) << opening;
+    EXPECT_THAT(problems.messages()[0], HasSubstr("at most 64 levels of nesting")) << opening;
     EXPECT_FALSE(root);
   }
 }

@@ -160,7 +160,7 @@ class TreeBuilder : public YAML::EventHandler {
     const std::uint64_t most = input_limits().yaml_depth;
     if (frames_.size() >= most) {
       fail(frame.node.place, concat("expected at most ", most,
-                                    " nested levels (--limit yaml_depth=NUMBER allows more)"));
+                                    " levels of nesting (--limit yaml_depth=NUMBER allows more)"));
     }
     frames_.push_back(std::move(frame));
   }
