@@ -106,7 +106,8 @@ double age_as_fraction(const Age& age, const FacePlan& face, const CastingOption
   const double most = mean_age_years(face, ages_years, [&](const BandRecipe& band) {
     return aged.with_moved(band.weights, share);
   });
-  // The mean age is a linear function of the fraction of the weights that apply_age moves.
+  // apply_age moves a fraction of the weights to old or young heads. The mean age changes linearly
+  // with this fraction: from `own` at 0 to `most` at 1.
   const double change = sign * (most - own);
   if (change <= 0) return 0;
   return sign * rounded(std::min(1.0, sign * (age.value - own) / change));

@@ -439,8 +439,8 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
     if (found != versions_by_id.end()) found->second.push_back(&face);
   }
   std::map<std::string, FacePlan*> redrawn;
-  // Maps the id of a face to the version of the face that got attachments last. The version is an
-  // index into the face's entry of `versions_by_id`.
+  // By id of a face: the version of this face to which attachments were most recently assigned, as
+  // an index into `versions_by_id[id]`
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
   // Chooses attachments for the replacements of rejected faces, in the order of rejection. Stops at

@@ -51,7 +51,7 @@ struct ChangedFace {
   FaceSpace::Point point;  ///< point of the changed face in the face space
   /// the changes, in the order in which casting applied them: first the changes of the config
   std::vector<AppliedChange> changes = {};
-  /// limits on the face's measurements: the limits of all changes together
+  /// limits on the face's measurements, merged from all of `changes` (merge_limits)
   TraitLimits traits = {};
   /// whether the face was redrawn, so that it now shows another person
   bool is_other_person = false;

@@ -32,8 +32,8 @@ void apply_changes(const CastingOptions& casting, const FaceJudge& judge,
                    const std::vector<FaceChange>& changes, const std::string& origin,
                    CastingResult& cast);
 
-/// Keeps faces that are cast or redrawn later at a minimum distance from the faces that earlier
-/// reviews have changed.
+/// The faces that earlier reviews have changed. Faces that are cast or redrawn later must keep a
+/// minimum distance from these faces.
 class AvoidedFaces {
  public:
   /// \param cast  the crowd with the changes of the reviews so far.

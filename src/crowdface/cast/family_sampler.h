@@ -23,8 +23,8 @@ struct FamilyPlan {
   /// FamilySampler::twins_prototype). This child has the twins' age and is not in the crowd.
   bool founder_is_prototype_of_twins = false;
   Index members_begin = 0, members_end = 0;  ///< indices of the members in the crowd: [begin, end)
-  /// For each pair of a parent and a child, some strangers may be nearer to the child than the
-  /// parent is. This is the largest fraction of such strangers over all pairs.
+  /// Of all strangers, the fraction that is nearer to a child than a parent of this child is: the
+  /// maximum over all pairs of a parent and a child
   double fraction_of_strangers_nearer_than_parent = 0;
 };
 

@@ -56,10 +56,10 @@ struct PositionDistribution {
     kFixed,    ///< always at the point `at`
   };
   Kind kind = Kind::kAnchored;
-  /// kAround: the head whose anchor is the centre; empty: the face's target
+  /// the head whose anchor is the centre of the disc, with kAround; nothing: the face's target
   std::optional<Eigen::Index> head;
-  double radius = 0;  ///< kAround: radius of the disc, in units of the weight plane
-  PlanePoint at = PlanePoint::Zero();  ///< kFixed: the point at which the position always is
+  double radius = 0;  ///< with kAround: radius of the disc, in units of the weight plane
+  PlanePoint at = PlanePoint::Zero();  ///< with kFixed: the point at which the position always is
   /// kAnchored: the position lies at most this fraction (0 … 1) of the way from the anchor to the
   /// random point in the convex hull. 0: the position is always the anchor.
   double pull = 0.25;

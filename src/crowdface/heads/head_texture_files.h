@@ -39,7 +39,7 @@ struct FoundTextureFiles {
 
   /// Whether at least one head has a texture of this kind.
   bool has_files() const;
-  /// Whether two heads have different textures.
+  /// Returns false if all heads that have textures use the same files.
   bool heads_have_different_textures() const;
 };
 

@@ -9,7 +9,7 @@ namespace crowdface {
 
 /// The header of an image file.
 struct ImageHeader {
-  /// Size of the image; depth: number of slices.
+  /// Size of the image in pixels; `depth` is the number of slices of a volume.
   int width = 0, height = 0, depth = 1, channels = 0;
   int x = 0, y = 0;  ///< upper left corner of the data window, in pixels
   /// Upper left corner and size of the display window, in pixels.

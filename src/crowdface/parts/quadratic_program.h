@@ -12,8 +12,9 @@ namespace crowdface {
 ///
 /// minimise Σ w/2 (a·x − target)² + Σ (penalty·x_i + x_i²/2) subject to a·x ≥ lower
 ///
-/// Here, x is the vector of unknowns, and the second sum is over the slack variables x_i. Each
-/// target and each constraint has its own coefficients a, and each target its own weight w.
+/// Here, x is the vector of unknowns. Some unknowns x_i are slack variables, which a constraint may
+/// contain to become soft; the second sum is over these. Each target and each constraint has its
+/// own coefficients a, and each target its own weight w.
 ///
 /// The class uses plain arithmetic in a fixed order, so that the result has the same bits on every
 /// machine.

@@ -30,8 +30,8 @@ struct LandmarkPose {
   std::map<std::string, Residual> residuals;
 };
 
-/// Fits the similarity transform (Umeyama 1991) from template to scan to landmark pairs. Removes
-/// outlier pairs one by one, and repeats the fit after each removal.
+/// Estimates, from pairs of landmarks, the similarity transform that maps the template to the scan
+/// (Umeyama 1991). Removes outlier pairs one by one, and repeats the fit after each removal.
 /// \return nothing if there are fewer than three pairs, or if the landmarks lie almost on a line.
 std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>& landmarks,
                                                const Positions& template_positions);

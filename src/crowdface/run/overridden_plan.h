@@ -9,9 +9,9 @@
 
 namespace crowdface {
 
-/// Returns warnings about config keys that other keys override in a cast crowd: quotas of
-/// attachments, tags of attachments, groups, and `changes`. Each warning gives the number of
-/// affected faces.
+/// Returns warnings about quotas of attachments, tags of attachments, groups and `changes` of the
+/// config that have no effect on some faces of a cast crowd, because other keys override them. Each
+/// warning gives the number of these faces.
 std::vector<std::string> overridden_plan_warnings(const Config& config,
                                                   const std::vector<FacePlan>& crowd);
 

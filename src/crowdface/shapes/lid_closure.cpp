@@ -152,7 +152,7 @@ void LidClosure::add_sections(const TemplateEye& eye, const Adjacency& adjacency
   std::vector<signed char> sides(static_cast<std::size_t>(neutral.rows()), 0);
   mark_lid_sides(eye, neutral, sides);
   const std::vector<double> side(sides.begin(), sides.end());
-  // Distribute sections along the opening, between the corners of the eye.
+  // Place cross-sections of the lids along the opening, between the corners of the eye.
   double low = std::numeric_limits<double>::max(), high = -low;
   for (const std::uint32_t r : eye.lids.rim) {
     const double at = row3(neutral, eye.lids.vertices[r]).dot(along);

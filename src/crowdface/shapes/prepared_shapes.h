@@ -80,8 +80,8 @@ struct PreparedShape {
   std::vector<FloatPositions> head_moves;
   std::vector<PreparedPart> parts;  ///< for each rigid part that the shape moves: how it moves
   std::vector<PreparedLids> lids;   ///< for each eye of the template: how the shape moves its lids
-  std::vector<LidFollower> lid_followers;
-  SkinOverParts skin_over_parts;  ///< keeps skin in front of gums and teeth
+  std::vector<LidFollower> lid_followers;  ///< vertices, such as those of lashes, that follow lids
+  SkinOverParts skin_over_parts;           ///< keeps skin in front of gums and teeth
   SkinCrossings::SearchedSkin searched_skin;
   bool moves_contacts = false;  ///< whether the shape moves skin at a gap, see GapPreserver
   /// #sets by #gaps: by how much the shape widens each gap, divided by the scale of the mesh

@@ -32,7 +32,7 @@ struct Complexion {
   double freckles = 0;      ///< 0 … 1: amount of freckles
   double age_spots = 0;     ///< 0 … 1: amount of age spots
   double brow_density = 1;  ///< factor on the density of the hairs of the brows
-  double brow_width = 1;    ///< factor on the height of the brows
+  double brow_width = 1;    ///< factor on the thickness of the brows
   double brow_arch = 0;     ///< additional height of the brows' arch in cm; 0 for men
   double beard = 0;  ///< hair on cheeks and jaw: 0 none, 0.12 shaven, 0.45 stubble, 1 short beard
   double moustache = 0;   ///< hair on the upper lip, on the same scale as `beard`

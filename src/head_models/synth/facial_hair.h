@@ -16,7 +16,7 @@ struct FacialHair {
   bool is_beard = false;
   bool is_for_women = false;
   double relative_frequency = 1;  ///< how often people have this style, relative to other styles
-  double brow_width = 1;          ///< for brows: factor on the height of the brows
+  double brow_width = 1;          ///< for brows: factor on the thickness of the brows
   double brow_arch = 0;           ///< for brows: additional height of the brows' arch, cm
   double brow_density = 0.9;      ///< for brows: factor on the density of the hairs
   /// beards: lengths on cheeks and jaw, on the upper lip and on the chin; see Complexion::beard

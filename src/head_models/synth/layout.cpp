@@ -46,8 +46,9 @@ class PatchJoiner {
     std::uint32_t vertex, uv;
   };
 
-  /// Appends the coordinates, in units, of the mesh columns (or rows) in lattice interval k.
-  /// Includes the start of the interval, but not its end.
+  /// Appends the coordinates of the mesh columns (or rows) in interval k of the lattice, which they
+  /// divide evenly. Includes the start of the interval, but not its end.
+  /// \param unit  returns the coordinate at which an interval starts
   template <class Quads>
   static void spread(const Quads& quads_of, int k, double (*unit)(int), std::vector<double>& out) {
     const int n = quads_of[static_cast<std::size_t>(k)];
