@@ -121,6 +121,12 @@ TEST(LandmarkLists, HeadersNameTheColumns) {
   expect_chin_and_nose("r.txt", "x\ty\tz\nchin\t1\t-2.5\t3\nnose tip\t4\t5\t6\n");
 }
 
+TEST(LandmarkLists, AHeaderBelowPointsDropsNoPoint) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("two.csv", "chin,1,-2.5,3\nname,x,y,z\nnose tip,4,5,6\n");
+  expect_error(ExitCode::kUsage, {"two.csv:2"}, [&] { read_landmarks(path); });
+}
+
 TEST(LandmarkLists, NamesMayBeNumbersOrHoldANumberSign) {
   const TemporaryFolder folder;
   for (const char* text : {"0,1,-2.5,3\n12,4,5,6\n", "id;x;y;z\n0;1;-2,5;3\n12;4;5;6\n",

@@ -303,7 +303,9 @@ TableColumns find_columns(std::string_view text, std::size_t& header_line) {
   for (const std::string_view line : split_lines(text)) {
     ++line_number;
     const std::vector<std::string_view> fields = fields_of(line, separator_of(line));
-    if (line.starts_with('#') || std::ranges::any_of(fields, is_number)) continue;
+    const auto number_count = std::ranges::count_if(fields, is_number);
+    if (number_count >= 3) break;  // a point: headers stand above all points
+    if (line.starts_with('#') || number_count > 0) continue;
     TableColumns columns = columns_of(fields);
     if (columns.count == 0) continue;
     header_line = line_number;
