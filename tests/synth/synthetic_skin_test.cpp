@@ -29,11 +29,11 @@ const SyntheticSkins& skins() {
 /// The mean colour of the texels that show the average head within `radius` cm of a place.
 Colour colour_near(const std::vector<std::uint8_t>& albedo, const Eigen::Vector3d& place,
                    double radius) {
-  static const std::vector<synth::AtlasTexel> atlas = synth::skin_atlas(kSkinSize);
+  static const synth::SkinAtlas atlas(kSkinSize);
   Colour sum = Colour::Zero();
   double count = 0;
   for (std::size_t i = 0; i < atlas.size(); ++i) {
-    if (!atlas[i].is_covered || (atlas[i].skin.position - place).norm() > radius) continue;
+    if (!atlas.is_covered(i) || (atlas[i].skin.position - place).norm() > radius) continue;
     sum += Colour(albedo[3 * i], albedo[3 * i + 1], albedo[3 * i + 2]);
     count += 1;
   }
@@ -59,7 +59,7 @@ TEST(SyntheticSkins, SameSeedSameBytesOnEveryMachine) {
 TEST(SyntheticSkins, PupilsAreRound) {
   constexpr int kSize = 1024;
   const std::vector<std::uint8_t> albedo = SyntheticSkins(kSize).albedo(1, 1);
-  const std::vector<synth::AtlasTexel> atlas = synth::skin_atlas(kSize);
+  const synth::SkinAtlas atlas(kSize);
   for (const double side : {1.0, -1.0}) {
     int left = kSize, right = 0, top = kSize, bottom = 0, count = 0;
     for (int y = 0; y < kSize; ++y) {
@@ -194,14 +194,14 @@ TEST(SyntheticSkins, ScalpHasHairInItsColour) {
 TEST(SyntheticSkins, EyesHaveAnIrisInItsColourAndAreWhiteAround) {
   constexpr int kLarge = 512;
   static const SyntheticSkins large(kLarge);
-  const std::vector<synth::AtlasTexel> atlas = synth::skin_atlas(kLarge);
+  const synth::SkinAtlas atlas(kLarge);
   for (std::uint64_t i = 0; i < 4; ++i) {
     const std::vector<std::uint8_t> albedo = large.albedo(1, i);
     const Colour iris = 255 * synth::random_complexion(1, i).iris;
     Colour in_iris = Colour::Zero(), white = Colour::Zero();
     double irises = 0, whites = 0;
     for (std::size_t t = 0; t < atlas.size(); ++t) {
-      if (atlas[t].on_eyeball < 0.5 || !atlas[t].is_covered || atlas[t].point_on_ball.z() < 0)
+      if (atlas[t].on_eyeball < 0.5 || !atlas.is_covered(t) || atlas[t].point_on_ball.z() < 0)
         continue;
       const double flat = atlas[t].point_on_ball.head<2>().norm();
       const Colour colour(albedo[3 * t], albedo[3 * t + 1], albedo[3 * t + 2]);
@@ -249,10 +249,11 @@ TEST(SyntheticSkins, EachSexHasEveryTone) {
 
 TEST(SkinAtlas, HoldsTheAverageHeadWhereItsVerticesLie) {
   const SyntheticHeads heads(20'000);
-  const std::vector<synth::AtlasTexel> atlas = synth::skin_atlas(kSkinSize);
+  const synth::SkinAtlas atlas(kSkinSize);
   std::size_t covered = 0;
-  for (const synth::AtlasTexel& place : atlas) {
-    covered += place.is_covered ? 1 : 0;
+  for (std::size_t i = 0; i < atlas.size(); ++i) {
+    const synth::AtlasTexel place = atlas[i];
+    covered += atlas.is_covered(i) ? 1 : 0;
     EXPECT_LT(place.skin.position.norm(), 30);
     EXPECT_NEAR(place.skin.normal.norm(), 1, 1e-6);
   }
@@ -287,14 +288,14 @@ double mean_near(const std::vector<std::uint8_t>& bytes, const Eigen::Vector3d& 
 
 TEST(SyntheticSkins, NormalsHoldWhatTheMeshIsTooCoarseFor) {
   const SyntheticSkins fine(512);
-  const std::vector<synth::AtlasTexel> atlas = synth::skin_atlas(512);
+  const synth::SkinAtlas atlas(512);
   // Root mean square of how far normals lean.
   const auto lean = [&](double edge_cm) {
     const std::vector<std::uint8_t> normals = fine.normals(3, 2, edge_cm);
     double squares = 0, count = 0;
     for (std::size_t i = 0; i < atlas.size(); ++i) {
       EXPECT_GE(normals[3 * i + 2], 128) << "outward";
-      if (!atlas[i].is_covered) continue;
+      if (!atlas.is_covered(i)) continue;
       if (atlas[i].on_eyeball > 0.5) {
         EXPECT_EQ(normals[3 * i], 128) << "eyes are smooth";
         continue;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "crowdface/core/parallel.h"
@@ -23,27 +25,66 @@ struct AtlasTexel {
   double nostril_ring_coordinate = 0;
   double on_eyeball = 0;  ///< 1 on an eyeball, 0 elsewhere
   Eigen::Vector3d point_on_ball =
-      Eigen::Vector3d::Zero();   ///< on an eyeball: point on the unit sphere with its pupil at +z
-  bool is_covered = false;       ///< whether the texel shows a surface
-  std::size_t source_texel = 0;  ///< index of the covered texel from which this texel is copied
+      Eigen::Vector3d::Zero();  ///< on an eyeball: point on the unit sphere with its pupil at +z
 };
 
-/// Returns size × size texels, row by row, first row at v = 1. A texel that shows no surface is a
-/// copy of a nearby covered texel, so that colours continue beyond the edges of the texture charts.
-std::vector<AtlasTexel> skin_atlas(int size);
+/// The points of the average head that the texels of a square skin texture show. Texels are
+/// numbered row by row; the first row lies at v = 1.
+class SkinAtlas {
+ public:
+  /// \param side  width and height of the texture in texels.
+  explicit SkinAtlas(int side);
 
-/// Calls `body(i)` for all texels i of a size × size texture in parallel. Each parallel task has
-/// one square of the texture, because SmoothNoise is fast for points that are close together.
+  std::size_t side() const { return side_; }
+  std::size_t size() const { return texels_.size(); }
+  /// Whether the texel shows a surface.
+  bool is_covered(std::size_t texel) const { return texels_[texel] < kFirstCopy; }
+  /// The texel itself if it is covered, else a nearby covered texel. Uncovered texels are copies of
+  /// their source, so that colours continue beyond the edges of the texture charts.
+  std::size_t source_texel(std::size_t texel) const {
+    return is_covered(texel) ? texel : texels_[texel] - kFirstCopy;
+  }
+  /// Interpolates the point that the source of a texel shows.
+  AtlasTexel operator[](std::size_t texel) const;
+
+ private:
+  static constexpr std::uint32_t kFirstCopy = 0x80000000U;
+  struct Triangle {
+    std::array<Eigen::Vector2d, 3> corners;  ///< in texels
+    std::array<std::uint32_t, 3> points;     ///< indices of the corners in points_
+  };
+  Eigen::Vector3d barycentric(const Triangle& triangle, std::size_t texel) const;
+  void rasterise(std::uint32_t triangle);
+  void copy_to_uncovered_texels();
+
+  std::size_t side_;
+  std::vector<AtlasTexel> points_;  ///< points at the vertices of the triangles
+  std::vector<Triangle> triangles_;
+  /// For a covered texel: index of its triangle; for another texel: kFirstCopy + source_texel.
+  std::vector<std::uint32_t> texels_;
+};
+
+/// Calls `body(left, top, right, bottom)` in parallel for squares of texels that together cover a
+/// side × side texture; `right` and `bottom` are one past the last column and row. SmoothNoise is
+/// fast for points that are close together.
 template <class Body>
-void for_each_texel(int size, const Body& body) {
-  constexpr std::size_t kSide = 32;
-  const auto width = static_cast<std::size_t>(size), squares = (width + kSide - 1) / kSide;
-  parallel_for_each(squares * squares, 1, [&](std::size_t square) {
-    const std::size_t left = square % squares * kSide, top = square / squares * kSide;
-    for (std::size_t y = top; y < std::min(top + kSide, width); ++y) {
-      for (std::size_t x = left; x < std::min(left + kSide, width); ++x) body(y * width + x);
-    }
+void for_each_square(std::size_t side, const Body& body) {
+  constexpr std::size_t kSquare = 64;
+  const std::size_t squares = (side + kSquare - 1) / kSquare;
+  parallel_for_each(squares * squares, [&](std::size_t square) {
+    const std::size_t left = square % squares * kSquare, top = square / squares * kSquare;
+    body(left, top, std::min(left + kSquare, side), std::min(top + kSquare, side));
   });
+}
+/// Calls `body(i)` for all texels i of a side × side texture in parallel.
+template <class Body>
+void for_each_texel(std::size_t side, const Body& body) {
+  for_each_square(side,
+                  [&](std::size_t left, std::size_t top, std::size_t right, std::size_t bottom) {
+                    for (std::size_t y = top; y < bottom; ++y) {
+                      for (std::size_t x = left; x < right; ++x) body(y * side + x);
+                    }
+                  });
 }
 
 }  // namespace crowdface::synth

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "crowdface/core/selection.h"
@@ -12,73 +13,91 @@
 namespace crowdface::synth {
 namespace {
 
-bool is_skin(const AtlasTexel& place) {
-  return place.is_covered && place.on_eyeball <= 0.5;
-}
+/// A point of the relief that one texel shows.
+struct ReliefTexel {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< on the average head, cm
+  double height = 0;                                   ///< of the relief, cm
+  bool is_skin = false;  ///< false on eyeballs and where the texture shows no surface
+};
 
-/// Computes the slopes of a height field that is stored in texels; between two texels that are not
-/// adjacent on the skin, the slope is 0.
+/// Computes slopes of the relief between texels.
+/// \param farthest  distance in cm from which on two texels are not adjacent on the skin.
 class Slopes {
  public:
-  Slopes(const std::vector<AtlasTexel>& atlas, const std::vector<double>& heights, double texel)
-      : atlas_(atlas), heights_(heights), farthest_(4 * texel) {}
+  explicit Slopes(double farthest) : farthest_(farthest) {}
 
   /// Returns the slope at `middle` between its neighbours `a` and `b`. At a border of the skin,
   /// returns the one-sided difference.
-  double across(std::size_t a, std::size_t middle, std::size_t b) const {
-    const std::size_t from = joined(a, middle) ? a : middle;
-    const std::size_t to = joined(middle, b) ? b : middle;
-    if (from == to) return 0;
+  double across(const ReliefTexel& a, const ReliefTexel& middle, const ReliefTexel& b) const {
+    const ReliefTexel& from = joined(a, middle) ? a : middle;
+    const ReliefTexel& to = joined(middle, b) ? b : middle;
     const double length = distance(from, to);
-    return length > 0 ? (heights_[to] - heights_[from]) / length : 0;
+    return length > 0 ? (to.height - from.height) / length : 0;
   }
 
  private:
-  double distance(std::size_t a, std::size_t b) const {
-    return (atlas_[a].skin.position - atlas_[b].skin.position).norm();
+  static double distance(const ReliefTexel& a, const ReliefTexel& b) {
+    return (a.position - b.position).norm();
   }
-  bool joined(std::size_t a, std::size_t b) const {
-    return is_skin(atlas_[a]) && is_skin(atlas_[b]) && distance(a, b) < farthest_;
+  bool joined(const ReliefTexel& a, const ReliefTexel& b) const {
+    return a.is_skin && b.is_skin && distance(a, b) < farthest_;
   }
 
-  const std::vector<AtlasTexel>& atlas_;
-  const std::vector<double>& heights_;
   double farthest_;
 };
 
 }  // namespace
 
-double texel_cm(int size, const std::vector<AtlasTexel>& atlas) {
+double texel_cm(const SkinAtlas& atlas) {
   std::vector<double> steps;
-  for (std::size_t i = 1; i < atlas.size(); ++i) {
-    if (i % static_cast<std::size_t>(size) == 0 || !is_skin(atlas[i]) || !is_skin(atlas[i - 1])) {
-      continue;
+  std::optional<Eigen::Vector3d> left;
+  for (std::size_t i = 0; i < atlas.size(); ++i) {
+    if (i % atlas.side() == 0) left.reset();
+    std::optional<Eigen::Vector3d> here;
+    if (atlas.is_covered(i)) {
+      const AtlasTexel place = atlas[i];
+      if (place.on_eyeball <= 0.5) here = place.skin.position;
     }
-    steps.push_back((atlas[i].skin.position - atlas[i - 1].skin.position).norm());
+    if (left && here) steps.push_back((*here - *left).norm());
+    left = here;
   }
   if (steps.empty()) return 1;
   const std::size_t middle = steps.size() / 2;
   return nth_smallest(std::move(steps), middle);
 }
 
-std::vector<std::uint8_t> skin_normals(int size, const std::vector<AtlasTexel>& atlas,
-                                       double texel_size_cm, const Relief& relief) {
-  std::vector<double> heights(atlas.size());
-  for_each_texel(size, [&](std::size_t i) {
-    if (is_skin(atlas[i])) heights[i] = relief.height(atlas[i].skin);
-  });
-  const Slopes slopes(atlas, heights, texel_size_cm);
-  const auto side = static_cast<std::size_t>(size);
+std::vector<std::uint8_t> skin_normals(const SkinAtlas& atlas, double texel_size_cm,
+                                       const Relief& relief) {
+  const Slopes slopes(4 * texel_size_cm);
+  const std::size_t side = atlas.side();
   std::vector<std::uint8_t> bytes(3 * atlas.size());
-  for_each_texel(size, [&](std::size_t i) {
-    const std::size_t x = i % side, y = i / side;
-    const std::size_t left = x > 0 ? i - 1 : i, right = x + 1 < side ? i + 1 : i;
-    const std::size_t above = y > 0 ? i - side : i, below = y + 1 < side ? i + side : i;
-    const Eigen::Vector3d normal =
-        Eigen::Vector3d(-slopes.across(left, i, right), -slopes.across(below, i, above), 1)
-            .normalized();
-    for (std::size_t c = 0; c < 3; ++c) {
-      bytes[3 * i + c] = to_byte((normal[static_cast<Eigen::Index>(c)] + 1) / 2);
+  for_each_square(side, [&](std::size_t left, std::size_t top, std::size_t right,
+                            std::size_t bottom) {
+    // Compute the relief of the square and of the texels around it.
+    const std::size_t x0 = left > 0 ? left - 1 : 0, x1 = std::min(right + 1, side), width = x1 - x0;
+    const std::size_t y0 = top > 0 ? top - 1 : 0, y1 = std::min(bottom + 1, side);
+    std::vector<ReliefTexel> texels(width * (y1 - y0));
+    for (std::size_t k = 0; k < texels.size(); ++k) {
+      const std::size_t i = (y0 + k / width) * side + x0 + k % width;
+      if (!atlas.is_covered(i)) continue;
+      const AtlasTexel place = atlas[i];
+      if (place.on_eyeball > 0.5) continue;
+      texels[k] = {place.skin.position, relief.height(place.skin), true};
+    }
+    for (std::size_t y = top; y < bottom; ++y) {
+      for (std::size_t x = left; x < right; ++x) {
+        const auto texel = [&](std::size_t column, std::size_t row) -> const ReliefTexel& {
+          return texels[(std::clamp(row, y0, y1 - 1) - y0) * width +
+                        (std::clamp(column, x0, x1 - 1) - x0)];
+        };
+        const ReliefTexel& middle = texel(x, y);
+        const double du = slopes.across(texel(x > 0 ? x - 1 : 0, y), middle, texel(x + 1, y));
+        const double dv = slopes.across(texel(x, y + 1), middle, texel(x, y > 0 ? y - 1 : 0));
+        const Eigen::Vector3d normal = Eigen::Vector3d(-du, -dv, 1).normalized();
+        for (std::size_t c = 0; c < 3; ++c) {
+          bytes[3 * (y * side + x) + c] = to_byte((normal[static_cast<Eigen::Index>(c)] + 1) / 2);
+        }
+      }
     }
   });
   return bytes;

@@ -21,33 +21,36 @@ void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
 }
 
 /// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface; each
-/// other texel copies the bytes of a nearby covered texel (AtlasTexel::source_texel).
+/// other texel copies the bytes of its source texel.
 template <class Paint>
-std::vector<std::uint8_t> painted(int size, const std::vector<synth::AtlasTexel>& atlas,
-                                  std::size_t channels, const Paint& paint) {
+std::vector<std::uint8_t> painted(const synth::SkinAtlas& atlas, std::size_t channels,
+                                  const Paint& paint) {
   std::vector<std::uint8_t> bytes(channels * atlas.size());
-  synth::for_each_texel(size, [&](std::size_t i) {
-    if (atlas[i].is_covered) paint(atlas[i], &bytes[channels * i]);
+  synth::for_each_texel(atlas.side(), [&](std::size_t i) {
+    if (atlas.is_covered(i)) paint(atlas[i], &bytes[channels * i]);
   });
   for (std::size_t i = 0; i < atlas.size(); ++i) {
-    if (atlas[i].is_covered) continue;
-    std::copy_n(&bytes[channels * atlas[i].source_texel], channels, &bytes[channels * i]);
+    if (atlas.is_covered(i)) continue;
+    std::copy_n(&bytes[channels * atlas.source_texel(i)], channels, &bytes[channels * i]);
   }
   return bytes;
+}
+
+int checked_size(int size) {
+  require(size >= 64 && size <= 8192, "textures of ", size, " texels");
+  return size;
 }
 
 }  // namespace
 
 SyntheticSkins::SyntheticSkins(int size, SyntheticHeads::Scalp scalp)
-    : size_(size), scalp_hair_(scalp == SyntheticHeads::Scalp::kShorn ? kRootOpacity : 1) {
-  require(size >= 64 && size <= 8192, "textures of ", size, " texels");
-  atlas_ = synth::skin_atlas(size);
-  texel_cm_ = synth::texel_cm(size, atlas_);
-}
+    : atlas_(checked_size(size)),
+      scalp_hair_(scalp == SyntheticHeads::Scalp::kShorn ? kRootOpacity : 1),
+      texel_cm_(synth::texel_cm(atlas_)) {}
 
 std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  return painted(size_, atlas_, 3, [&](const synth::AtlasTexel& place, std::uint8_t* bytes) {
+  return painted(atlas_, 3, [&](const synth::AtlasTexel& place, std::uint8_t* bytes) {
     write_texel(paint.at(place), bytes);
   });
 }
@@ -55,12 +58,12 @@ std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64
 std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
                                                       std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  const auto side = static_cast<std::size_t>(size_);
+  const std::size_t side = atlas_.side();
   std::vector<std::uint8_t> bytes(3 * atlas_.size());
-  synth::for_each_texel(size_, [&](std::size_t i) {
+  synth::for_each_texel(side, [&](std::size_t i) {
     const std::size_t row = i / side, column = i % side;
-    const double u = (static_cast<double>(column) + 0.5) / size_;
-    const double v = 1 - (static_cast<double>(row) + 0.5) / size_;
+    const double u = (static_cast<double>(column) + 0.5) / static_cast<double>(side);
+    const double v = 1 - (static_cast<double>(row) + 0.5) / static_cast<double>(side);
     synth::AtlasTexel place;
     place.skin.position = synth::bust_point({u, v});
     write_texel(paint.at(place), &bytes[3 * i]);
@@ -74,13 +77,13 @@ std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint6
   // A texture can represent wavelengths of at least two texels. A mesh can represent wavelengths of
   // at least four edges.
   const double finest = texel_cm_ / 2;
-  return synth::skin_normals(size_, atlas_, texel_cm_,
+  return synth::skin_normals(atlas_, texel_cm_,
                              synth::Relief(identity, finest, std::max(finest, edge_cm)));
 }
 
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {
   const synth::SkinPaint paint(seed, index, scalp_hair_);
-  return painted(size_, atlas_, 1, [&](const synth::AtlasTexel& place, std::uint8_t* bytes) {
+  return painted(atlas_, 1, [&](const synth::AtlasTexel& place, std::uint8_t* bytes) {
     *bytes = synth::to_byte(paint.roughness_at(place));
   });
 }

@@ -19,7 +19,7 @@ class SyntheticSkins {
   /// \throws BrokenPrecondition if size is out of range.
   explicit SyntheticSkins(int size, SyntheticHeads::Scalp scalp = SyntheticHeads::Scalp::kHaired);
 
-  int size() const { return size_; }
+  int size() const { return static_cast<int>(atlas_.side()); }
   /// Returns the albedo (sRGB) of head `index` of a seed, for the texture coordinates of
   /// SyntheticHeads: size × size × 3 bytes, row by row, first row at v = 1. The bytes are the same
   /// on every machine.
@@ -35,10 +35,9 @@ class SyntheticSkins {
   std::vector<std::uint8_t> roughness(std::uint64_t seed, std::uint64_t index) const;
 
  private:
-  int size_;
+  synth::SkinAtlas atlas_;
   double scalp_hair_;  ///< parameter `scalp_hair` of SkinPaint
-  std::vector<synth::AtlasTexel> atlas_;
-  double texel_cm_ = 0;  ///< typical distance on the skin between neighbouring texels, cm
+  double texel_cm_;    ///< typical distance on the skin between neighbouring texels, cm
 };
 
 }  // namespace crowdface
