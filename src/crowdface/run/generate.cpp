@@ -203,8 +203,8 @@ std::uint64_t memory_for(const GenerateOptions& options) {
 /// summary for the user.
 std::string fill_directory(const Job& job, const CrowdDirectory& directory, PlannedJob& planned,
                            const GenerateOptions& options, Purpose purpose,
-                           Lazy<FaceStages>& face_stages, StageSeconds& stages,
-                           std::optional<ShardProgress>& progress) {
+                           Lazy<CrowdPictures>& pictures, Lazy<FaceStages>& face_stages,
+                           StageSeconds& stages, std::optional<ShardProgress>& progress) {
   const CrowdPlan& crowd_plan = planned.crowd_plan;
   const std::vector<FacePlan>& crowd = crowd_plan.crowd;
   Ledger ledger(directory.root, directory.ledger(options.shard),
@@ -260,10 +260,6 @@ std::string fill_directory(const Job& job, const CrowdDirectory& directory, Plan
                  make_usd_stage_text(job.config, job.inputs, crowd));
   }
   write_shared_files(job.config, job.inputs, directory, ledger);
-  Lazy<CrowdPictures> pictures([&] {
-    return std::make_unique<CrowdPictures>(job.config, job.inputs, job.settings, directory,
-                                           planned.textures.get(), planned.shapes.get());
-  });
   StageTimes busy;
   timed(stages, "build", [&] {
     if (built == 0) return built;
@@ -338,14 +334,22 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   std::unique_ptr<PlannedJob> crowd;
   if (options.replace == Replace::kRefuse) crowd = planned_job(job, options, stages);
   if (!crowd) crowd = cast_job(job, options, stages);
+  Lazy<CrowdPictures> pictures([&] {
+    return std::make_unique<CrowdPictures>(job.config, job.inputs, job.settings, directory,
+                                           crowd->textures.get(), crowd->shapes.get());
+  });
   Lazy<FaceStages> face_stages([&] {
     BackgroundTasks beside;
     beside.run([&] { crowd->textures.get(); });
     crowd->attachments.bind(crowd->crowd_plan.crowd);
     beside.wait();
-    return std::make_unique<FaceStages>(
+    const FaceShapes& shapes = crowd->shapes.get();
+    if (job.config.output.contact_sheet) beside.run([&] { pictures.get(); });
+    auto made = std::make_unique<FaceStages>(
         job.config, job.inputs, crowd->prepared, crowd->builder.get(), crowd->textures.get(),
-        crowd->attachments, crowd->shapes.get(), crowd->crowd_plan.crowd, memory_for(options));
+        crowd->attachments, shapes, crowd->crowd_plan.crowd, memory_for(options));
+    beside.wait();
+    return made;
   });
   if (is_new && !crowd->crowd_plan.crowd.empty())
     timed(stages, "setup", [&] { return &face_stages.get(); });
@@ -355,8 +359,8 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
   memory.replay();
   std::optional<ShardProgress> progress;
   try {
-    const std::string done =
-        fill_directory(job, directory, *crowd, options, purpose, face_stages, stages, progress);
+    const std::string done = fill_directory(job, directory, *crowd, options, purpose, pictures,
+                                            face_stages, stages, progress);
     lock.require_same_folder();
     log_info(done);
   } catch (const std::exception& error) {
