@@ -126,7 +126,8 @@ std::vector<SourceWeight> target_head_weights(const Recipe& recipe);
 /// \param weights  weights by ascending head, above zero, summing to one.
 void set_target_heads(Recipe& recipe, std::vector<SourceWeight> weights);
 
-/// Returns B = Σ_h τ_h B_h.
+/// Returns B = Σ_h τ_h B_h: the mean of the matrices of the heads in Recipe::mixture, with the
+/// weights τ_h of the mixture; without a mixture, the matrix of Recipe::target.
 ///
 /// \param head_matrix  head_matrix(h) returns the matrix B_h: positions, or values that are linear
 /// in the positions.

@@ -56,7 +56,8 @@ struct PositionDistribution {
     kFixed,    ///< always at the point `at`
   };
   Kind kind = Kind::kAnchored;
-  /// the head whose anchor is the centre of the disc, with kAround; nothing: the face's target
+  /// kAround: the head whose anchor is the centre of the disc. If empty, the anchor of the face's
+  /// target is the centre.
   std::optional<Eigen::Index> head;
   double radius = 0;  ///< with kAround: radius of the disc, in units of the weight plane
   PlanePoint at = PlanePoint::Zero();  ///< with kFixed: the point at which the position always is

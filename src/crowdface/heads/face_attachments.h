@@ -46,10 +46,10 @@ class FaceAttachments {
   void bind(std::span<const FacePlan> faces);
 
   /// Places the attachments of a face, in the order of the face's recipe. The attachments must be
-  /// bound. The result refers to the inputs.
+  /// bound. The result refers to the Inputs of this object.
   /// \param positions  the face's vertices, #V by 3
   /// \param moves      displacements of the face's vertices, one item for each shape (expression)
-  ///                   of the inputs; empty: the face at rest
+  ///                   of the Inputs; empty: the face at rest
   std::vector<PlacedAttachment> attachments_of(const FacePlan& face, const Positions& positions,
                                                std::span<const Displacements> moves = {}) const;
 

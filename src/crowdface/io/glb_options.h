@@ -59,7 +59,8 @@ struct GlbFaceImage {
   std::string suffix;  ///< end of the image's name, after the mesh's name, such as ".normal"
 };
 
-/// The content that the GLB files (or USD layers) of all faces have in common.
+/// Settings and content that are equal in the GLB files of all faces of a crowd. USD layers use the
+/// same settings.
 struct GlbOptions {
   /// Length unit of the positions; the file's root node scales the positions to metres.
   LengthUnit unit = LengthUnit::kMetre;

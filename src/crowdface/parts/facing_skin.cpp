@@ -176,7 +176,7 @@ std::vector<FacingGroup> find_facing_skin(const Topology& topology, const Adjace
   const PointGrid grid(positions, some);
   std::vector<std::vector<Candidate>> candidates(some.size());
   parallel_for_each(some.size(), kBlock, [&](std::size_t i) {
-    // Find candidates that are near in space and have facing normals.
+    // Find near vertices whose normals are opposite to the normal of vertex some[i].
     candidates[i] = facing_candidates(positions, normals, side, grid, some[i], extent);
   });
 

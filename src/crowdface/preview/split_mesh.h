@@ -41,8 +41,8 @@ struct SplitMesh {
 SplitMesh split_mesh(const Topology& topology, const TextureCoordinates& uvs,
                      std::span<const std::uint32_t> materials);
 
-/// Groups triangles of the split mesh by material. Drops degenerate triangles, which edge collapses
-/// along seams produce: two corners of such a triangle are the same vertex.
+/// Groups triangles of the split mesh by material. Drops each triangle of which two corners are the
+/// same vertex; edge collapses along seams make such triangles.
 std::vector<Triangle> grouped_by_material(std::vector<Triangle> triangles, const SplitMesh& split);
 
 }  // namespace crowdface

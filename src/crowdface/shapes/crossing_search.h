@@ -13,7 +13,7 @@ namespace crowdface {
 /// Finds intersecting triangles in many meshes of one topology. A tree over the triangles has
 /// leaves of eight neighbouring triangles. The constructor takes one of the meshes and finds the
 /// candidates: the pairs of triangles so close that they may intersect on another mesh. Each search
-/// compares the bounding boxes of two candidates before the exact test.
+/// compares the bounding boxes of the two triangles of a pair before the exact test.
 class CrossingSearch {
  public:
   using Pair = std::array<std::uint32_t, 2>;  ///< indices of two triangles, ascending

@@ -21,8 +21,8 @@ struct TemplateEye {
   std::vector<std::uint32_t> skin_vertices;  ///< indices of skin vertices around the eye, ascending
 };
 
-/// An eyeball of a face: the radii of a head's eyeball, the motion that carries this eyeball from
-/// the head to the face, and the distances of the surrounding skin from the eyeball at rest.
+/// An eyeball of a face. The eyeball is a copy of the eyeball of one input head: `motion` carries it
+/// from the head to the face.
 struct FaceEye {
   const BallRadii* ball;  ///< radii of the head's eyeball
   RigidMotion motion;     ///< motion of the eyeball from the head to the face

@@ -58,7 +58,8 @@ double stand_off(const Vector2d& round) {
   return (0.5 + 1.35 * back) * (1 - 0.45 * lobe);
 }
 
-/// Height of the ear above the skin in direction `round` at ring coordinate b, cm.
+/// Height of the ear above the skin of the head, cm. \param round  unit direction from the ear's
+/// centre. \param b  LatticePoint::b: 0 at the outline of the ear, 1 at the edge of its core.
 double height_at(const Vector2d& round, double b) {
   const double lobe = smooth_step(-0.55, -0.95, round.y());
   const double tragus = smooth_step(0.35, 0.05, (round - Vector2d(-1, -0.1)).norm());
