@@ -43,13 +43,15 @@ export class SmoothEdges {
           float nw = dot(pixel(-1, 1), seen), ne = dot(pixel(1, 1), seen);
           float sw = dot(pixel(-1, -1), seen), se = dot(pixel(1, -1), seen), middle = dot(here, seen);
           float low = min(middle, min(min(nw, ne), min(sw, se))), high = max(middle, max(max(nw, ne), max(sw, se)));
+          gl_FragColor = here;
+          if (high - low < max(0.06, 0.1 * high)) return; // no contrast
           vec2 way = vec2(sw + se - nw - ne, nw + sw - ne - se);
           float flat_ = max(0.03125 * (nw + ne + sw + se), 0.0078125);
           way = clamp(way / (min(abs(way.x), abs(way.y)) + flat_), -8.0, 8.0);
           vec4 inner = 0.5 * (at(way.x * -0.1667, way.y * -0.1667) + at(way.x * 0.1667, way.y * 0.1667));
           vec4 outer = 0.5 * inner + 0.25 * (at(-0.5 * way.x, -0.5 * way.y) + at(0.5 * way.x, 0.5 * way.y));
           float found = dot(outer, seen);
-          gl_FragColor = high - low < max(0.06, 0.1 * high) ? here : found < low || found > high ? inner : outer;
+          gl_FragColor = found < low || found > high ? inner : outer;
         }`,
     });
     this.quad = new FullScreenQuad(this.material);
