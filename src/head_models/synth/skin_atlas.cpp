@@ -28,7 +28,7 @@ AtlasTexel place_at(const LatticePoint& lattice_point) {
   return place;
 }
 
-double cross(const Vector2d& a, const Vector2d& b) {
+double cross_z(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
@@ -76,16 +76,16 @@ Eigen::Vector3d SkinAtlas::barycentric(const Triangle& triangle, std::size_t tex
   const auto& [p, q, r] = triangle.corners;
   const Vector2d centre(static_cast<double>(texel % side_) + 0.5,
                         static_cast<double>(texel / side_) + 0.5);
-  const double area = cross(q - p, r - p);
-  const double b = cross(centre - p, r - p) / area;
-  const double c = cross(q - p, centre - p) / area;
+  const double area = cross_z(q - p, r - p);
+  const double b = cross_z(centre - p, r - p) / area;
+  const double c = cross_z(q - p, centre - p) / area;
   return {1 - b - c, b, c};
 }
 
 /// Assigns the triangle to the texels whose centres lie in it.
 void SkinAtlas::rasterise(std::uint32_t triangle) {
   const auto& [p, q, r] = triangles_[triangle].corners;
-  if (cross(q - p, r - p) == 0) return;
+  if (cross_z(q - p, r - p) == 0) return;
   const auto texel = [this](double x) {
     return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(side_ - 1)));
   };
