@@ -9,7 +9,16 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
-#include "crowdface/render/embree.h"
+
+// CMake sets CROWDFACE_EMBREE to the major version found: Embree 3 (Debian 12) or Embree 4
+// (Debian 13, Ubuntu 24.04, Fedora).
+#if CROWDFACE_EMBREE == 4
+#include <embree4/rtcore.h>
+#elif CROWDFACE_EMBREE == 3
+#include <embree3/rtcore.h>
+#else
+#error "crowdface works with Embree 3 and Embree 4"
+#endif
 
 namespace crowdface {
 namespace {
@@ -19,19 +28,53 @@ namespace {
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 
-/// Embree's types for a packet of eight rays. If a packet is wider than the processor's SIMD
-/// vectors, Embree traces its rays one by one.
+/// Embree's types and functions for a packet of eight rays. If a packet is wider than the
+/// processor's SIMD vectors, Embree traces its rays one by one.
 struct EightRays {
   static constexpr std::size_t kCount = 8;
   using Rays = RTCRay8;
   using RaysAndHits = RTCRayHit8;
+  static constexpr auto kIntersect = rtcIntersect8;
+  static constexpr auto kOccluded = rtcOccluded8;
 };
 
 struct SixteenRays {
   static constexpr std::size_t kCount = 16;
   using Rays = RTCRay16;
   using RaysAndHits = RTCRayHit16;
+  static constexpr auto kIntersect = rtcIntersect16;
+  static constexpr auto kOccluded = rtcOccluded16;
 };
+
+/// Finds the first hit of each ray of a packet. The rays of a packet have similar directions.
+/// \param valid  -1 for lanes with a ray, 0 for other lanes; aligned to 64 bytes.
+/// \param query  rays with empty hits; the function writes the distances and hits.
+template <class Packet>
+void intersect(const int* valid, RTCScene scene, typename Packet::RaysAndHits& query) {
+#if CROWDFACE_EMBREE == 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  Packet::kIntersect(valid, scene, &query, &arguments);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  Packet::kIntersect(valid, scene, &context, &query);
+#endif
+}
+
+/// Finds out which rays are blocked: sets `tfar` of each ray that hits a surface to -infinity.
+template <class Packet>
+void find_blocked_rays(const int* valid, RTCScene scene, typename Packet::Rays& rays) {
+#if CROWDFACE_EMBREE == 4
+  Packet::kOccluded(valid, scene, &rays, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  Packet::kOccluded(valid, scene, &context, &rays);
+#endif
+}
 
 /// Copies rays to an Embree packet.
 /// \param valid  result: -1 for lanes with a ray, 0 for other lanes.
@@ -107,7 +150,7 @@ std::vector<std::optional<RayHit>> nearest_hits_of(std::span<const Ray> rays, RT
     fill(some, query.ray, valid);
     std::fill_n(query.hit.geomID, Packet::kCount, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(query.hit.instID[0], Packet::kCount, RTC_INVALID_GEOMETRY_ID);
-    embree::intersect(valid.data(), scene, embree::RayCoherence::kCoherent, query);
+    intersect<Packet>(valid.data(), scene, query);
     for (std::size_t r = 0; r < some.size(); ++r) {
       const auto& hit = query.hit;
       if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -128,7 +171,7 @@ std::vector<bool> occluded_of(std::span<const Ray> rays, RTCScene scene) {
     alignas(64) std::array<int, Packet::kCount> valid;
     typename Packet::Rays query;
     fill(some, query, valid);
-    embree::occluded(valid.data(), scene, query);
+    find_blocked_rays<Packet>(valid.data(), scene, query);
     for (std::size_t r = 0; r < some.size(); ++r) blocked[first + r] = query.tfar[r] < 0;
   });
   return blocked;
