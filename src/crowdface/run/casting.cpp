@@ -22,7 +22,6 @@
 #include "crowdface/run/iris_cover.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/scarcity_warning.h"
-#include "crowdface/run/trait_advice.h"
 #include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
