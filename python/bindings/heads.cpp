@@ -19,7 +19,6 @@
 #include "crowdface/io/obj_writer.h"
 #include "crowdface/mesh/adjacency.h"
 #include "crowdface/smooth/chebyshev_filter.h"
-#include "crowdface/smooth/smooth_view.h"
 
 #include "bindings/bindings.h"
 #include "bindings/long_call.h"
@@ -189,7 +188,7 @@ class Smoothing {
 
   std::vector<Positions> smoothed(const Eigen::Ref<const Positions>& positions,
                                   const std::vector<std::uint64_t>& levels) const {
-    return smooth_without_copy(filter_, positions, levels);
+    return smooth(filter_, positions, levels);
   }
 
   Positions blended(const std::string& recipe, const std::vector<std::string>& regions,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "cli/completion.h"
-
 #include <functional>
+#include <string>
 
 #include "crowdface/core/error.h"
 #include "crowdface/core/text.h"
 #include "crowdface/core/version.h"
 
 #include "cli/command_line.h"
+#include "cli/command_tables.h"
 #include "cli/commands.h"
 #include "cli/common_options.h"
 
@@ -257,13 +257,14 @@ CommandAction add_printer(
   return [&program, word, make] { print(make(describe_program(program), *word)); };
 }
 
-}  // namespace
-
+/// Returns the script with which a shell completes commands, options and the values of options.
+/// \param shell  "bash", "zsh" or "fish".
 std::string completion_script(const ProgramDescription& program, const std::string& shell) {
   if (shell == "bash") return bash_script(program);
   return shell == "zsh" ? zsh_script(program) : fish_script(program);
 }
 
+/// The manual page of the program and all its commands, for `man` (groff's man macros).
 std::string manual_page(const ProgramDescription& program) {
   std::string text =
       concat(".TH CROWDFACE 1 \"\" \"crowdface ", kVersion,
@@ -278,6 +279,8 @@ std::string manual_page(const ProgramDescription& program) {
   }
   return text + concat(".SH EXIT STATUS\n.nf\n", roff(program.footer), "\n.fi\n");
 }
+
+}  // namespace
 
 CommandAction add_completion(CLI::App& program) {
   return add_printer(

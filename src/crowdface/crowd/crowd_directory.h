@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "crowdface/core/contains.h"
+#include "crowdface/crowd/replace.h"
 #include "crowdface/crowd/shard.h"
 #include "crowdface/io/material_files.h"
 #include "crowdface/io/mesh_format.h"
@@ -182,9 +183,6 @@ std::vector<std::filesystem::path> files_made_together_with_sheets(const CrowdDi
 
 /// Checks that the folder is the folder of a crowd. \throws MissingInput if not.
 void require_crowd(const CrowdDirectory& directory);
-
-/// What to do if a folder holds another crowd: refuse the folder, or remove that crowd's files.
-enum class Replace { kRefuse, kForce };
 
 /// A crowd's config, for comparison with the config.yaml that is already in a folder.
 struct CrowdConfig {

@@ -2,9 +2,7 @@
 #include "crowdface/render/light.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 
 namespace crowdface {
 namespace {
@@ -24,52 +22,16 @@ float soft_shoulder(float x) {
 }
 
 /// The 8-bit sRGB value of a linear value.
-int find_byte(float light) {
-  return static_cast<int>(std::lround(255 * encode_srgb(soft_shoulder(light))));
+std::uint8_t srgb8(float light) {
+  constexpr float kWhite = 1.5F;  // this value and all larger values become 255
+  return static_cast<std::uint8_t>(
+      std::lround(255 * encode_srgb(soft_shoulder(std::min(light, kWhite)))));
 }
-
-/// Lookup table for the results of find_byte. find_byte itself is slow because it calls std::pow.
-class ByteTable {
- public:
-  ByteTable() {
-    // For each byte, find by bisection the smallest float that maps to it. The bit patterns of
-    // positive floats have the same order as their values.
-    for (int byte = 1; byte < 256; ++byte) {
-      std::uint32_t below = 0, first = std::bit_cast<std::uint32_t>(kWhite);
-      while (first - below > 1) {
-        const std::uint32_t middle = below + (first - below) / 2;
-        (find_byte(std::bit_cast<float>(middle)) < byte ? below : first) = middle;
-      }
-      smallest_of_byte_[static_cast<std::size_t>(byte)] = std::bit_cast<float>(first);
-    }
-    smallest_of_byte_[256] = std::numeric_limits<float>::infinity();
-    for (std::size_t i = 0; i < kSteps; ++i) {
-      at_step_[i] = static_cast<std::uint8_t>(
-          find_byte(static_cast<float>(i) * (kWhite / static_cast<float>(kSteps))));
-    }
-  }
-  std::uint8_t at(float light) const {
-    const float inside = std::clamp(light, 0.0F, kWhite);
-    const auto step = static_cast<std::size_t>(inside * (static_cast<float>(kSteps) / kWhite));
-    std::size_t byte = at_step_[std::min(step, kSteps - 1)];
-    while (inside >= smallest_of_byte_[byte + 1]) ++byte;
-    return static_cast<std::uint8_t>(byte);
-  }
-
- private:
-  /// this linear value and all larger values map to the byte 255
-  static constexpr float kWhite = 1.5F;
-  static constexpr std::size_t kSteps = 6144;
-  /// for each byte: the smallest linear value that maps to it
-  std::array<float, 257> smallest_of_byte_{};
-  std::array<std::uint8_t, kSteps> at_step_{};
-};
 
 }  // namespace
 
 std::array<std::uint8_t, 3> to_srgb8(const LinearRgb& light) {
-  static const ByteTable bytes;
-  return {bytes.at(light[0]), bytes.at(light[1]), bytes.at(light[2])};
+  return {srgb8(light[0]), srgb8(light[1]), srgb8(light[2])};
 }
 
 Eigen::Array3f to_srgb(const LinearRgb& colour) {

@@ -9,7 +9,16 @@
 #include "crowdface/core/error.h"
 #include "crowdface/core/require.h"
 #include "crowdface/core/text.h"
-#include "crowdface/render/embree.h"
+
+// CMake sets CROWDFACE_EMBREE to the major version found: Embree 3 (Debian 12) or Embree 4
+// (Debian 13, Ubuntu 24.04, Fedora).
+#if CROWDFACE_EMBREE == 4
+#include <embree4/rtcore.h>
+#elif CROWDFACE_EMBREE == 3
+#include <embree3/rtcore.h>
+#else
+#error "crowdface works with Embree 3 and Embree 4"
+#endif
 
 namespace crowdface {
 namespace {
@@ -19,30 +28,46 @@ namespace {
   throw Error(ExitCode::kBug, concat("the ray tracer ", what, ": error ", static_cast<int>(error)));
 }
 
-/// Embree's types for a packet of eight rays. If a packet is wider than the processor's SIMD
-/// vectors, Embree traces its rays one by one.
-struct EightRays {
-  static constexpr std::size_t kCount = 8;
-  using Rays = RTCRay8;
-  using RaysAndHits = RTCRayHit8;
-};
+/// Number of rays in a packet. Packets of 16 rays are not faster, even with AVX-512.
+constexpr std::size_t kPacketRays = 8;
 
-struct SixteenRays {
-  static constexpr std::size_t kCount = 16;
-  using Rays = RTCRay16;
-  using RaysAndHits = RTCRayHit16;
-};
+/// Finds the first hit of each ray of a packet. The rays of a packet have similar directions.
+/// \param valid  -1 for lanes with a ray, 0 for other lanes; aligned to 64 bytes.
+/// \param query  rays with empty hits; the function writes the distances and hits.
+void intersect(const int* valid, RTCScene scene, RTCRayHit8& query) {
+#if CROWDFACE_EMBREE == 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &query, &arguments);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &context, &query);
+#endif
+}
+
+/// Finds out which rays are blocked: sets `tfar` of each ray that hits a surface to -infinity.
+void find_blocked_rays(const int* valid, RTCScene scene, RTCRay8& rays) {
+#if CROWDFACE_EMBREE == 4
+  rtcOccluded8(valid, scene, &rays, nullptr);
+#else
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded8(valid, scene, &context, &rays);
+#endif
+}
 
 /// Copies rays to an Embree packet.
 /// \param valid  result: -1 for lanes with a ray, 0 for other lanes.
-template <class Packet, std::size_t kCount>
-void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& valid) {
+void fill(std::span<const Ray> rays, RTCRay8& packet, std::array<int, kPacketRays>& valid) {
   valid.fill(0);
   // Without native support for this packet width, Embree reads all lanes. So fill unused lanes with
   // valid numbers and an empty interval.
   packet = {};
-  std::fill_n(packet.tnear, kCount, std::numeric_limits<float>::infinity());
-  std::fill_n(packet.tfar, kCount, -std::numeric_limits<float>::infinity());
+  std::fill_n(packet.tnear, kPacketRays, std::numeric_limits<float>::infinity());
+  std::fill_n(packet.tfar, kPacketRays, -std::numeric_limits<float>::infinity());
   for (std::size_t r = 0; r < rays.size(); ++r) {
     const Ray& ray = rays[r];
     valid[r] = -1;
@@ -60,8 +85,6 @@ void fill(std::span<const Ray> rays, Packet& packet, std::array<int, kCount>& va
     packet.flags[r] = 0;
   }
 }
-
-using Triangle = std::array<std::uint32_t, 3>;
 
 /// Splits each quad into two triangles as Embree does; quads that are triangles stay whole.
 std::vector<Triangle> split(const std::vector<Quad>& quads) {
@@ -90,61 +113,22 @@ void reject_transparent_hits(const RTCFilterFunctionNArguments* met) {
   }
 }
 
-/// Calls `body(first, rays of the packet)` for consecutive packets of `count` rays.
+/// Calls `body(first, rays of the packet)` for consecutive packets.
 template <class Body>
-void for_each_packet(std::span<const Ray> rays, std::size_t count, const Body& body) {
-  for (std::size_t first = 0; first < rays.size(); first += count) {
-    body(first, rays.subspan(first, std::min(count, rays.size() - first)));
+void for_each_packet(std::span<const Ray> rays, const Body& body) {
+  for (std::size_t first = 0; first < rays.size(); first += kPacketRays) {
+    body(first, rays.subspan(first, std::min(kPacketRays, rays.size() - first)));
   }
-}
-
-template <class Packet>
-std::vector<std::optional<RayHit>> nearest_hits_of(std::span<const Ray> rays, RTCScene scene) {
-  std::vector<std::optional<RayHit>> hits(rays.size());
-  for_each_packet(rays, Packet::kCount, [&](std::size_t first, std::span<const Ray> some) {
-    alignas(64) std::array<int, Packet::kCount> valid;
-    typename Packet::RaysAndHits query;
-    fill(some, query.ray, valid);
-    std::fill_n(query.hit.geomID, Packet::kCount, RTC_INVALID_GEOMETRY_ID);
-    std::fill_n(query.hit.instID[0], Packet::kCount, RTC_INVALID_GEOMETRY_ID);
-    embree::intersect(valid.data(), scene, embree::RayCoherence::kCoherent, query);
-    for (std::size_t r = 0; r < some.size(); ++r) {
-      const auto& hit = query.hit;
-      if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;
-      hits[first + r] = RayHit{hit.primID[r],
-                               hit.u[r],
-                               hit.v[r],
-                               query.ray.tfar[r],
-                               {hit.Ng_x[r], hit.Ng_y[r], hit.Ng_z[r]}};
-    }
-  });
-  return hits;
-}
-
-template <class Packet>
-std::vector<bool> occluded_of(std::span<const Ray> rays, RTCScene scene) {
-  std::vector<bool> blocked(rays.size());
-  for_each_packet(rays, Packet::kCount, [&](std::size_t first, std::span<const Ray> some) {
-    alignas(64) std::array<int, Packet::kCount> valid;
-    typename Packet::Rays query;
-    fill(some, query, valid);
-    embree::occluded(valid.data(), scene, query);
-    for (std::size_t r = 0; r < some.size(); ++r) blocked[first + r] = query.tfar[r] < 0;
-  });
-  return blocked;
 }
 
 }  // namespace
 
 struct RayDevice::State {
   RTCDevice device;
-  bool takes_sixteen;  ///< whether Embree traces packets of 16 rays with SIMD
 };
 
-RayDevice::RayDevice() : state_(std::make_unique<State>(State{rtcNewDevice(nullptr), false})) {
+RayDevice::RayDevice() : state_(std::make_unique<State>(State{rtcNewDevice(nullptr)})) {
   if (state_->device == nullptr) fail("does not start", rtcGetDeviceError(nullptr));
-  state_->takes_sixteen =
-      rtcGetDeviceProperty(state_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
 }
 RayDevice::~RayDevice() {
   rtcReleaseDevice(state_->device);
@@ -152,7 +136,6 @@ RayDevice::~RayDevice() {
 
 struct RayScene::State {
   RTCDevice device;
-  bool takes_sixteen;
   std::vector<float> points;
   std::vector<Triangle> triangles;  ///< triangles of the split quads; used only with kMovable
   RTCScene scene = nullptr;
@@ -160,7 +143,7 @@ struct RayScene::State {
   Opacity opacity;  ///< opacity at each point of the quads; empty: all quads are opaque
 
   State(const RayDevice::State& embree, std::vector<float> first)
-      : device(embree.device), takes_sixteen(embree.takes_sixteen), points(std::move(first)) {}
+      : device(embree.device), points(std::move(first)) {}
   ~State() {
     if (geometry != nullptr) rtcReleaseGeometry(geometry);
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -252,13 +235,37 @@ void RayScene::set_points(std::vector<float>& points) {
 std::vector<std::optional<RayHit>> RayScene::nearest_hits(std::span<const Ray> rays) const {
   require(state_->triangles.empty(),
           "ray scene: nearest_hits is not available with Tree::kMovable");
-  return state_->takes_sixteen ? nearest_hits_of<SixteenRays>(rays, state_->scene)
-                               : nearest_hits_of<EightRays>(rays, state_->scene);
+  std::vector<std::optional<RayHit>> hits(rays.size());
+  for_each_packet(rays, [&](std::size_t first, std::span<const Ray> some) {
+    alignas(64) std::array<int, kPacketRays> valid;
+    RTCRayHit8 query;
+    fill(some, query.ray, valid);
+    std::fill_n(query.hit.geomID, kPacketRays, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(query.hit.instID[0], kPacketRays, RTC_INVALID_GEOMETRY_ID);
+    intersect(valid.data(), state_->scene, query);
+    for (std::size_t r = 0; r < some.size(); ++r) {
+      const auto& hit = query.hit;
+      if (hit.geomID[r] == RTC_INVALID_GEOMETRY_ID) continue;
+      hits[first + r] = RayHit{hit.primID[r],
+                               hit.u[r],
+                               hit.v[r],
+                               query.ray.tfar[r],
+                               {hit.Ng_x[r], hit.Ng_y[r], hit.Ng_z[r]}};
+    }
+  });
+  return hits;
 }
 
 std::vector<bool> RayScene::occluded(std::span<const Ray> rays) const {
-  return state_->takes_sixteen ? occluded_of<SixteenRays>(rays, state_->scene)
-                               : occluded_of<EightRays>(rays, state_->scene);
+  std::vector<bool> blocked(rays.size());
+  for_each_packet(rays, [&](std::size_t first, std::span<const Ray> some) {
+    alignas(64) std::array<int, kPacketRays> valid;
+    RTCRay8 query;
+    fill(some, query, valid);
+    find_blocked_rays(valid.data(), state_->scene, query);
+    for (std::size_t r = 0; r < some.size(); ++r) blocked[first + r] = query.tfar[r] < 0;
+  });
+  return blocked;
 }
 
 Eigen::Vector3f RayScene::point(std::uint32_t vertex) const {

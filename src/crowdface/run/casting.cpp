@@ -11,18 +11,18 @@
 #include "crowdface/cast/merge_reviews.h"
 #include "crowdface/cast/sample_cells.h"
 #include "crowdface/core/log.h"
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/progress.h"
 #include "crowdface/core/rounded.h"
 #include "crowdface/core/text.h"
 #include "crowdface/heads/cached_face_space.h"
 #include "crowdface/heads/heads_on_body.h"
 #include "crowdface/heads/shared_by_heads.h"
-#include "crowdface/heads/skin_tones.h"
 #include "crowdface/run/changed_faces.h"
 #include "crowdface/run/iris_cover.h"
 #include "crowdface/run/mesh_judge.h"
 #include "crowdface/run/scarcity_warning.h"
-#include "crowdface/run/trait_advice.h"
+#include "crowdface/texture/texture_blender.h"
 
 namespace crowdface {
 namespace {
@@ -126,6 +126,33 @@ std::set<std::string> twin_families(const Config& config) {
   return names;
 }
 
+/// The mean optical density of each head's colour textures; empty if faces have no blended colour
+/// textures. Reads only one texel of each block of 16 by 16 texels.
+std::vector<double> skin_tones(const Inputs& inputs) {
+  constexpr int kStep = 16;
+  if (!inputs.textures.are_blended()) return {};
+  const HeadMaps& maps = inputs.textures.blended.maps;
+  std::vector<double> tones(inputs.head_set.heads.size(), 0.0);
+  parallel_for_each(tones.size(), [&](std::size_t h) {
+    double sum = 0, count = 0;
+    for (const auto& of_picture : maps) {
+      const TextureMap* map = of_picture[h].get();
+      if (map == nullptr) continue;
+      for (int c = 0; c < map->coding.channels; ++c) {
+        for (int y = kStep / 2; y < map->height; y += kStep) {
+          const Density* row = map->row(c, y);
+          for (int x = kStep / 2; x < map->width; x += kStep) {
+            sum += row[x];
+            ++count;
+          }
+        }
+      }
+    }
+    if (count > 0) tones[h] = sum / count;
+  });
+  return tones;
+}
+
 /// Gives each child a skin tone between the tones of the parents.
 void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePlan>& crowd) {
   const bool has_children =
@@ -133,10 +160,16 @@ void choose_skin(const Config& config, const Inputs& inputs, std::vector<FacePla
   if (!has_children) return;
   std::vector<double> tones = skin_tones(inputs);
   if (tones.empty()) return;
-  const HeadColourWeights colour_weights(config, inputs);
+  const std::vector<double> area_fractions = region_area_fractions(
+      inputs.regions,
+      compared_vertex_areas(inputs.head_set.topology, inputs.skin_components, inputs.mean_head,
+                            ComparedArea::kFront, config.faces.front));
   choose_skin_colours_of_children(
       {config.crowd.seed, config.faces.names, config.faces.tags, std::move(tones),
-       [&](const Recipe& recipe) { return colour_weights.weights_of(recipe); },
+       [&](const Recipe& recipe) {
+         return face_colour_weights(recipe, inputs.head_set.heads.size(), area_fractions)
+             .weights_for_skin;
+       },
        twin_families(config)},
       crowd);
 }

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <set>
 
-#include "crowdface/cast/estimate.h"
+#include "crowdface/cast/draw_recipe.h"
+#include "crowdface/cast/spread.h"
 #include "crowdface/core/file.h"
+#include "crowdface/core/interrupt.h"
 #include "crowdface/core/log.h"
 #include "crowdface/core/text.h"
 #include "crowdface/crowd/crowd_directory.h"
@@ -18,6 +20,82 @@ namespace {
 
 constexpr std::uint64_t kSmallestPool = 5000;
 constexpr std::uint64_t kLargestPool = 20000;
+constexpr int kCountHalvings = 7;
+/// The pool must contain at least this many candidates for each face of a crowd.
+constexpr std::uint64_t kMinCandidatesPerFace = 5;
+
+/// An estimate for one size of the crowd: how far apart the faces of such a crowd can be.
+struct EstimateRow {
+  std::uint64_t face_count = 0;  ///< size of the crowd
+  /// smallest distance in mm between two faces if the crowd is cast in spread mode
+  double distance_in_spread_mode_mm = 0;
+  /// largest minimum distance in mm at which first-fit casting finds this many faces
+  double distance_in_first_fit_casting_mm = 0;
+};
+
+/// Returns how many candidates of the pool, taken in order, first-fit casting keeps at this minimum
+/// distance. Stops counting at `enough`.
+std::uint64_t first_fit_count(const CandidatePool& pool, double mm, std::uint64_t enough) {
+  NearestFaceSearch kept(pool.points[0].coordinates_with_extrapolation.size());
+  for (const FaceSpace::Point& point : pool.points) {
+    if (static_cast<std::uint64_t>(kept.size()) >= enough) break;
+    if (kept.nearest(point, mm).face < 0) kept.add(point);
+  }
+  return static_cast<std::uint64_t>(kept.size());
+}
+
+/// Estimates, for crowds of several sizes, the minimum distance that the faces can keep. Uses a
+/// pool of candidates, which are sampled as in casting. For spread mode, one greedy pass gives the
+/// distances of all crowd sizes. For first-fit casting, tries a few distances for each crowd size.
+///
+/// \param counts     Crowd sizes, ascending. The result leaves out sizes below 2 and sizes that are
+///                   too large for the pool.
+/// \param pool_size  Number of candidates. More candidates give better estimates but take longer.
+std::vector<EstimateRow> estimate_capacity(const CastingOptions& casting, const FaceJudge& judge,
+                                           const std::vector<std::uint64_t>& counts,
+                                           std::uint64_t pool_size) {
+  // The estimate ignores the crowd's groups, because each group would need a separate pass.
+  CastingOptions ungrouped = casting;
+  ungrouped.groups.clear();
+  const CandidatePool pool =
+      sample_pool(ungrouped, judge, face_distributions(ungrouped), pool_size);
+  const CrowdSoFar nobody(judge.space().dimensions());
+  FarthestPoints points(pool, nobody);
+  // for each n: the distance of the closest pair among the first n picks
+  std::vector<double> closest;
+  std::uint64_t most = 0;
+  for (const std::uint64_t count : counts) {
+    if (count * kMinCandidatesPerFace <= pool.faces.size()) most = std::max(most, count);
+  }
+  while (closest.size() < most) {
+    throw_if_interrupted();
+    const FarthestPoints::Pick pick = points.farthest(-1);
+    if (pick.candidate < 0) break;
+    if (judge.check_skin(pool.faces[static_cast<std::size_t>(pick.candidate)].recipe)) {
+      points.remove(pick.candidate);
+      continue;
+    }
+    points.pick(pick.candidate);
+    closest.push_back(closest.empty() ? pick.distance_mm
+                                      : std::min(closest.back(), pick.distance_mm));
+  }
+  // For each crowd size, find by bisection the largest distance at which first-fit casting
+  // succeeds.
+  std::vector<EstimateRow> rows;
+  for (const std::uint64_t count : counts) {
+    if (count < 2 || count > closest.size()) continue;
+    EstimateRow row{count, closest[count - 1], 0};
+    double works = 0, fails = 1.2 * row.distance_in_spread_mode_mm;
+    for (int i = 0; i < kCountHalvings; ++i) {
+      throw_if_interrupted();
+      const double mm = 0.5 * (works + fails);
+      (first_fit_count(pool, mm, count) >= count ? works : fails) = mm;
+    }
+    row.distance_in_first_fit_casting_mm = works;
+    rows.push_back(row);
+  }
+  return rows;
+}
 
 std::vector<std::uint64_t> counts_up_to(std::uint64_t asked) {
   std::set<std::uint64_t> counts = {10, 20, 50, 100, 200, 500, 1000, 2000};

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "crowdface/config/config_reader.h"
-#include "crowdface/crowd/crowd_directory.h"
+#include "crowdface/crowd/replace.h"
 #include "crowdface/crowd/shard.h"
 #include "crowdface/heads/cache_folder.h"
 

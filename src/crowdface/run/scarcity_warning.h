@@ -9,6 +9,7 @@
 #include "crowdface/cast/capacity_forecast.h"
 #include "crowdface/cast/feasibility.h"
 #include "crowdface/config/config.h"
+#include "crowdface/run/face_traits.h"
 
 namespace crowdface {
 
@@ -29,6 +30,14 @@ class ScarcityWarning {
   bool has_warned_ = false;
   bool has_logged_scarcity_ = false;
 };
+
+/// Explains why limits on measurements could not be met. Returns a line for each limit, with the
+/// share of sampled faces that meet the limit, the range of the sampled faces' values, and the
+/// heads with the most extreme values.
+/// \param shortfall  names the group, family or recipe whose limits could not be met
+std::vector<std::string> trait_advice(const Config& config, const Inputs& inputs,
+                                      const CastingOptions& casting, const FaceTraits& traits,
+                                      const Shortfall& shortfall);
 
 /// Reports that a crowd cannot be cast.
 /// \throws Unsatisfiable; the message names the constraint that prevented more faces, the number of

@@ -6,7 +6,6 @@
 #include "crowdface/core/interrupt.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
-#include "crowdface/smooth/smooth_view.h"
 
 namespace crowdface {
 namespace {
@@ -186,19 +185,6 @@ Positions positions_of(const ChebyshevFilter& filter, const RowArray<double>& ro
   return positions;
 }
 
-std::vector<Positions> filter_view(const ChebyshevFilter& filter,
-                                   const Eigen::Ref<const Positions>& x,
-                                   std::vector<ChebyshevSeries> series) {
-  const FilterInput<double> input = {rows_in_order<double>(filter.vertex_of_row(), x, 0),
-                                     std::move(series)};
-  const auto of_input = filter.run<double>({&input, 1});
-  std::vector<Positions> results;
-  for (const RowArray<double>& rows : of_input.front()) {
-    results.push_back(positions_of(filter, rows));
-  }
-  return results;
-}
-
 }  // namespace
 
 ChebyshevFilter::ChebyshevFilter(const SmoothingOperator& smoothing, const Positions& positions)
@@ -256,27 +242,31 @@ template std::vector<std::vector<RowArray<float>>> ChebyshevFilter::run(
 template std::vector<std::vector<RowArray<double>>> ChebyshevFilter::run(
     std::span<const FilterInput<double>>, RecordedTerms*) const;
 
-std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
+std::vector<Positions> filter_many(const ChebyshevFilter& filter,
+                                   const Eigen::Ref<const Positions>& x,
                                    std::vector<ChebyshevSeries> series) {
-  return filter_view(filter, x, std::move(series));
+  const FilterInput<double> input = {rows_in_order<double>(filter.vertex_of_row(), x, 0),
+                                     std::move(series)};
+  const auto of_input = filter.run<double>({&input, 1});
+  std::vector<Positions> results;
+  for (const RowArray<double>& rows : of_input.front()) {
+    results.push_back(positions_of(filter, rows));
+  }
+  return results;
 }
 
-Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level) {
+Positions smooth(const ChebyshevFilter& filter, const Eigen::Ref<const Positions>& positions,
+                 std::uint64_t level) {
   return std::move(smooth(filter, positions, std::span(&level, 1)).front());
 }
 
-std::vector<Positions> smooth(const ChebyshevFilter& filter, const Positions& positions,
+std::vector<Positions> smooth(const ChebyshevFilter& filter,
+                              const Eigen::Ref<const Positions>& positions,
                               std::span<const std::uint64_t> levels) {
-  return smooth_without_copy(filter, positions, levels);
-}
-
-std::vector<Positions> smooth_without_copy(const ChebyshevFilter& filter,
-                                           const Eigen::Ref<const Positions>& positions,
-                                           std::span<const std::uint64_t> levels) {
   std::vector<ChebyshevSeries> series;
   series.reserve(levels.size());
   for (const std::uint64_t level : levels) series.push_back(power_series(filter.kind(), level));
-  return filter_view(filter, positions, std::move(series));
+  return filter_many(filter, positions, std::move(series));
 }
 
 }  // namespace crowdface

@@ -70,15 +70,18 @@ class ChebyshevFilter {
 /// result[o] = Σ_k series[o][k] T_k(W) x.
 /// \param x  #V by 3.
 /// \throws BrokenPrecondition if x does not have one row per vertex of the filter.
-std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,
+std::vector<Positions> filter_many(const ChebyshevFilter& filter,
+                                   const Eigen::Ref<const Positions>& x,
                                    std::vector<ChebyshevSeries> series);
 
 /// Computes S_L x, the positions after L = `level` smoothing iterations (Eq. 1), in O(√level)
 /// products with W. Results differ from those of `iterate` by less than 10⁻⁸ of the head's size.
-Positions smooth(const ChebyshevFilter& filter, const Positions& positions, std::uint64_t level);
+Positions smooth(const ChebyshevFilter& filter, const Eigen::Ref<const Positions>& positions,
+                 std::uint64_t level);
 
 /// Computes S_L x for several levels L in one filter pass.
-std::vector<Positions> smooth(const ChebyshevFilter& filter, const Positions& positions,
+std::vector<Positions> smooth(const ChebyshevFilter& filter,
+                              const Eigen::Ref<const Positions>& positions,
                               std::span<const std::uint64_t> levels);
 
 }  // namespace crowdface

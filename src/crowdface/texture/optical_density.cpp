@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "crowdface/io/srgb.h"
+
 namespace crowdface {
 namespace {
 
@@ -16,10 +18,6 @@ double scale() {
 
 double light_of(double density) {
   return (1 + kFloor) * std::exp(-density / scale()) - kFloor;
-}
-
-double light_of_srgb(double value) {
-  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
 }  // namespace
@@ -38,7 +36,7 @@ const std::vector<Density>& density_by_srgb8() {
   static const std::vector<Density> table = [] {
     std::vector<Density> densities;
     for (int value = 0; value < 256; ++value) {
-      densities.push_back(density_of_light(static_cast<float>(light_of_srgb(value / 255.0))));
+      densities.push_back(density_of_light(static_cast<float>(linear_of_srgb(value / 255.0))));
     }
     return densities;
   }();
@@ -53,7 +51,7 @@ const std::vector<std::uint8_t>& srgb8_by_density() {
       // Find the nearest sRGB value: lower `value` while the light is below the midpoint between
       // `value` and the next lower value.
       const double light = light_of(static_cast<double>(density));
-      while (value > 0 && light < light_of_srgb((value - 0.5) / 255)) --value;
+      while (value > 0 && light < linear_of_srgb((value - 0.5) / 255)) --value;
       values[density] = static_cast<std::uint8_t>(value);
     }
     return values;

@@ -6,6 +6,7 @@
 #include "hwy/foreach_target.h"
 // Highway requires this order: foreach_target.h first, then code compiled once for each target.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "hwy/highway.h"
@@ -36,26 +37,6 @@ Lanes3 corner_of(const LeafCorners& corners, std::size_t k, std::size_t begin,
   return corner;
 }
 
-void measure_boxes(const LeafCorners& corners, const float* points, float margin,
-                   LeafBoxes& boxes) {
-  // Upper bound of the relative error that is caused by rounding coordinates and margins to single
-  // precision.
-  const auto rounding = hn::Set(kLanes, 1e-6F), grown = hn::Set(kLanes, margin);
-  for (std::size_t begin = 0; begin < kMaxTriangles; begin += hn::Lanes(kLanes)) {
-    const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
-                 r = corner_of(corners, 2, begin, points);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto least = hn::Min(hn::Min(p.x[c], q.x[c]), r.x[c]);
-      const auto most = hn::Max(hn::Max(p.x[c], q.x[c]), r.x[c]);
-      const auto by = [&](Lanes at) {
-        return hn::Add(grown, hn::Mul(rounding, hn::Add(hn::Abs(at), grown)));
-      };
-      hn::StoreU(hn::Sub(least, by(least)), kLanes, &boxes.low[c][begin]);
-      hn::StoreU(hn::Add(most, by(most)), kLanes, &boxes.high[c][begin]);
-    }
-  }
-}
-
 void measure_normals(const LeafCorners& corners, const float* points, LeafNormals& normals) {
   for (std::size_t begin = 0; begin < kMaxTriangles; begin += hn::Lanes(kLanes)) {
     const Lanes3 p = corner_of(corners, 0, begin, points), q = corner_of(corners, 1, begin, points),
@@ -76,31 +57,6 @@ void measure_normals(const LeafCorners& corners, const float* points, LeafNormal
       hn::StoreU(hn::Div(n[c], length), kLanes, &normals.components[c][begin]);
     }
   }
-}
-
-unsigned met_boxes(const BoxRay& ray, const LeafBoxes& boxes) {
-  const hn::CappedTag<double, kMaxTriangles> doubles;
-  const hn::Rebind<float, decltype(doubles)> singles;
-  unsigned all = 0;
-  for (std::size_t begin = 0; begin < kMaxTriangles; begin += hn::Lanes(doubles)) {
-    auto near = hn::Zero(doubles);
-    auto far = hn::Set(doubles, std::numeric_limits<double>::infinity());
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto along = [&](const std::array<float, kMaxTriangles>& side) {
-        const auto at = hn::PromoteTo(doubles, hn::LoadU(singles, &side[begin]));
-        return hn::Mul(hn::Sub(at, hn::Set(doubles, ray.origin[c])),
-                       hn::Set(doubles, ray.inverse_direction[c]));
-      };
-      const auto low = along(boxes.low[c]), high = along(boxes.high[c]);
-      near = hn::Max(near, hn::Min(low, high));
-      far = hn::Min(far, hn::Max(low, high));
-    }
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(doubles, hn::Le(near, hn::Mul(far, hn::Set(doubles, BoxRay::kRounding))),
-                      bits);
-    all |= unsigned{bits[0]} << begin;
-  }
-  return all;
 }
 
 /// Compares each triangle of one leaf with each triangle of another leaf. Bit number 8·i + j of the
@@ -173,9 +129,7 @@ namespace crowdface {
 
 HWY_EXPORT(alike_normals);
 HWY_EXPORT(common_vertices);
-HWY_EXPORT(measure_boxes);
 HWY_EXPORT(measure_normals);
-HWY_EXPORT(met_boxes);
 HWY_EXPORT(overlapping_boxes);
 
 BoxRay::BoxRay(const Eigen::Vector3d& from, const Eigen::Vector3d& direction) {
@@ -201,7 +155,22 @@ bool ray_hits_box(const BoxRay& ray, const Box& box) {
 }
 
 unsigned hit_mask(const BoxRay& ray, const LeafBoxes& boxes) {
-  return HWY_DYNAMIC_DISPATCH(met_boxes)(ray, boxes);
+  constexpr std::size_t kCount = LeafBoxes::kMaxTriangles;
+  std::array<double, kCount> near{}, far;
+  far.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const double a = (boxes.low[c][i] - ray.origin[c]) * ray.inverse_direction[c];
+      const double b = (boxes.high[c][i] - ray.origin[c]) * ray.inverse_direction[c];
+      near[i] = std::max(near[i], std::min(a, b));
+      far[i] = std::min(far[i], std::max(a, b));
+    }
+  }
+  unsigned mask = 0;
+  for (std::size_t i = 0; i < kCount; ++i) {
+    mask |= static_cast<unsigned>(near[i] <= far[i] * BoxRay::kRounding) << i;
+  }
+  return mask;
 }
 
 std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b) {
@@ -236,13 +205,21 @@ LeafCorners::LeafCorners(std::span<const std::uint32_t> triangle_indices,
 }
 
 LeafBoxes::LeafBoxes(const LeafCorners& corners, const FloatPositions& points, double margin) {
-  HWY_DYNAMIC_DISPATCH(measure_boxes)
-  (corners, points.data(), static_cast<float>(margin), *this);
+  // Upper bound of the relative error that is caused by rounding coordinates and margins to single
+  // precision.
+  constexpr float kRounding = 1e-6F;
   constexpr float kEnd = std::numeric_limits<float>::infinity();
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t i = corners.count; i < kMaxTriangles; ++i) {
-      low[c][i] = kEnd;
-      high[c][i] = -kEnd;
+  const auto grown = static_cast<float>(margin);
+  for (std::size_t i = 0; i < kMaxTriangles; ++i) {
+    const auto &p = points.row(corners.vertex[0][i]), &q = points.row(corners.vertex[1][i]),
+               &r = points.row(corners.vertex[2][i]);
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto axis = static_cast<Index>(c);
+      const float least = std::min({p[axis], q[axis], r[axis]});
+      const float most = std::max({p[axis], q[axis], r[axis]});
+      const bool is_used = i < corners.count;
+      low[c][i] = is_used ? least - (grown + kRounding * (std::abs(least) + grown)) : kEnd;
+      high[c][i] = is_used ? most + (grown + kRounding * (std::abs(most) + grown)) : -kEnd;
     }
   }
 }
