@@ -39,7 +39,8 @@ struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< source of the change: "config", or a review such as "review 2"
   /// If the change turns the face into a variant of another face (the original): a copy of the
-  /// original, as it was before the changes of the same `origin`. Otherwise null.
+  /// original. The copy was made before any change with the same `origin` as this change was
+  /// applied. Null for all other changes.
   std::shared_ptr<const ChangedFace> variant_of;
   /// smallest allowed distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;
@@ -78,8 +79,8 @@ struct CastingResult {
   std::optional<Shortfall> shortfall;  ///< set if casting stopped early
 };
 
-/// Number of sampled faces whose candidates are generated in parallel. Afterwards, casting chooses
-/// the faces one after the other.
+/// Casting handles the sampled faces in blocks of at most this number of faces. Generates the
+/// candidates for all faces of a block in parallel, and then chooses the faces one after the other.
 inline constexpr std::uint64_t kFacesCastInParallel = 64;
 
 /// Called after each sampled face that joins the crowd; may be empty.

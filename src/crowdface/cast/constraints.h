@@ -27,8 +27,10 @@ enum class RejectionReason {
   /// the gap between the lips, or between other parts of the skin that nearly touch, is wider than
   /// in any head
   kGap,
-  kExposed,   ///< the back side of the skin is visible near an intersection
-  kFamily,    ///< too near to another family, or breaks a distance limit within its own family
+  kExposed,  ///< the back side of the skin is visible near an intersection
+  /// the face is too near to another family, or the face is a member of a family and breaks one of
+  /// the family's distance limits (see FamilySampler::rejection_reason)
+  kFamily,
   kRejected,  ///< too similar to a face that a review rejected
   kTraits,    ///< a measurement is outside its limits
 };

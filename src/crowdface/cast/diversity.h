@@ -19,12 +19,13 @@ struct DiversityOptions {
     kSpread,
   };
   Mode mode = Mode::kFirstFit;
-  double min_distance_mm = 0;  ///< smallest distance between any two faces
+  double min_distance_mm = 0;  ///< smallest allowed distance between any two faces of the crowd
   /// kFirstFit: values that replace `min_distance_mm` for the first sampled faces. The key is the
   /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and
   /// families have 1.2 mm, faces 25 … 40 have 1 mm, and later faces have `min_distance_mm`.
   std::map<std::uint64_t, double> min_distance_mm_up_to_face = {};
-  /// smallest distance of a face from every input head (key `min_distance_to_faces`)
+  /// Smallest allowed distance between a face of the crowd and an input head. (In the config, where
+  /// input heads are called faces, the key is `min_distance_to_faces`.)
   double min_distance_to_heads_mm = 0;
   /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
   /// median distance between the faces of the crowd.
@@ -89,8 +90,8 @@ struct BelievabilityOptions {
   double max_stretch = 3;
   /// largest fraction of the skin's triangles that may be turned over or collapsed
   double max_flipped = 0.003;
-  /// largest fraction of triangles that may take part in intersections that the target does not
-  /// have
+  /// Largest allowed fraction of the face's skin triangles that intersect other skin triangles of
+  /// the same face. Intersections that the skin of the face's target has too are not counted.
   double max_intersecting = 0.01;
   /// how much the gap between the lips may exceed the widest gap between the lips of any head, in
   /// mm; see SkinContacts

@@ -56,7 +56,9 @@ NearestNeighbours nearest_neighbours(const FaceJudge& judge, const CastingResult
                                      const FaceSpace::Point& point,
                                      const std::vector<bool>& is_considered);
 
-/// Applies the changes that the config requests, before the changes that reviews request.
+/// Applies the changes that the config requests. If a face already has changes that reviews
+/// request, undoes them, applies the config's changes first, and then applies the reviews' changes
+/// again.
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
                              CastingResult& cast);
 

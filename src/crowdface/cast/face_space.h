@@ -128,8 +128,9 @@ class FaceSpace {
   /// coordinate (x, y or z) and sample. An entry is the sample's displacement times √w, where w is
   /// the weight of the sample.
   SpanBasis smoothing_displacement_modes() const;
-  /// Subtracts the mean over the face from a scalar function, and writes the function's values at
-  /// the samples, times √w. (Rigid alignment would remove the mean anyway.)
+  /// Subtracts from a scalar function the function's weighted mean over the samples. Then writes,
+  /// for each sample, the function's value times √w, where w is the weight of the sample. (Rigid
+  /// alignment would remove the mean anyway.)
   template <class Value>
   void write_centred_values(const Value& value, float* row) const;
   /// Returns the coordinate functions at the samples, 3·#functions by #S; see FaceSpaceTables.
@@ -159,11 +160,14 @@ class FaceSpace {
   void compute_region_area_fractions();
   /// Transposes the principal directions, and pads them with zeros to whole SIMD vectors.
   void transpose_directions();
-  /// Adds the coefficients of a face with respect to the coordinate functions, times a factor.
+  /// Computes the coefficients of a face with respect to the coordinate functions, multiplies them
+  /// by a factor, and adds the products to `to`.
   ///
-  /// \param extrapolation  whether to use the recipe's extrapolation factors, or 1.
+  /// \param extrapolation  whether the extrapolation factors of the recipe apply, or all
+  ///                       extrapolation factors are 1.
   /// \param orientation    0: the unmirrored face; 1: its mirror image.
-  /// \param to             #functions, in the order of FunctionOrder.
+  /// \param to             an array with one sum for each coordinate function, in the order of
+  ///                       FunctionOrder.
   void add_coefficients(const Recipe& recipe, Extrapolation extrapolation, Index orientation,
                         double factor, float* to) const;
   /// Returns the coefficients of a face with respect to the coordinate functions, mirrored like the
@@ -173,14 +177,17 @@ class FaceSpace {
   /// Returns the coefficients of a head, or of its mirror image, with respect to the coordinate
   /// functions.
   std::vector<float> head_coefficients(Index head) const;
-  /// Returns for each face its aligned deviation from the mean head, #faces by 3·#P.
+  /// Aligns each face rigidly to the mean head, and subtracts the mean head. Returns one row per
+  /// face, #faces by 3·#P: the coefficients of the difference in the basis of P functions, for x, y
+  /// and z.
   ///
   /// \param coefficients  the coefficients of all faces with respect to the coordinate functions,
   ///                      one face after the other.
   FloatRows aligned_deviations(const std::vector<float>& coefficients) const;
   /// Rotates a shape to the best fit with the mean head, and subtracts the mean head.
   void align_and_subtract_mean(Eigen::Map<Shape> shape) const;
-  /// Returns the coordinates of faces along the principal directions.
+  /// Aligns each face rigidly to the mean head, and returns the face's coordinates along the
+  /// principal directions, #dimensions for each face.
   ///
   /// \param coefficients  the coefficients of all faces with respect to the coordinate functions,
   ///                      one face after the other.

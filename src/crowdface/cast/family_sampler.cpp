@@ -20,8 +20,9 @@ namespace {
 
 /// smallest distance of a member from the founder, as a fraction of max_distance
 constexpr double kMinDistanceFraction = 0.4;
-/// A member is a mixture of the founder and a random face. The detail of this random face is a
-/// mixture too: a parent's detail has this weight, and random detail has the remaining weight.
+/// A member is a mixture of the founder and a random face. If the family has parents, each band of
+/// detail of this random face is a mixture too: the detail of the mother or the father has this
+/// weight, and random detail has the remaining weight.
 constexpr double kParentShare = 0.75;
 /// If the member is a child of two parents, the coarse shape of the random face is a mixture of one
 /// parent's coarse shape (with the weight kMainParentShapeShare), a random coarse shape
@@ -321,8 +322,8 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   const Range& ages = family_.age.range;
   draft.age = {ages.low + (ages.high - ages.low) * how_old, family_.age.unit};
   // `how_far` ranges from 0 (smallest distance from the founder) to 1 (largest distance)
-  draft.distance_mm = kMinDistanceFraction + (1 - kMinDistanceFraction) * how_far;
-  draft.distance_mm *= max_distance_from_founder_mm(family_plan);
+  draft.distance_mm = (kMinDistanceFraction + (1 - kMinDistanceFraction) * how_far) *
+                      max_distance_from_founder_mm(family_plan);
   if (family_plan.founder_is_prototype_of_twins) {
     draft.random_face.inherited_from = family_plan.founder.inherited_from;
     draft.age = {family_plan.founder.age.value_or(0)};

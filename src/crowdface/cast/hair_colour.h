@@ -33,9 +33,9 @@ std::optional<HairColour> hair_colour_named(std::string_view name);
 /// represents. On each face, the attachment gets the colour of the face's hair of this kind.
 enum class Tint { kNone, kHair, kBrows, kBeard, kLashes };
 
-/// Returns the rounded colour of a person's brows, beard or lashes, given the colour of the scalp
-/// hair. Brows are darker than the scalp hair and turn grey late, beards are redder, and lashes are
-/// darkest.
+/// Returns the colour of a person's brows, beard or lashes (see `tint`), given the colour of the
+/// scalp hair. The result is rounded like by rounded_colour. Brows are darker than the scalp hair
+/// and turn grey late, beards are redder, and lashes are darkest.
 ///
 /// \param hair  the colour of the scalp hair.
 HairColour hair_colour_for(const HairColour& hair, Tint tint);

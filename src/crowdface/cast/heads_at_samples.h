@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// The data of all heads that the blend needs at the sample vertices. These data suffice to compute
-/// the face of any recipe at the sample vertices.
+/// The data of all heads at the sample vertices. These data suffice to compute, for any recipe, the
+/// positions of the sample vertices on the recipe's face.
 struct HeadsAtSamples {
   /// for each head, the positions of the samples, #S by 3, in millimetres
   std::vector<Positions> heads;

@@ -63,11 +63,13 @@ class PointBlocks {
   void add(Index number, const float* coordinates);
   void clear();
   Index size() const { return static_cast<Index>(point_numbers_.size()); }
-  Index padded_dimensions() const { return dimensions_; }
+  /// Returns the number of coordinates of each stored point, including the zeros at the end.
+  Index padded_dimensions() const { return padded_dimensions_; }
   /// Returns the number that the caller of `add` gave to a point.
   /// \param index  0 for the point that was added first.
   Index point_number(Index index) const { return point_numbers_[static_cast<std::size_t>(index)]; }
-  /// Returns a coordinate of the point with this index; see point_number.
+  /// Returns coordinate number `dimension` of the point that was added as number `index`, counted
+  /// from 0. (Not the number that the caller of `add` chose.)
   float coordinate(Index index, Index dimension) const {
     return chunk_of(dimension)[chunk_offset(index, dimension)];
   }
@@ -95,13 +97,14 @@ class PointBlocks {
         (index / kLanes * kCoordinatesPerChunk + dimension % kCoordinatesPerChunk) * kLanes +
         index % kLanes);
   }
-  /// Returns the chunk that contains this coordinate of all points; see `chunks_`.
+  /// Returns the element of `chunks_` that contains, for every point, coordinate number
+  /// `dimension`.
   const std::vector<float>& chunk_of(Index dimension) const {
     return chunks_[static_cast<std::size_t>(dimension / kCoordinatesPerChunk)];
   }
 
   /// number of stored coordinates of each point, a multiple of kCoordinatesPerChunk
-  Index dimensions_;
+  Index padded_dimensions_;
   std::vector<Index> point_numbers_;  ///< numbers of the points, in the order of `add`
   /// For each chunk of kCoordinatesPerChunk coordinates, the values sorted by block, then
   /// coordinate, then lane.

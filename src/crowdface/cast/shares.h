@@ -10,13 +10,14 @@
 namespace crowdface {
 
 /// Returns the index of the share that each face is assigned to, or −1 for no share. A share with
-/// the fraction q gets at least ⌊q·n⌋ of the first n faces. If the deadlines of several shares fall
-/// on the same face, some or all of these shares get an earlier face. The first n entries do not
-/// depend on `count`.
+/// the fraction q gets at least ⌊q·n⌋ of the first n faces. The first n entries do not depend on
+/// `count`.
 ///
 /// Faces are assigned as late as possible, in the order of their deadlines (earliest deadline
-/// first, Liu & Layland 1973): a share with the fraction q must have its m-th face by face ⌈m/q⌉. A
-/// face is assigned to a share only if some share would otherwise miss its deadline.
+/// first, Liu & Layland 1973): for a share with the fraction q, the deadline of its m-th face is
+/// face number ⌈m/q⌉. A face is assigned to a share only if some share would otherwise miss a
+/// deadline. If several shares have the same deadline, at most one share gets the face with this
+/// number, and the other shares get earlier faces.
 ///
 /// \param shares  fractions of the faces; they sum to at most 1.
 std::vector<int> schedule_shares(const std::vector<double>& shares, std::uint64_t count);

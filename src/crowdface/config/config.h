@@ -44,7 +44,7 @@ struct TraitTarget;
 enum class Align {
   kCheck,  ///< warn about heads that are not aligned, and do not move them
   kRigid,  ///< align every head rigidly with the first head, by the best rotation and translation
-  kNone,   ///< do not check
+  kNone,   ///< do not check whether the heads are aligned, and do not move them
 };
 
 /// Whether a crowd gets a gallery page, on which users select faces.
@@ -186,10 +186,11 @@ struct Config {
     /// folder that contains a subfolder with shapes for each head; empty: none
     std::filesystem::path heads_directory;
     std::vector<std::string> names;  ///< names of the shapes; empty: there are no shapes
-    /// for each name: the file of the template's shape; empty if the template lacks the shape
+    /// for each shape in `names`: the file of the template's version of the shape; empty if the
+    /// template lacks the shape
     std::vector<std::filesystem::path> template_files;
-    /// for each head, and for each name: the file of the head's shape; empty if the head lacks the
-    /// shape
+    /// for each head, one file for each shape in `names`: the file of the head's own version of the
+    /// shape; empty if the head lacks the shape
     std::vector<std::vector<std::filesystem::path>> head_files;
   } shapes;
 
@@ -375,14 +376,15 @@ struct Config {
 /// \param directory  the folder to which written paths are relative.
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
-/// Returns every key of the effective config that is not marked with Key::not_affecting_face_files.
-/// The files of a face depend only on these keys, the face's recipe and the input files. Omits keys
-/// that have their default value. Existing faces therefore stay up to date if a new version of the
-/// program adds a key.
+/// Returns the keys of the effective config that affect the files of faces: all keys except the
+/// keys marked with Key::not_affecting_face_files. The files of a face depend only on these keys,
+/// the face's recipe and the input files. Keys with their default value are omitted, so that
+/// existing faces stay up to date if a new version of the program adds a key.
 std::string face_settings_yaml(const Config& config);
 
-/// Returns every key of the effective config that is not marked with Key::not_affecting_recipes.
-/// Also returns the key `changes`. Apart from reviews, a plan depends only on the returned keys.
+/// Returns the keys of the effective config that affect recipes: all keys except the keys marked
+/// with Key::not_affecting_recipes. Also returns the key `changes`. Apart from reviews, a plan
+/// depends only on the returned keys.
 ///
 /// \param directory  the folder to which the paths are relative.
 std::string plan_settings_yaml(const Config& config, const std::filesystem::path& directory);

@@ -73,8 +73,9 @@ bool is_same(const YamlNode& a, const YamlNode& b) {
   return paths.empty();
 }
 
-/// From each group, removes the keys whose value is the same in `sampling`. So a difference in such
-/// a key is reported only once.
+/// Removes from each entry of `groups` the keys that have the same value in the section `sampling`:
+/// the group inherits these keys. If such a key differs between two configs, the difference is then
+/// reported only once, for `sampling`.
 void remove_inherited_keys(YamlNode& root) {
   const YamlEntry* sampling = root.find("sampling");
   const auto groups = std::ranges::find(root.entries, "groups", &YamlEntry::key);

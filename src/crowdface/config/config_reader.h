@@ -48,8 +48,8 @@ struct ConfigReading {
   bool are_heads_known = false;
   /// whether `config.regions.names` and `config.regions.mask` are valid
   bool are_regions_known = false;
-  /// Warnings about keys that are overridden by other keys, if the config is complete; one line for
-  /// each key.
+  /// Warnings, one line each, for example about keys that other keys override. The warnings about
+  /// overridden keys are present only if the config is complete.
   std::vector<std::string> warnings = {};
 };
 

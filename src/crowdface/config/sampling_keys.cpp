@@ -132,7 +132,8 @@ const Keys<PositionDistribution>& position_keys() {
   return keys;
 }
 
-/// The keys that a position with one kind of distribution may have.
+/// The keys that the config may use to describe the distribution of a position on the weight plane,
+/// if the distribution is of the kind `kind`.
 struct KindKeys {
   Kind kind;
   Names keys;

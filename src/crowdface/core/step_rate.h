@@ -14,7 +14,8 @@ namespace crowdface {
 class StepRate {
  public:
   /// \param simultaneous_steps  number of steps that may end at almost the same time, such as the
-  ///     number of threads. Measured times are at least this many steps apart.
+  ///     number of threads. Two samples are stored only if at least this many steps ended between
+  ///     them.
   explicit StepRate(std::size_t simultaneous_steps = 1) : simultaneous_steps_(simultaneous_steps) {}
 
   /// Records the number of finished steps.
@@ -28,7 +29,7 @@ class StepRate {
  private:
   /// The number of finished steps at one time.
   struct Sample {
-    double seconds = 0;  ///< time at which `record` was called, see its parameter
+    double seconds = 0;  ///< time at which `record` was called: the argument `seconds` of the call
     std::size_t finished_steps = 0;
   };
   std::size_t simultaneous_steps_;

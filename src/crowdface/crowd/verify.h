@@ -14,8 +14,8 @@ struct CrowdCheck {
   std::size_t file_count = 0;              ///< number of files in the ledger
   std::vector<std::string> missing_files;  ///< missing files, relative to the folder
   std::vector<std::string> altered_files;  ///< files whose content differs from the ledger
-  /// items that no ledger lists: ids of planned faces, and the names of the plan file and the
-  /// report file
+  /// Items that are not finished, because no ledger lists them. An item is the id of a planned
+  /// face, or the name of the plan file or of the report file.
   std::vector<std::string> unfinished_items;
   /// messages about damaged or incomplete ledgers, and about shards that were not gathered
   std::vector<std::string> remarks;

@@ -35,8 +35,8 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
-  /// Distance to `nearest_head`: the smaller of the distances of two faces, one with the recipe's
-  /// extrapolation factors and one with all extrapolation factors set to 1.
+  /// Distance from the measured face to `nearest_head`. This is the smaller of two distances: with
+  /// the recipe's extrapolation factors, and with all extrapolation factors set to 1.
   double nearest_head_distance_mm = 0;
   /// distance of the finished face, with the extrapolation factors of its recipe, to `nearest_head`
   double nearest_head_distance_with_extrapolation_mm = 0;
@@ -71,7 +71,7 @@ class EditSession {
   /// The faces of the plan in the job's output folder; null if there is no plan or if the plan was
   /// made with other settings.
   const std::vector<FacePlan>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
-  /// The mesh with fewer triangles that the page shows.
+  /// The mesh that the page shows. It has fewer triangles than the mesh of a face.
   const PreviewMesh& preview() const { return preview_; }
   /// The atlas with the heads' textures. The preview's texture coordinates refer to this atlas.
   const TextureAtlas& textures() const { return textures_; }
@@ -101,12 +101,13 @@ class EditSession {
   /// such as the gap between the lips.
   /// \param opened_id  id of the crowd's face from which the edit began, or empty
   FaceMeasures measure(const FacePlan& recipe, const std::string& opened_id = "") const;
-  /// Like the other overload, but also checks the gaps of the mesh.
-  /// \param face  result of `build`
+  /// Measures a face like the other overload, but also checks, on the face's mesh, gaps between
+  /// parts of the skin, such as the gap between the lips.
+  /// \param face  all vertex positions of the face, from `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
                        const std::string& opened_id = "") const;
   /// Finds visible faults in the whole mesh of a face; see MeshFaults.
-  /// \param face  result of `build`
+  /// \param face  all vertex positions of the face, from `build`
   std::vector<std::string> mesh_faults(const Recipe& recipe, const Positions& face) const {
     return faults_.faults_of(recipe, face);
   }
@@ -123,13 +124,13 @@ class EditSession {
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
   /// preview vertex.
-  /// \param face  result of `build`
+  /// \param face  all vertex positions of the face, from `build`
   std::vector<float> preview_normals(const Positions& face) const;
   /// Roughness of a face at the preview's vertices, 0 … 255 for the range 0 … 1; empty if there is
   /// no roughness map.
   std::vector<std::uint8_t> preview_roughness(const TextureSet& texture_set) const;
   /// Positions of the preview's vertices on a face: three numbers for each preview vertex.
-  /// \param face  result of `build`
+  /// \param face  all vertex positions of the face, from `build`
   std::vector<float> preview_points(const Positions& face) const;
 
  private:

@@ -37,7 +37,9 @@ struct MeshFileOptions {
   const std::vector<MeshFormat>& formats;  ///< formats of the mesh files
   std::filesystem::path folder;            ///< folder of the meshes
   std::string stem;                        ///< first part of the file names, such as the face's id
-  /// whether the face has files for levels of detail, blend shapes and named points
+  /// Whether the list contains, in addition to the whole mesh at rest, the files for levels of
+  /// detail, blend shapes, named points and the body's texture. If false, it contains none of these
+  /// files.
   bool includes_all_variants = true;
 };
 /// Lists the mesh files of a face, and the files of the face's attachments, textures and material.

@@ -36,7 +36,8 @@ class FaceTraits {
   /// the neck (kBent), or the mesh before it is moved and bent (kAsBlended). Casting measures
   /// kAsBlended, so that recipes do not depend on the body.
   enum class NeckState { kBent, kAsBlended };
-  /// Computes the positions that the landmarks have on the selected mesh of the face.
+  /// Computes the positions of the landmarks on a mesh of the recipe's face: on the written mesh,
+  /// or on the mesh before it is moved and bent. `neck` selects the mesh.
   Positions exact_landmarks(const Recipe& recipe, NeckState neck) const;
   /// Replaces the positions of the vertices `landmark_vertices_` by their positions on the mirrored
   /// face.

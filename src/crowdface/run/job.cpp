@@ -144,8 +144,9 @@ Config with_kept_distances(Config config, const std::string& before) {
 }
 
 /// Completes a config with facts about the crowd that exists in the output folder: the number of
-/// existing faces, the minimum distances of these faces, and whether there are numbered subfolders.
-/// A new crowd gets subfolders if it is large.
+/// existing faces, the smallest allowed distances between faces with which these faces were cast,
+/// and the number of faces in each numbered subfolder. If there is no such crowd, a large crowd
+/// gets numbered subfolders.
 /// \param replaced  whether the run casts the crowd again (`--force`).
 void continue_crowd(Config& config, bool replaced) {
   const CrowdDirectory directory{config.output.directory};

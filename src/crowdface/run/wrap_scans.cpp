@@ -380,8 +380,9 @@ void wrap_scans(const WrapOptions& options) {
         wrap_one(options, shared, wrap_textures, task, inputs);
       }
     } catch (const RecoverableError& error) {
-      // Record the problem of this scan, and continue with the other scans.
+      // An interruption or a failed write ends the command.
       if (error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kIoError) throw;
+      // After all other errors, record the problem of this scan and continue with the next scan.
       problems.add(error);
     }
     progress.step();
