@@ -59,7 +59,8 @@ struct Constraint {
 };
 const Constraint& constraint_of(RejectionReason reason);
 
-/// Returns the name of a constraint, which is its key in the config.
+/// Returns the name of the constraint whose violation is `reason`: the key of the constraint in the
+/// config.
 inline std::string_view name_of(RejectionReason reason) {
   return constraint_of(reason).config_key;
 }

@@ -21,8 +21,10 @@ struct DiversityOptions {
   Mode mode = Mode::kFirstFit;
   double min_distance_mm = 0;  ///< smallest allowed distance between any two faces of the crowd
   /// kFirstFit: values that replace `min_distance_mm` for the first sampled faces. The key is the
-  /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and
-  /// families have 1.2 mm, faces 25 … 40 have 1 mm, and later faces have `min_distance_mm`.
+  /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, the minimum distance
+  /// is 1.2 mm for faces 1 … 24, 1 mm for faces 25 … 40, and `min_distance_mm` for later faces.
+  /// Family members and parents, which casting makes before the first sampled face, have the
+  /// minimum distance of face 1.
   std::map<std::uint64_t, double> min_distance_mm_up_to_face = {};
   /// Smallest allowed distance between a face of the crowd and an input head. (In the config, where
   /// input heads are called faces, the key is `min_distance_to_faces`.)

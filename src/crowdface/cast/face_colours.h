@@ -13,9 +13,10 @@ namespace crowdface {
 
 /// Parameters for choosing colours (textures) at random, independently of shapes.
 struct ColourOptions {
-  std::uint64_t seed = 1;               ///< seed of the crowd's random numbers
-  std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
-  HeadTags tags;                        ///< the tags of each head, or empty
+  std::uint64_t seed = 1;  ///< seed of the crowd's random numbers
+  /// names of the heads; used to find a parent of a face if this parent is a head
+  std::vector<std::string> head_names;
+  HeadTags tags;  ///< the tags of each head, or empty
   /// The tags that must be equal on the head that lends colours and on the face's typical head.
   /// Empty optional: all tags.
   std::optional<std::vector<std::string>> tags_to_match;

@@ -14,11 +14,12 @@ struct FaceSpaceTables {
   /// #levels by #modes: the coefficient of each mode (see smoothing_displacement_modes) at each
   /// smoothing level, divided by the mode's largest absolute coefficient
   FloatRows level_coefficients;
-  /// 3·#functions by #P: the coefficients of the coordinate functions in an orthonormal basis of P
-  /// scalar functions on the skin. A coordinate function has three rows, for its x, y and z. Each
-  /// face is a linear combination of the coordinate functions.
+  /// 3·#functions by #P. Each face is a linear combination of the coordinate functions. Each row
+  /// has the coefficients of the x, y or z component of one coordinate function, in an orthonormal
+  /// basis of P scalar functions on the skin.
   FloatRows basis_coefficients;
-  /// #D by 3·#P: one principal direction of the aligned faces per row
+  /// #D by 3·#P: each of the D rows is one principal direction of the aligned faces, given by
+  /// coefficients in the basis of P functions for x, then y, then z
   FloatRows principal_directions;
   /// For each region, the matrix of the region's metric, #D by #D; see find_region_metrics. Empty
   /// if there is only one region.
@@ -198,7 +199,8 @@ class FaceSpace {
   Eigen::VectorXf weight_square_roots_;        ///< √w of each sample in `nonzero_weight_samples_`
   FaceSpaceTables tables_;
   Shape mean_shape_;  ///< coefficients of the mean head in the basis
-  /// one principal direction per column: 3·#P by #D, padded with zeros to a multiple of 16 columns
+  /// the transpose of FaceSpaceTables::principal_directions (one principal direction per column),
+  /// padded with columns of zeros to a multiple of 16 columns
   FloatRows directions_transposed_;
   /// for each region, its fraction of the face's surface area; empty if there is only one region
   std::vector<double> region_area_fractions_;

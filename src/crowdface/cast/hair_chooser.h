@@ -18,9 +18,10 @@ namespace crowdface {
 /// The parameters of HairChooser. The members have the same meaning as the members of
 /// AttachmentOptions.
 struct HairOptions {
-  std::uint64_t seed = 1;               ///< seed of the crowd's random numbers
-  HeadTags tags;                        ///< the tags of each head
-  std::vector<std::string> head_names;  ///< names of the heads, because a parent may be a head
+  std::uint64_t seed = 1;  ///< seed of the crowd's random numbers
+  HeadTags tags;           ///< the tags of each head
+  /// names of the heads; used to find a parent of a face if this parent is a head
+  std::vector<std::string> head_names;
   /// for each group: the fraction of the faces that have each named hair colour
   std::map<std::string, std::map<std::string, double>> hair_colours;
   std::set<std::string> twin_families;  ///< names of the families whose members are twins

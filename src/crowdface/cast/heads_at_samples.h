@@ -32,7 +32,10 @@ struct HeadsAtSamples {
   std::shared_ptr<const HeadsAtSamples> mirror_images;
 };
 
-/// Collects the data of the heads at the samples, without mirror images.
+/// Collects the data of the heads at the samples. Leaves HeadsAtSamples::mirror_images empty; see
+/// sample_mirror_images.
+///
+/// \param max_level  largest smoothing level, in iterations, of the `trajectories`.
 HeadsAtSamples sample_heads(const HeadSet& head_set, const RegionWeights& regions,
                             const FaceSamples& samples, std::span<const Trajectory> trajectories,
                             std::uint64_t max_level, double mm_per_unit);

@@ -222,7 +222,9 @@ struct ManualRecipe {
   std::optional<AgeRange> age;  ///< range of the face's age; empty: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
-  TraitLimits traits = {};  ///< limits on measurements that the random values must meet
+  /// limits on the face's measurements; the values that the recipe leaves random are drawn so that
+  /// the face meets these limits
+  TraitLimits traits = {};
 };
 
 }  // namespace crowdface

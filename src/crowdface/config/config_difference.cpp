@@ -143,8 +143,8 @@ std::optional<RequiredDistances> distances_of(const YamlNode& root) {
   return distances;
 }
 
-/// Returns whether both configs require the same smallest distances for the old crowd's faces and
-/// families.
+/// Returns whether the config `root` requires the same minimum distances as the config `old`, for
+/// all sampled faces and families of the crowd that was made with `old`.
 bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   const auto before = distances_of(old), now = distances_of(root);
   const auto count = number_at(old, kCount);

@@ -43,7 +43,8 @@ bool is_inside_folder(const std::filesystem::path& path, const std::filesystem::
 /// detected.
 class DirectoryHandle {
  public:
-  /// \throws CannotCreate if the folder cannot be opened.
+  /// \throws CannotCreate if the folder cannot be opened, because then no output can be created in
+  /// it.
   explicit DirectoryHandle(const std::filesystem::path& folder);
   /// Checks that the path still leads to the directory that this object opened: nobody has moved or
   /// replaced the directory.

@@ -154,7 +154,8 @@ class EditSession {
   /// The face that the page shows first: the first face of the crowd. If there is no crowd, all
   /// regions are at the first head's anchor.
   FacePlan first_face() const;
-  /// For each head: the displacement fields from which the page computes smoothed shapes.
+  /// Returns for each head the data from which the page computes the head's shape at any smoothing
+  /// level: displacement fields and their level functions.
   std::vector<HeadSmoothing> preview_levels() const;
 
   Job job_;  ///< the config, the input heads with their textures, and the smoothing operator
