@@ -22,8 +22,8 @@ struct ColourOptions {
   std::optional<std::vector<std::string>> tags_to_match;
 };
 
-/// Sets the colours, Recipe::colours, of each face. A head *matches* a face if the head's tags match
-/// the tags of the face's typical head. The first rule that applies to a face determines its
+/// Sets the colours, Recipe::colours, of each face. A head *matches* a face if the head's tags
+/// match the tags of the face's typical head. The first rule that applies to a face determines its
 /// colours:
 ///
 /// 1. If the recipe already has colours, the face keeps them.

@@ -41,11 +41,12 @@ HeadsAtSamples sample_heads(const HeadSet& head_set, const RegionWeights& region
                             std::uint64_t max_level, double mm_per_unit);
 
 /// Computes the mirror images of the heads at the same samples. If the mirror image of a sample is
-/// not a vertex, the weights and trajectories there are interpolated.
+/// not a vertex, the region weights and the trajectory at this point are interpolated between
+/// vertices.
 ///
 /// \param heads   The heads at the samples.
-/// \param trajectory_vertices  The vertices that the trajectories of `heads` contain:
-///                samples_and_mirror_corners of the samples.
+/// \param trajectory_vertices  The vertices whose displacements by smoothing `heads.trajectories`
+///                stores: the result of samples_and_mirror_corners for `samples`.
 std::shared_ptr<const HeadsAtSamples> sample_mirror_images(const HeadSet& head_set,
                                                            const RegionWeights& regions,
                                                            const MirrorMap& mirror,

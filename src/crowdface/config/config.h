@@ -169,7 +169,9 @@ struct Config {
   /// How eyes, teeth and lashes follow the skin. The config names such a part by its material, its
   /// group, or as "component N".
   struct Parts {
-    bool follow_skin = true;  ///< false with `parts: none`: everything is blended like skin
+    /// whether eyes, teeth and lashes follow the skin. False if the config has `parts: none`: then
+    /// all components of a head are blended like skin
+    bool follow_skin = true;
     /// whether the shape of a rigid part is the target's or blended
     PartShape shape = PartShape::kTarget;
     /// Names of the components that are blended (skin), move rigidly (rigid), or have vertices that
