@@ -17,10 +17,10 @@ namespace crowdface {
 
 /// The constraint that a rejected candidate violates.
 enum class RejectionReason {
-  kMinDistance,         ///< too near to another face of the crowd
-  kMinDistanceToHeads,  ///< too near to an input head
+  kMinDistance,         ///< the face is too near to another face of the crowd
+  kMinDistanceToHeads,  ///< the face is too near to an input head
   kMaxWeight,           ///< one head has too much weight in a region
-  kImplausible,         ///< differs too much from the mean of the heads to be believable
+  kImplausible,         ///< the face differs too much from the mean of the heads to be believable
   kFlipped,             ///< part of the skin is turned inside out or collapsed
   kStretched,           ///< part of the skin is stretched too far
   kIntersecting,        ///< the face's skin intersects itself where the target's skin does not
@@ -31,8 +31,8 @@ enum class RejectionReason {
   /// the face is too near to another family, or the face is a member of a family and breaks one of
   /// the family's distance limits (see FamilySampler::rejection_reason)
   kFamily,
-  kRejected,  ///< too similar to a face that a review rejected
-  kTraits,    ///< a measurement is outside its limits
+  kRejected,  ///< the face is too similar to a face that a review rejected
+  kTraits,    ///< a measurement of the face is outside its limits
 };
 constexpr auto kReasonCount = static_cast<std::size_t>(RejectionReason::kTraits) + 1;
 

@@ -11,11 +11,11 @@ namespace crowdface {
 struct DiversityOptions {
   /// How casting chooses the sampled faces.
   enum class Mode {
-    /// accept candidates that are far enough from all earlier faces; if the crowd is made larger
-    /// later, its first faces stay the same
+    /// Casting chooses one face after the other, and accepts a candidate that is far enough from
+    /// all earlier faces. If the crowd is made larger later, its first faces stay the same.
     kFirstFit,
-    /// choose faces far from each other, from a pool of many more candidates than the crowd has
-    /// faces
+    /// Casting generates a pool with many more candidates than the crowd has faces, and chooses
+    /// candidates that are far from each other.
     kSpread,
   };
   Mode mode = Mode::kFirstFit;
@@ -77,11 +77,11 @@ struct BelievabilityOptions {
   /// meshes are checked when they are built, after casting, and the results only appear in the
   /// report.
   enum class MeshChecks {
-    kAuto,  ///< check whole meshes if they have at most 200,000 polygons
-    kAll,
-    kNone,
-    /// check the whole mesh of each candidate before casting accepts the candidate, and list the
-    /// results in the report
+    kAuto,  ///< whole meshes are checked if they have at most 200,000 polygons
+    kAll,   ///< whole meshes are always checked
+    kNone,  ///< whole meshes are never checked
+    /// casting checks the whole mesh of each candidate before it accepts the candidate, and the
+    /// report lists the results
     kJudge,
   };
   MeshChecks meshes = MeshChecks::kAuto;

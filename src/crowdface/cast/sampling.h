@@ -72,12 +72,12 @@ struct PositionDistribution {
 struct SmoothnessDistribution {
   /// The unit of `range`.
   enum class Unit {
-    /// a fraction of L_max, the largest number of smoothing iterations; the slider in the paper has
-    /// the same unit
+    /// values are fractions of L_max, the largest number of smoothing iterations; the slider in the
+    /// paper has the same unit
     kFraction,
-    kIterations,  ///< a number of smoothing iterations
-    /// a wavelength in mm: smoothing halves the amplitude of relief that has this wavelength
-    /// (docs/method.md)
+    kIterations,  ///< values are numbers of smoothing iterations
+    /// values are wavelengths in mm: smoothing halves the amplitude of relief that has this
+    /// wavelength (docs/method.md)
     kSize,
   };
   Unit unit = Unit::kFraction;

@@ -42,15 +42,16 @@ struct TraitTarget;
 
 /// What to do if the heads are not aligned with each other.
 enum class Align {
-  kCheck,  ///< warn about heads that are not aligned, and do not move them
-  kRigid,  ///< align every head rigidly with the first head, by the best rotation and translation
-  kNone,   ///< do not check whether the heads are aligned, and do not move them
+  kCheck,  ///< crowdface warns about heads that are not aligned, and does not move them
+  /// crowdface aligns every head rigidly with the first head, by the best rotation and translation
+  kRigid,
+  kNone,  ///< crowdface neither checks whether the heads are aligned nor moves them
 };
 
 /// Whether a crowd gets a gallery page, on which users select faces.
 enum class Gallery {
-  kAuto,  ///< a gallery, if the crowd has pictures and this build contains the gallery page
-  kNone,  ///< no gallery
+  kAuto,  ///< the crowd gets a gallery if it has pictures and this build contains the gallery page
+  kNone,  ///< the crowd gets no gallery
 };
 
 /// The weights with which the heads' textures are blended into a face's textures: the weights that
@@ -59,9 +60,10 @@ enum class ColourWeights { kRecipe, kSampled };
 
 /// Which textures a new face gets.
 enum class TextureBlend {
-  kAuto,    ///< a blend of the heads' textures, or kTarget if these textures do not differ
-  kTarget,  ///< the textures of the face's target
-  kNone,    ///< the same as kTarget, but rendered images show no textures
+  /// the face gets a blend of the heads' textures; like kTarget if these textures do not differ
+  kAuto,
+  kTarget,  ///< the face gets the textures of its target
+  kNone,    ///< like kTarget, but rendered images show no textures
 };
 /// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };
@@ -74,10 +76,11 @@ enum class SheetTexture {
 
 /// How the smoothed versions of each head are represented.
 enum class LevelRepresentation {
-  /// displacement fields fitted to each head; `tolerance_mm` determines the number of fields
+  /// by displacement fields that are fitted to each head; `tolerance_mm` determines the number of
+  /// fields
   kBasis,
   kExact,  ///< nothing is stored; the smoothing filter computes each level on demand
-  kCubic,  ///< for each vertex, a cubic polynomial of the smoothing level L (§5.1 of the paper)
+  kCubic,  ///< by a cubic polynomial of the smoothing level L for each vertex (§5.1 of the paper)
 };
 
 /// How rendered images show a material. This overrides the kind of surface that the material's name
@@ -316,7 +319,8 @@ struct Config {
   /// The mesh with which each face is compared, vertex by vertex: the face's target (kTarget), the
   /// nearest face of the crowd (kNearest), or `file`. A colour map shows the distances.
   struct MeshComparison {
-    /// kNothing: faces are not compared; kFile: `file`; for the other values see above
+    /// What each face is compared with: nothing (kNothing: no comparison), the face's target
+    /// (kTarget), the nearest face of the crowd (kNearest), or `file` (kFile).
     enum class Reference { kNothing, kTarget, kNearest, kFile } reference = Reference::kNothing;
     /// a mesh, or the folder of another crowd whose faces have the same ids
     std::filesystem::path file;

@@ -142,8 +142,9 @@ class FaceEncoders {
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
   /// encodes the faces' blended textures; empty if faces have none
   std::optional<FaceTextureEncoder> texture_encoder_;
-  /// Move the named points (`points_`) and the joints of the rig (`joints_`) with a face. `points_`
-  /// is empty if the inputs have no named points; `joints_` is empty if no file has a rig.
+  /// The objects that move the named points (`points_`) and the joints of the rig (`joints_`) with
+  /// a face. `points_` is empty if the inputs have no named points; `joints_` is empty if no file
+  /// has a rig.
   std::optional<PointCarrier> points_, joints_;
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals
   std::optional<NormalFans> fans_;

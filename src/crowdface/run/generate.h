@@ -13,8 +13,12 @@ namespace crowdface {
 
 /// Where a run gets the plan of its faces.
 enum class PlanSource {
-  kFolderOrCasting,  ///< the folder's plan; the run casts if the folder has no plan of this job
-  kFolder,           ///< the folder's plan; the run fails if the folder has no plan of this job
+  /// the run uses the plan in the crowd's folder; if the folder has no plan of this job, the run
+  /// casts
+  kFolderOrCasting,
+  /// the run uses the plan in the crowd's folder; if the folder has no plan of this job, the run
+  /// fails
+  kFolder,
 };
 
 struct GenerateOptions {

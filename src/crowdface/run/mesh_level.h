@@ -64,8 +64,8 @@ std::vector<T> select_rows(const std::vector<T>& whole, std::span<const std::uin
   for (const std::uint32_t row : rows) selected.push_back(whole[row]);
   return selected;
 }
-/// Like the function above, with several values for each polygon or vertex. Returns an empty result
-/// if `whole` is empty.
+/// Like the other overload of select_rows, but with several values for each polygon or vertex.
+/// Returns an empty result if `whole` is empty.
 template <class T>
 CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
   CompressedRows<T> selected;
