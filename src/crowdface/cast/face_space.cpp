@@ -13,8 +13,9 @@
 namespace crowdface {
 namespace {
 
-/// Largest error with which span_basis may approximate smoothing displacements and coordinate
-/// functions: root mean square over the face, in millimetres.
+/// Tolerance for two approximations by span_basis: of the displacements of the heads by smoothing,
+/// and of the coordinate functions (see FaceSpaceTables). Each error is at most kFieldTolerance
+/// millimetres, as root mean square over the face.
 constexpr double kFieldTolerance = 0.02;
 /// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;

@@ -24,8 +24,10 @@ struct HeadsAtSamples {
   /// For each region, ranges [begin, end) that contain all samples with nonzero weight. Loops over
   /// a region's samples skip the other samples.
   std::vector<std::vector<std::pair<Index, Index>>> sample_ranges;
-  std::vector<std::uint64_t> levels;  ///< smoothing level of each row of the trajectories
-  double mm_per_unit = 1;             ///< millimetres per unit of the trajectories
+  /// for each row of every element of `trajectories`: the smoothing level of this row, as a number
+  /// of iterations
+  std::vector<std::uint64_t> levels;
+  double mm_per_unit = 1;  ///< millimetres per unit of the trajectories
   /// storage of `trajectories` if this object owns them, otherwise empty
   std::vector<Trajectory> owned_trajectories;
   /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.

@@ -63,7 +63,8 @@ enum class TextureBlend {
   /// the face gets a blend of the heads' textures; like kTarget if these textures do not differ
   kAuto,
   kTarget,  ///< the face gets the textures of its target
-  kNone,    ///< like kTarget, but rendered images show no textures
+  /// the face's files get the textures of its target, but rendered images show no textures
+  kNone,
 };
 /// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };

@@ -17,7 +17,9 @@ namespace crowdface {
 struct CrowdLikeness {
   /// one per head: the head's anchor, a point on the weight plane
   std::vector<PlanePoint> anchors;
-  Likeness likeness;  ///< the nearest faces of each face, and an order of the faces
+  /// for each face, the faces nearest to it; and an order of all faces in which consecutive faces
+  /// look alike
+  Likeness likeness;
 };
 
 /// Computes the CrowdLikeness of a crowd that was just cast. Rounds distances to four decimals, as

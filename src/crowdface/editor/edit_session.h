@@ -113,14 +113,18 @@ class EditSession {
   }
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
-  /// Changes the weights of a face so that a measurement comes as near to `wanted` as the heads
-  /// allow; see steer_trait. Returns the changed face.
-  /// \param locked_bands  bands that do not change, as in SampleRequest
+  /// Changes the weights with which a face is blended from the heads, so that the measurement
+  /// `trait` comes as near to the value `wanted` as the heads allow; see steer_trait. Returns the
+  /// changed face.
+  /// \param locked_bands  bands of detail whose weights do not change, indexed as in
+  ///                      SampleRequest::locked_bands
   /// \throws UsageError if the measurement is not available, or if the config has
-  ///         Normalization::kPrinted, which only allows weights given by a position on the plane.
+  ///         Normalization::kPrinted. (With kPrinted, a face cannot have weights of its own: a
+  ///         position on the weight plane determines the weights.)
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
                  const std::vector<std::size_t>& locked_bands) const;
-  /// Samples faces for the user to choose from; see the function sample_faces.
+  /// Samples random faces, from which the user chooses one. Calls the free function `sample_faces`
+  /// of editor/sample_faces.h.
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
   /// preview vertex.

@@ -82,8 +82,9 @@ void check_sampling(const SamplingOptions& sampling, const std::string& where, c
   }
 }
 
-/// Warns about each band that begins at 0 smoothing iterations in every region, and therefore
-/// contains no detail.
+/// Returns a warning about each band without detail. A band contains the detail that smoothing with
+/// its number of iterations removes, down to the next finer band. So a band has no detail if its
+/// number of iterations is 0 in every region.
 std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Config& config,
                                      const Inputs& inputs) {
   std::vector<std::string> warnings;

@@ -25,8 +25,8 @@ struct MeshLevel {
   std::size_t level_number = 0;  ///< number of the level of detail; 0 is the whole mesh
   /// the reduced mesh that faces have at this level; null: the whole mesh
   const DetailLevel* face_level = nullptr;
-  /// the reduced form of each attachment that any face wears, and of the body; empty for the whole
-  /// mesh
+  /// The reduced mesh of each attachment that any face wears. If files contain the body, the body
+  /// is one of these attachments. Empty at level 0, where nothing is reduced.
   std::map<const Attachment*, DetailLevel> attachments;
   const Attachment* body = nullptr;  ///< the body; null if files do not contain the body
 
