@@ -24,8 +24,8 @@ struct Shortfall {
   std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
   /// how often each constraint rejected a candidate for the face that could not be cast
   RejectionCounts rejections;
-  /// index of the group of the sampled face that could not be cast; −1 if this face has no group,
-  /// or if a face of another kind or a family could not be cast
+  /// If `what` is kSampledFace: index of the group of the face that could not be cast, or −1 if
+  /// this face has no group. Otherwise −1.
   int group_index = -1;
   What what = What::kSampledFace;  ///< what could not be cast
   /// name of the family, or id of the face, that could not be cast; empty for a sampled face

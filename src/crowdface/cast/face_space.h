@@ -150,7 +150,8 @@ class FaceSpace {
   ///
   /// \return  The functions, #P by #S.
   FloatRows compute_basis_functions();
-  /// Computes the principal directions of random faces with this number of bands per region.
+  /// Makes random faces, and computes their principal directions. In each region, the detail of
+  /// these faces is divided into `bands` bands.
   void find_principal_directions(std::size_t bands);
   /// Finds the metric M_k of each region k. For two points x and y of faces in the span of the
   /// principal directions, (x − y)ᵀ M_k (x − y) = Σ_s w_s α_k(s) d(s)², where w_s is the weight of

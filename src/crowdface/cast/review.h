@@ -62,9 +62,10 @@ struct FaceChange {
 
 /// The marks and changes that one reviewer requests.
 struct Review {
-  /// Number of sampled faces of the crowd that was reviewed. The review applies to this crowd.
-  /// Faces with larger numbers are cast after the review, so that a larger crowd changes no
-  /// reviewed face. Empty: the whole crowd was reviewed.
+  /// Number n of sampled faces that the crowd had when it was reviewed. If the crowd is larger now,
+  /// casting first casts the faces 1 … n, then applies the review, and then casts the faces after
+  /// n. So no reviewed face changes when the crowd becomes larger. Empty, or in spread mode: the
+  /// review applies after all faces of the crowd are cast.
   std::optional<std::uint64_t> reviewed_face_count;
   /// Number of reviews, from the start of the list, whose results the reviewer saw; see
   /// merged_reviews. Empty: all earlier reviews.

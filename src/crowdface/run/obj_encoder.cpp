@@ -117,8 +117,10 @@ MeshEncoder whole_encoder(const MeshSource& source) {
       memory, encode};
 }
 
-/// Returns the encoder for a level of detail: plain OBJ files that do not copy the text of the
-/// target head's file. Target heads with the same materials share a template.
+/// Returns the encoder that writes the OBJ files of faces at a level of detail. It writes these
+/// files from scratch. (The OBJ file of a whole mesh is a copy of the target head's file with other
+/// positions.) The encoder stores one PlainObjTemplate, the text that is equal in many files, for
+/// all target heads with the same materials.
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct LevelTemplates {
     std::vector<PlainObjTemplate> obj;
