@@ -119,8 +119,8 @@ MeshEncoder whole_encoder(const MeshSource& source) {
 
 /// Returns the encoder that writes the OBJ files of faces at a level of detail. It writes these
 /// files from scratch. (The OBJ file of a whole mesh is a copy of the target head's file with other
-/// positions.) The encoder stores one PlainObjTemplate, the text that is equal in many files, for
-/// all target heads with the same materials.
+/// positions.) Target heads with the same materials share one PlainObjTemplate, which holds the
+/// text that is equal for all faces.
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct LevelTemplates {
     std::vector<PlainObjTemplate> obj;
