@@ -41,8 +41,10 @@ constexpr double kMaxFractionOfNearerStrangersForChild = 0.1;
 /// the founder's distance from this parent by at most this fraction of max_distance.
 constexpr double kMaxFartherThanFounder = 0.25;
 
-/// Returns the parameters of a new parent. If no target of the crowd has the parent's sex, all
-/// targets are allowed.
+/// Returns the distribution from which casting draws a new parent: the distribution of the parent's
+/// group or of the crowd, but with only those targets that have the parent's sex
+/// (Parent::possible_target_heads). If there are no such targets, keeps all targets of the
+/// distribution.
 FaceDistribution distribution_of_parent(const Parent& parent, const CastingOptions& casting) {
   FaceDistribution kind = distribution_of_group(casting, parent.group);
   std::vector<WeightedHead> own;

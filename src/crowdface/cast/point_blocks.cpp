@@ -17,7 +17,7 @@ void PointBlocks::add(Index number, const float* coordinates) {
     for (auto& chunk : chunks_) chunk.resize(chunk.size() + kCoordinatesPerChunk * kLanes);
   }
   for (Index d = 0; d < padded_dimensions_; ++d) {
-    chunks_[static_cast<std::size_t>(d / kCoordinatesPerChunk)][chunk_offset(size(), d)] =
+    chunks_[static_cast<std::size_t>(d / kCoordinatesPerChunk)][offset_in_chunk(size(), d)] =
         coordinates[d];
   }
   point_numbers_.push_back(number);
@@ -40,7 +40,7 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
   for (Index chunk = 0; chunk < padded_dimensions_; chunk += kCoordinatesPerChunk) {
     // The sums only grow, so once all sums exceed the bound, no point of the block is within the
     // bound.
-    if (!add_squares(query.data() + chunk, &chunk_of(chunk)[chunk_offset(block * kLanes, chunk)],
+    if (!add_squares(query.data() + chunk, &chunk_of(chunk)[offset_in_chunk(block * kLanes, chunk)],
                      kCoordinatesPerChunk, bound, sums.data())) {
       sums.fill(HUGE_VALF);
       return sums;

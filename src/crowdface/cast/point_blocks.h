@@ -71,7 +71,7 @@ class PointBlocks {
   /// Returns coordinate number `dimension` of the point that was added as number `index`, counted
   /// from 0. (Not the number that the caller of `add` chose.)
   float coordinate(Index index, Index dimension) const {
-    return chunk_of(dimension)[chunk_offset(index, dimension)];
+    return chunk_of(dimension)[offset_in_chunk(index, dimension)];
   }
 
   /// Returns the query, padded with zeros to padded_dimensions() values.
@@ -91,8 +91,10 @@ class PointBlocks {
   /// number of coordinates that are summed before the sums are compared with the bound
   static constexpr Index kCoordinatesPerChunk = 16;
 
-  /// Returns the offset of a point's coordinate within the coordinate's chunk.
-  static std::size_t chunk_offset(Index index, Index dimension) {
+  /// Returns the index of a coordinate of a point within the chunk `chunk_of(dimension)`.
+  ///
+  /// \param index  0 for the point that was added first.
+  static std::size_t offset_in_chunk(Index index, Index dimension) {
     return static_cast<std::size_t>(
         (index / kLanes * kCoordinatesPerChunk + dimension % kCoordinatesPerChunk) * kLanes +
         index % kLanes);
