@@ -148,8 +148,8 @@ class FamilySampler {
   FaceDistribution third_contributor_distribution_;
   /// maps each target head of a parent to a similar target head of the family's group
   SubstituteHeads target_substitutes_;
-  /// For each band, the heads of the family's group that substitute for the parents' sources
-  /// outside the group. Empty: the family has no group, or no parents.
+  /// For each band: which head of the family's group replaces a head that lends detail to a parent
+  /// but is not in the group. Empty if the family has no group or no parents.
   std::vector<SubstituteHeads> source_substitutes_;
   /// Names of the families related to this family: families that have a parent of this family as a
   /// member, and families that have a parent in common with this family.
