@@ -24,7 +24,7 @@ class FaceTraits {
   FaceTraits(const FaceTraits&) = delete;
   FaceTraits& operator=(const FaceTraits&) = delete;
 
-  /// Estimates the landmarks of candidate faces for casting.
+  /// The object with which casting estimates the landmarks and measurements of candidate faces.
   const FaceMeasurer& measurer() const { return *measurer_; }
   /// The measured traits, as indices into measurements().
   const std::vector<std::size_t>& trait_indices() const { return trait_indices_; }
