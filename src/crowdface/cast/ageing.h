@@ -29,9 +29,9 @@ void apply_age(FacePlan& face, const Age& age, const CastingOptions& casting);
 /// Parameters and exceptions are those of apply_age.
 double age_as_fraction(const Age& age, const FacePlan& face, const CastingOptions& casting);
 
-/// Undoes apply_age, so that children do not inherit the age of this face. If an age of −1 or 1
-/// moved all of a band's weight, the original weights are lost; the band and the face's age then
-/// stay as they are.
+/// Undoes apply_age, so that children do not inherit the age of this face. At an age of −1 or 1,
+/// apply_age may have moved all weight of a band to old or young heads. Then the original weights
+/// of this band are lost, and the band and the face's age stay as they are.
 void undo_age(FacePlan& face, const CastingOptions& casting);
 
 }  // namespace crowdface

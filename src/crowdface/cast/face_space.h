@@ -18,8 +18,9 @@ struct FaceSpaceTables {
   /// has the coefficients of the x, y or z component of one coordinate function, in an orthonormal
   /// basis of P scalar functions on the skin.
   FloatRows basis_coefficients;
-  /// #D by 3·#P: each of the D rows is one principal direction of the aligned faces, given by
-  /// coefficients in the basis of P functions for x, then y, then z
+  /// The D principal directions of a set of aligned faces, #D by 3·#P. Each row is one principal
+  /// direction: its x, y and z components, one after the other, each given by coefficients in the
+  /// basis of P functions.
   FloatRows principal_directions;
   /// For each region, the matrix of the region's metric, #D by #D; see find_region_metrics. Empty
   /// if there is only one region.
@@ -176,8 +177,9 @@ class FaceSpace {
   /// face.
   std::vector<float> coefficients(const Recipe& recipe,
                                   Extrapolation extrapolation = Extrapolation::kAsGiven) const;
-  /// Returns the coefficients of a head, or of its mirror image, with respect to the coordinate
-  /// functions.
+  /// Returns the coefficients of a head with respect to the coordinate functions.
+  ///
+  /// \param head  number of a head, or (from head_count() on) of the mirror image of a head.
   std::vector<float> head_coefficients(Index head) const;
   /// Aligns each face rigidly to the mean head, and subtracts the mean head. Returns one row per
   /// face, #faces by 3·#P: the coefficients of the difference in the basis of P functions, for x, y

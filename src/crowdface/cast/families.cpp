@@ -69,8 +69,8 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     throw_if_interrupted();
     if (drawn && !sampler.sample_parents(crowd, family_separation, f, rejections))
       return std::nullopt;
-    // Find a founder (from whom the members are derived). New parents must also resemble this
-    // founder.
+    // Find a founder, the face from which the members are derived. If parents of the family were
+    // made anew, they must resemble this founder; otherwise try other parents.
     FaceSearch founder([&](std::uint32_t attempt) { return sampler.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kCandidatesPerFounder : 1,
                        f * attempts_each);

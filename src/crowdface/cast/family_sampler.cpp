@@ -340,7 +340,8 @@ FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& family_plan,
     return FaceSpace::distance(judge_.space().point(face.recipe), family_plan.founder_point) >
            draft.distance_mm;
   };
-  // Find by bisection the mixture of the founder and the random face that has the chosen distance.
+  // Mix the founder and the random face. Find by bisection the share `t` of the random face with
+  // which the mixture has the chosen distance from the founder.
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
     const bool too_far = beyond(mixed_face(family_plan.founder, draft, t));

@@ -59,8 +59,8 @@ class FamilySampler {
   /// Returns the face from which all members start: the mean of both parents or, without parents, a
   /// random face.
   FacePlan founder(std::uint32_t attempt) const;
-  /// Returns the hidden child that all twins resemble. Stores the child's age in the plan but does
-  /// not apply it to the recipe.
+  /// Returns the hidden child that all twins resemble. Sets FacePlan::age of the returned face, but
+  /// does not change the face's recipe to show this age.
   FacePlan twins_prototype(const FamilyPlan& family_plan, std::uint32_t attempt) const;
   /// Returns candidate number `attempt` for member number `member`; members count from 1.
   FacePlan member(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;

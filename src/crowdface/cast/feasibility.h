@@ -12,8 +12,9 @@ struct Remedy {
   /// Largest value of the constraint's distance, in whole hundredths of a millimetre, with which
   /// casting succeeded. Empty if the constraint has no distance, or if no value succeeded.
   std::optional<double> largest_distance_mm;
-  /// Number of faces in the trials: the count of the crowd, but at most 4000. At most 400 in spread
-  /// mode, and if casting judges whole meshes.
+  /// Number of faces in each trial: the count of the crowd or a limit, whichever is smaller. The
+  /// limit is 400 if the mode is spread mode or if casting judges whole meshes; otherwise it is
+  /// 4000.
   std::uint64_t trial_face_count = 0;
 };
 

@@ -57,8 +57,9 @@ class HairChooser {
   /// random colour; colours that are frequent in the world are more likely.
   HairColour colour_of_tags(Index head, const std::string& random_number_purpose) const;
   /// Returns the mean age, from 0 (young) to 1 (old), of the heads that a face is blended from. The
-  /// ages of the heads are estimated from the heads' tags. Three quarters of the weight go to the
-  /// target, one quarter to the heads that lend the finest detail.
+  /// ages of the heads are estimated from the heads' tags. In the mean, the target of the recipe (a
+  /// head or a mixture of heads) has a weight of three quarters, and the heads that lend the finest
+  /// detail together have one quarter.
   double mean_age_of_heads(const Recipe& recipe) const;
   /// Returns the apparent age of a face, from 0 (young) to 1 (old).
   double apparent_age(const FacePlan& face) const;

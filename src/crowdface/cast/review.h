@@ -13,8 +13,8 @@ namespace crowdface {
 /// A reviewer's verdict on one face.
 struct ReviewMark {
   enum class Verdict {
-    kKeep,    ///< the face stays as it is
-    kReject,  ///< the face is redrawn, except for the locked parts
+    kKeep,    ///< the face stays unchanged
+    kReject,  ///< a new random face replaces the face; only the locked parts stay
   };
   std::string id;  ///< id of the face that is marked
   Verdict verdict = Verdict::kKeep;

@@ -64,7 +64,8 @@ std::string objection_to_array(const fs::path& file) {
   if (shape->size() == 3 && shape->back() == 3 && shape->front() != 1) {
     return concat("it has ", shape->front(), " heads: save each head to its own file");
   }
-  // An array of 3 by n has its own message: the code that reads arrays asks for the transpose.
+  // Return no objection to an array of n by 3, which can be a head, nor to an array of 3 by n: the
+  // code that reads arrays later refuses an array of 3 by n, with a message that asks for n by 3.
   if (shape->size() >= 2 && (shape->back() == 3 || shape->front() == 3)) return {};
   std::string sizes;
   for (const std::size_t size : *shape) sizes += concat(sizes.empty() ? "" : " by ", size);
