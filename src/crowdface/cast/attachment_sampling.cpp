@@ -453,9 +453,10 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   // an index into `versions_by_id[id]`
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
-  // Chooses attachments for the replacements of rejected faces, in the order of rejection. Stops at
-  // the first face that was rejected when the crowd had more than `size` faces. Called when the
-  // first `size` faces of the crowd have their attachments.
+  // Goes on through `rejected`, the rejected faces in the order of rejection, and chooses
+  // attachments for the face that replaced each rejected face. Stops before the first rejection
+  // that happened when the crowd had more than `size` faces. Called when the first `size` faces of
+  // the crowd have their attachments.
   const auto replace_up_to = [&](std::size_t size) {
     for (; next < rejected.size(); ++next) {
       if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;

@@ -124,11 +124,12 @@ class FaceSpace {
   Index sample_at(Index i) const { return nonzero_weight_samples_[static_cast<std::size_t>(i)]; }
   /// Stores the samples with nonzero weight, and the square roots of their weights.
   void choose_nonzero_weight_samples(const std::vector<double>& weights);
-  /// Finds a few modes whose linear combinations give the displacements of all heads at all
-  /// smoothing levels. Displacement fields are needed for these modes only. The modes are an
-  /// orthonormal basis of the rows of a matrix with one row per level, and one column per head,
-  /// coordinate (x, y or z) and sample. An entry is the sample's displacement times √w, where w is
-  /// the weight of the sample.
+  /// Finds a few modes that approximate how smoothing displaces the heads at all levels. Consider a
+  /// matrix with one row per smoothing level. A row has one entry for each head, coordinate (x, y
+  /// or z) and sample: the displacement of the sample times √w, where w is the weight of the
+  /// sample. The modes are an orthonormal basis of these rows. So the displacements at each level
+  /// are a linear combination of the modes, and coordinate functions are needed for the modes only,
+  /// not for each level.
   SpanBasis smoothing_displacement_modes() const;
   /// Subtracts from a scalar function the function's weighted mean over the samples. Then writes,
   /// for each sample, the function's value times √w, where w is the weight of the sample. (Rigid
@@ -173,8 +174,8 @@ class FaceSpace {
   ///                       FunctionOrder.
   void add_coefficients(const Recipe& recipe, Extrapolation extrapolation, Index orientation,
                         double factor, float* to) const;
-  /// Returns the coefficients of a face with respect to the coordinate functions, mirrored like the
-  /// face.
+  /// Returns the coefficients of a recipe's face with respect to the coordinate functions. If the
+  /// recipe mirrors the face, these are the coefficients of the mirrored face.
   std::vector<float> coefficients(const Recipe& recipe,
                                   Extrapolation extrapolation = Extrapolation::kAsGiven) const;
   /// Returns the coefficients of a head with respect to the coordinate functions.
