@@ -77,7 +77,7 @@ class FaceSpace {
   static double distance(const Point& a, const Point& b);
   /// A point, and one region's metric multiplied by the point's coordinates.
   struct RegionPoint {
-    const Point* point = nullptr;  ///< the point of a face
+    const Point* point = nullptr;  ///< the point of a face in the face space
     /// the region's metric multiplied by the point's coordinates with and without extrapolation,
     /// #dimensions each; empty if there is only one region
     Eigen::VectorXf metric_times_coordinates_with_extrapolation,

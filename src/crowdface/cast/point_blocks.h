@@ -47,8 +47,8 @@ struct LeadingCoordinatesBox {
 
 /// Points in blocks of sixteen, each point with a number that the caller of `add` chooses. A block
 /// stores the first coordinates of all its points, then the second coordinates, and so on, so that
-/// a query compares sixteen points at a time. The leading coordinates, in which faces differ most,
-/// rule out nearly all blocks early.
+/// a query compares sixteen points at a time. In a FaceSpace, points differ most in their leading
+/// coordinates, so a query rules out nearly all blocks after the leading coordinates.
 class PointBlocks {
  public:
   using Index = Eigen::Index;

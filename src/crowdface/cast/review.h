@@ -43,8 +43,8 @@ struct FaceChange {
   std::vector<std::size_t> locked_bands;
   /// Limits on the face's measurements. The face is changed only as far as these limits require.
   TraitLimits traits;
-  /// Names of attachments that replace the face's attachments of the same kinds. Empty list: the
-  /// face wears nothing.
+  /// If set: names of attachments that the face gets; each replaces the face's attachment of the
+  /// same kind. Special case: an empty list removes all attachments of the face.
   std::optional<std::vector<std::string>> attachments;
   /// Kinds and names of attachments that are taken off the face.
   std::vector<std::string> removed_attachments;

@@ -24,7 +24,8 @@ struct ConfigOverrides {
   std::vector<std::string> review = {};
   /// `--without-reviews`: whether to ignore the reviews stored in the crowd's folder
   bool without_reviews = false;
-  /// whether to apply the stored reviews even if the folder contains the crowd of another config
+  /// whether the run keeps and applies the reviews that are stored in the crowd's folder, even if
+  /// the folder contains the crowd of another config
   bool keep_reviews_of_other_configs = false;
   /// Reviews stored in the crowd's folder. The program reads these reviews first. If the config
   /// lists a copy of one of these reviews, the copy is ignored.

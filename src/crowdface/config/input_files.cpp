@@ -101,7 +101,8 @@ std::string left_out_message(const std::string& where, const std::vector<fs::pat
     others.resize(kNamed);
     others.emplace_back("…");
   }
-  // `to_read_all` proposes a pattern. A pattern does not help if no file has a format of heads.
+  // `to_read_all` advises the user to select the heads by a file name pattern. Leave this advice
+  // out if no file has a format that crowdface can read as a head.
   return concat(quoted(where), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
                 count, ")",
                 has_heads       ? to_read_all
