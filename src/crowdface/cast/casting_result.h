@@ -75,7 +75,8 @@ struct CastingResult {
   /// Changed faces, by index in `crowd`. (`crowd` itself holds the faces without their changes, and
   /// no other face depends on a change.)
   std::map<std::size_t, ChangedFace> changed = {};
-  RejectionCounts rejections;  ///< how often each constraint rejected a candidate for any face
+  /// how often each constraint rejected a candidate; the sum over all faces
+  RejectionCounts rejections;
   std::optional<Shortfall> shortfall;  ///< set if casting stopped early
 };
 

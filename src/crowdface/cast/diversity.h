@@ -86,7 +86,8 @@ struct BelievabilityOptions {
   };
   MeshChecks meshes = MeshChecks::kAuto;
   bool check = true;  ///< whether candidates are checked for believability
-  /// largest Plausibility score of a face: how far the face deviates from the heads' mean
+  /// Largest allowed Plausibility::score of a face. The score measures how far the face deviates
+  /// from the heads' mean; a larger score is less plausible.
   double max_deviation = 2.5;
   /// largest allowed 99th percentile of the stretch of the skin's triangles
   double max_stretch = 3;

@@ -125,8 +125,8 @@ void FamilySampler::prepare_inheritance() {
     }
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
-  // Replace targets only if the group has several targets. With one target, all children would have
-  // the target's shape.
+  // Replace the parents' targets by targets of the group only if the group has several targets. If
+  // it has only one, all children would get the shape of this one target.
   target_substitutes_ = targets.size() > 1
                             ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
                             : SubstituteHeads();

@@ -18,7 +18,8 @@ namespace crowdface {
 std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder,
                                                std::error_code* error = nullptr);
 
-/// The entries of a folder for which `is_wanted` is true. \throws IoError like list_folder.
+/// Like list_folder, but returns only the entries for which `is_wanted` is true. \throws IoError
+/// like list_folder.
 std::vector<std::filesystem::path> list_files(
     const std::filesystem::path& folder,
     const std::function<bool(const std::filesystem::path&)>& is_wanted,

@@ -25,8 +25,9 @@ struct FinishedFace;
 /// files.
 struct FaceFile {
   std::filesystem::path path;
-  /// Section and key under which report.json stores the file's hash, for example section "lods" and
-  /// key "LOD1.obj", or no section and key "mesh". Empty key: the report omits the hash.
+  /// Where report.json stores the file's hash: under `report_key` in the section `report_section`
+  /// of the face, such as "LOD1.obj" in "lods". Empty section: directly in the entry of the face,
+  /// such as under the key "mesh". Empty key: the report omits the hash.
   std::string report_section, report_key;
   /// Encodes the file. The result refers to the face and to the face's encoders.
   std::function<EncodedFile(const FinishedFace& face)> make;
