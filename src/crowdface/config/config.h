@@ -157,7 +157,8 @@ struct Config {
     Boundary boundary = Boundary::kFixed;  ///< whether smoothing moves open mesh boundaries
     /// how one iteration smooths (key `operator`)
     OperatorKind operator_kind = OperatorKind::kUmbrella;
-    LevelRepresentation levels = LevelRepresentation::kBasis;  ///< how smoothed heads are stored
+    /// how the smoothed versions of the heads, one for each smoothing level, are represented
+    LevelRepresentation levels = LevelRepresentation::kBasis;
     /// with `levels: basis`: largest distance between a vertex of a smoothed head and the vertex's
     /// approximation by displacement fields
     double tolerance_mm = 0.05;
