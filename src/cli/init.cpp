@@ -113,7 +113,8 @@ struct ShapeAnalysis {
   bool has_uvs = true;
   /// whether at least one head is rotated or shifted relative to the other heads
   bool has_misaligned_head = false;
-  double face = 0;  ///< distance from the eyes to the mouth, in mesh units; 0: no face was found
+  /// distance from the eyes to the mouth, in mesh units; 0: no face was found
+  double eyes_to_mouth = 0;
 };
 
 /// Removes heads that the command `check` would refuse because of their pose, and logs warnings. A
@@ -158,7 +159,7 @@ ShapeAnalysis analyse_shapes(const std::vector<fs::path>& files, bool with_masks
   if (const auto marks =
           find_face_marks(set->topology, mean,
                           axes_of(analysis.orientation.value_or(Orientation{{1, 1}, {2, 1}})))) {
-    analysis.face = marks->eye_to_mouth();
+    analysis.eyes_to_mouth = marks->eye_to_mouth();
   }
   analysis.has_uvs = set->uvs.rows() > 0;
   analysis.has_misaligned_head = has_misaligned_head;
@@ -184,18 +185,18 @@ void guess_units(const ShapeAnalysis& analysis, StarterFacts& facts) {
   const std::string height =
       concat("the first head is ", format_number_of(facts.head_height), " units tall");
   facts.units_reason = height;
-  const double face_mm = analysis.face * mm_per(facts.units);
+  const double face_mm = analysis.eyes_to_mouth * mm_per(facts.units);
   const double times = facts.head_height * mm_per(facts.units) / kTypicalHeightMm;
   const auto is_human = [&](double mm) { return mm >= kMinFaceMm && mm <= kMaxFaceMm; };
-  if (analysis.face > 0 && !is_human(face_mm)) {
-    const LengthUnit named = nearest_unit(analysis.face, kTypicalFaceMm, kLengthUnits);
-    facts.units = is_human(analysis.face * mm_per(named))
+  if (analysis.eyes_to_mouth > 0 && !is_human(face_mm)) {
+    const LengthUnit named = nearest_unit(analysis.eyes_to_mouth, kTypicalFaceMm, kLengthUnits);
+    facts.units = is_human(analysis.eyes_to_mouth * mm_per(named))
                       ? named
-                      : fitting_unit(analysis.face, kTypicalFaceMm);
-    facts.units_reason = concat(height, " and ", format_number_of(analysis.face),
+                      : fitting_unit(analysis.eyes_to_mouth, kTypicalFaceMm);
+    facts.units_reason = concat(height, " and ", format_number_of(analysis.eyes_to_mouth),
                                 " from the eyes to the mouth (about ", kTypicalFaceMm,
                                 " mm in people), and mm, cm and m do not fit");
-  } else if (analysis.face == 0 && (times > kMaxTimes || times < 1 / kMaxTimes)) {
+  } else if (analysis.eyes_to_mouth == 0 && (times > kMaxTimes || times < 1 / kMaxTimes)) {
     facts.units = fitting_unit(facts.head_height, kTypicalHeightMm);
     facts.units_reason = concat(height, ", and mm, cm and m do not fit");
   }

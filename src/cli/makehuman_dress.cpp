@@ -247,9 +247,10 @@ void strengthen_detail(Picture& picture, double factor) {
   }
 }
 
-/// Multiplies the light that lips reflect by the factors `tint`.
-/// \param mask  The red channel of its image 0 is 255 on the lips and 0 elsewhere. The image may
-///              have any size.
+/// Changes the colour of the lips in a skin texture: multiplies the linear red, green and blue of
+/// the lips by the factors `tint`.
+/// \param mask  The red channel of the mask's image 0 is 255 on the lips and 0 elsewhere. The image
+///              may have another size than `picture`.
 void tint_lips(Picture& picture, const PaintedMasks& mask, const std::array<double, 3>& tint) {
   const std::vector<float>& light = light_of_srgb8_values();
   const std::vector<std::uint8_t>& bytes = mask.images_by_tile.begin()->second[0];

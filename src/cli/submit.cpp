@@ -133,8 +133,9 @@ TaskJob tasks_of(const SubmitOptions& options, const Job& job) {
   return tasks;
 }
 
-/// Runs a generated script, waits until the script ends, and passes the script's exit code on.
-/// \param crowd  the crowd's folder, for the message.
+/// Runs a generated script, and waits until the script ends. If the script fails, throws an error
+/// with the script's exit code and a message.
+/// \param crowd  the crowd's folder, which the error message names.
 void run_script(const fs::path& script, const fs::path& crowd) {
   std::string program = "bash", argument = script.string();
   std::array<char*, 3> arguments = {program.data(), argument.data(), nullptr};

@@ -33,7 +33,8 @@ class AgedHeads {
     require(!heads_.empty(), "an age of ", age, " without heads of that age");
   }
 
-  /// Returns the heads tagged old (age above 0) or young.
+  /// Returns the heads with the tag `old` if `age` is above 0, otherwise the heads with the tag
+  /// `young`.
   static const std::vector<Index>& heads_of_class(double age, const SamplingOptions& sampling) {
     return age > 0 ? sampling.heads_tagged_old : sampling.heads_tagged_young;
   }

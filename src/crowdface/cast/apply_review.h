@@ -12,8 +12,9 @@ namespace crowdface {
 /// All other faces stay as they are.
 ///
 /// - A redrawn face keeps the changes of earlier reviews.
-/// - If an earlier FaceChange has redrawn a face (ChangedFace::is_other_person), a rejection of
-///   this face that locks bands acts like one more FaceChange with these locked bands.
+/// - A review may reject a face and lock some of the face's bands. If an earlier FaceChange has
+///   redrawn this face (ChangedFace::is_other_person), the rejection has the same effect as one
+///   more FaceChange that locks these bands.
 ///
 /// \param review_index  index of the review in `crowd_options.reviews`.
 /// \throws InvalidInput if the review names a face that is not in the crowd.

@@ -211,8 +211,9 @@ class AttachmentChooser {
   }
 
   /// Returns whether two successive faces must not look alike: both are sampled, both are members
-  /// of the same family, or both are hand-written. A sampled face is compared only with sampled
-  /// faces, because a larger crowd adds sampled faces.
+  /// of the same family, or both are hand-written. A sampled face must differ only from sampled
+  /// faces. Otherwise the attachments of all other faces could change when a larger crowd gets more
+  /// sampled faces.
   static bool must_differ(const FacePlan& first, const FacePlan& second) {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
@@ -250,10 +251,17 @@ class AttachmentChooser {
     return weighted_choice(next, drawn, &AttachmentItem::relative_frequency);
   }
 
-  /// Removes from `items` the items that the quotas do not allow for a face. If a sampled face may
-  /// wear no item of the face's quota, treats the face like a face without a quota. For a face that
-  /// is not sampled, the quota of a kind is the probability that the face wears an item of this
-  /// kind; other quotas are ignored.
+  /// Applies the quotas of one kind of items to a face. A quota is the fraction of faces that wear
+  /// the items that the quota names. Removes from `items` the items that the face must not wear:
+  ///
+  /// - If a quota selects a sampled face, the face keeps only the items that this quota names. If
+  ///   `items` contains no such item, the face is treated like a face that no quota selects.
+  /// - If no quota selects a sampled face, the face keeps only the items that no quota names.
+  /// - A face that is not sampled keeps all items. A quota of the whole kind is the probability
+  ///   that this face wears an item; other quotas are ignored.
+  ///
+  /// \param items  the items of the kind that the face's tags allow.
+  /// \param drawn  random number from 0 to 1.
   ///
   /// \return  Whether the face wears an item of the kind.
   bool apply_quotas(const std::string& kind, const FacePlan& face, double drawn,
@@ -331,7 +339,9 @@ class AttachmentChooser {
     }
   }
 
-  /// Returns the head whose tags apply to a parent; −1 if the parent is unknown.
+  /// Returns the head whose tags apply to a parent of a face. If the parent is a head, this is the
+  /// parent itself; if the parent is a face, the face's typical head. Returns −1 if the parent is
+  /// neither a head nor a face that `choose` has handled.
   Index head_of(const std::string& parent) const {
     const auto face = heads_.find(parent);
     if (face != heads_.end()) return face->second;
@@ -443,9 +453,10 @@ void choose_attachments(const AttachmentOptions& options, const std::vector<int>
   // an index into `versions_by_id[id]`
   std::map<std::string, std::size_t> version_indices;
   std::size_t next = 0;
-  // Chooses attachments for the replacements of rejected faces, in the order of rejection. Stops at
-  // the first face that was rejected when the crowd had more than `size` faces. Called when the
-  // first `size` faces of the crowd have their attachments.
+  // Goes on through `rejected`, the rejected faces in the order of rejection, and chooses
+  // attachments for the face that replaced each rejected face. Stops before the first rejection
+  // that happened when the crowd had more than `size` faces. Called when the first `size` faces of
+  // the crowd have their attachments.
   const auto replace_up_to = [&](std::size_t size) {
     for (; next < rejected.size(); ++next) {
       if (!crowd_size_at_rejection.empty() && crowd_size_at_rejection[next] > size) return;

@@ -27,7 +27,8 @@ struct AttachmentOptions {
   /// sampled faces that wear an item of this kind, name or colour. A kind has either a quota of its
   /// own or quotas for some of its names and colours.
   std::map<std::string, double> quotas = {};
-  std::vector<std::string> head_names = {};  ///< names of the heads, because a parent may be a head
+  /// names of the heads; used to find a parent of a face if this parent is a head
+  std::vector<std::string> head_names = {};
   /// For each group, the fraction of the faces that have each named hair colour, before age makes
   /// hair grey. The entry "" applies to groups without an entry of their own and to faces without a
   /// group. If there is no entry "", these faces get their colours from the tags of their typical

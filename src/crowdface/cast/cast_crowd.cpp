@@ -146,8 +146,11 @@ class CrowdCaster {
     }
   }
 
-  /// Casts the sampled faces `from` … `to`: at most kFacesCastInParallel faces, which have the same
-  /// minimum distance. Generates the first candidates of these faces in parallel.
+  /// Casts the sampled faces `from` … `to`. Generates the first candidates of these faces in
+  /// parallel.
+  ///
+  /// \pre There are at most kFacesCastInParallel faces, and the same minimum distance from earlier
+  /// faces applies to all of them.
   void cast_block(const DiversityOptions& diversity, const FamilySeparation& family_separation,
                   std::uint64_t from, std::uint64_t to, CrowdSoFar& crowd) {
     throw_if_interrupted();
@@ -188,8 +191,8 @@ class CrowdCaster {
     }
   }
 
-  /// Moves all faces of `crowd` back to the result, and finds the nearest neighbours of the faces
-  /// that are new.
+  /// Moves all faces of `crowd` to `result_`. For each face that `result_` did not contain before,
+  /// finds the nearest head and the nearest other face.
   void take_crowd(CrowdSoFar& crowd) {
     const std::size_t known = result_.crowd.size();
     result_.crowd = crowd.take_faces();

@@ -24,8 +24,8 @@ struct Shortfall {
   std::uint64_t cast_count = 0;  ///< number of sampled faces that were cast
   /// how often each constraint rejected a candidate for the face that could not be cast
   RejectionCounts rejections;
-  /// index of the group of the sampled face that could not be cast; −1 if this face has no group,
-  /// or if a face of another kind or a family could not be cast
+  /// If `what` is kSampledFace: index of the group of the face that could not be cast, or −1 if
+  /// this face has no group. Otherwise −1.
   int group_index = -1;
   What what = What::kSampledFace;  ///< what could not be cast
   /// name of the family, or id of the face, that could not be cast; empty for a sampled face
@@ -39,7 +39,8 @@ struct AppliedChange {
   FaceChange change;
   std::string origin;  ///< source of the change: "config", or a review such as "review 2"
   /// If the change turns the face into a variant of another face (the original): a copy of the
-  /// original, as it was before the changes of the same `origin`. Otherwise null.
+  /// original. The copy was made before any change with the same `origin` as this change was
+  /// applied. Null for all other changes.
   std::shared_ptr<const ChangedFace> variant_of;
   /// smallest allowed distance between the changed face and the faces before it in the plan
   double min_distance_mm = 0;
@@ -74,12 +75,13 @@ struct CastingResult {
   /// Changed faces, by index in `crowd`. (`crowd` itself holds the faces without their changes, and
   /// no other face depends on a change.)
   std::map<std::size_t, ChangedFace> changed = {};
-  RejectionCounts rejections;  ///< how often each constraint rejected a candidate for any face
+  /// how often each constraint rejected a candidate; the sum over all faces
+  RejectionCounts rejections;
   std::optional<Shortfall> shortfall;  ///< set if casting stopped early
 };
 
-/// Number of sampled faces whose candidates are generated in parallel. Afterwards, casting chooses
-/// the faces one after the other.
+/// Casting handles the sampled faces in blocks of at most this number of faces. Generates the
+/// candidates for all faces of a block in parallel, and then chooses the faces one after the other.
 inline constexpr std::uint64_t kFacesCastInParallel = 64;
 
 /// Called after each sampled face that joins the crowd; may be empty.

@@ -10,8 +10,8 @@ namespace crowdface {
 
 /// The part of the head that distances between faces compare.
 enum class ComparedArea {
-  kFront,  ///< the front half of the skin
-  kSkin,   ///< the whole skin, including the back of the head and the neck
+  kFront,  ///< distances compare the front half of the skin
+  kSkin,   ///< distances compare the whole skin, including the back of the head and the neck
 };
 
 /// Returns the weight that each vertex has in distances between faces. The weight is the surface

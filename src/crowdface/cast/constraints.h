@@ -17,20 +17,22 @@ namespace crowdface {
 
 /// The constraint that a rejected candidate violates.
 enum class RejectionReason {
-  kMinDistance,         ///< too near to another face of the crowd
-  kMinDistanceToHeads,  ///< too near to an input head
+  kMinDistance,         ///< the face is too near to another face of the crowd
+  kMinDistanceToHeads,  ///< the face is too near to an input head
   kMaxWeight,           ///< one head has too much weight in a region
-  kImplausible,         ///< differs too much from the mean of the heads to be believable
+  kImplausible,         ///< the face differs too much from the mean of the heads to be believable
   kFlipped,             ///< part of the skin is turned inside out or collapsed
   kStretched,           ///< part of the skin is stretched too far
   kIntersecting,        ///< the face's skin intersects itself where the target's skin does not
   /// the gap between the lips, or between other parts of the skin that nearly touch, is wider than
   /// in any head
   kGap,
-  kExposed,   ///< the back side of the skin is visible near an intersection
-  kFamily,    ///< too near to another family, or breaks a distance limit within its own family
-  kRejected,  ///< too similar to a face that a review rejected
-  kTraits,    ///< a measurement is outside its limits
+  kExposed,  ///< the back side of the skin is visible near an intersection
+  /// the face is too near to another family, or the face is a member of a family and breaks one of
+  /// the family's distance limits (see FamilySampler::rejection_reason)
+  kFamily,
+  kRejected,  ///< the face is too similar to a face that a review rejected
+  kTraits,    ///< a measurement of the face is outside its limits
 };
 constexpr auto kReasonCount = static_cast<std::size_t>(RejectionReason::kTraits) + 1;
 
@@ -57,7 +59,8 @@ struct Constraint {
 };
 const Constraint& constraint_of(RejectionReason reason);
 
-/// Returns the name of a constraint, which is its key in the config.
+/// Returns the name of the constraint whose violation is `reason`: the key of the constraint in the
+/// config.
 inline std::string_view name_of(RejectionReason reason) {
   return constraint_of(reason).config_key;
 }

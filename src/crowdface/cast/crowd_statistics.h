@@ -16,11 +16,11 @@ struct Quartiles {
 Quartiles quartiles(std::vector<double> values);
 
 /// Returns the distances (mm) between all pairs of faces. If there are more than 1500 faces, uses
-/// an evenly spaced subset of the faces.
+/// only 1500 faces, whose indices are evenly spaced.
 std::vector<double> pair_distances(const std::vector<FaceSpace::Point>& points);
 
-/// Returns the distances (mm) between all pairs of at most 300 evenly spaced faces, measured over
-/// one region only.
+/// Returns the distances (mm) between all pairs of faces, measured over one region only. If there
+/// are more than 300 faces, uses only 300 faces, whose indices are evenly spaced.
 std::vector<double> pair_distances(const FaceSpace& space, Index region,
                                    const std::vector<FaceSpace::Point>& points);
 

@@ -11,20 +11,23 @@ namespace crowdface {
 struct DiversityOptions {
   /// How casting chooses the sampled faces.
   enum class Mode {
-    /// accept candidates that are far enough from all earlier faces; if the crowd is made larger
-    /// later, its first faces stay the same
+    /// Casting chooses one face after the other, and accepts a candidate that is far enough from
+    /// all earlier faces. If the crowd is made larger later, its first faces stay the same.
     kFirstFit,
-    /// choose faces far from each other, from a pool of many more candidates than the crowd has
-    /// faces
+    /// Casting generates a pool with many more candidates than the crowd has faces, and chooses
+    /// candidates that are far from each other.
     kSpread,
   };
   Mode mode = Mode::kFirstFit;
-  double min_distance_mm = 0;  ///< smallest distance between any two faces
+  double min_distance_mm = 0;  ///< smallest allowed distance between any two faces of the crowd
   /// kFirstFit: values that replace `min_distance_mm` for the first sampled faces. The key is the
-  /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, faces 1 … 24 and
-  /// families have 1.2 mm, faces 25 … 40 have 1 mm, and later faces have `min_distance_mm`.
+  /// number of the last face that the value applies to. With {24: 1.2, 40: 1}, the minimum distance
+  /// is 1.2 mm for faces 1 … 24, 1 mm for faces 25 … 40, and `min_distance_mm` for later faces.
+  /// Family members and parents, which casting makes before the first sampled face, have the
+  /// minimum distance of face 1.
   std::map<std::uint64_t, double> min_distance_mm_up_to_face = {};
-  /// smallest distance of a face from every input head (key `min_distance_to_faces`)
+  /// Smallest allowed distance between a face of the crowd and an input head. (In the config, where
+  /// input heads are called faces, the key is `min_distance_to_faces`.)
   double min_distance_to_heads_mm = 0;
   /// Smallest distance between a face that a review rejected and its replacement. Empty: half the
   /// median distance between the faces of the crowd.
@@ -74,23 +77,24 @@ struct BelievabilityOptions {
   /// meshes are checked when they are built, after casting, and the results only appear in the
   /// report.
   enum class MeshChecks {
-    kAuto,  ///< check whole meshes if they have at most 200,000 polygons
-    kAll,
-    kNone,
-    /// check the whole mesh of each candidate before casting accepts the candidate, and list the
-    /// results in the report
+    kAuto,  ///< whole meshes are checked if they have at most 200,000 polygons
+    kAll,   ///< whole meshes are always checked
+    kNone,  ///< whole meshes are never checked
+    /// casting checks the whole mesh of each candidate before it accepts the candidate, and the
+    /// report lists the results
     kJudge,
   };
   MeshChecks meshes = MeshChecks::kAuto;
   bool check = true;  ///< whether candidates are checked for believability
-  /// largest Plausibility score of a face: how far the face deviates from the heads' mean
+  /// Largest allowed Plausibility::score of a face. The score measures how far the face deviates
+  /// from the heads' mean; a larger score is less plausible.
   double max_deviation = 2.5;
   /// largest allowed 99th percentile of the stretch of the skin's triangles
   double max_stretch = 3;
   /// largest fraction of the skin's triangles that may be turned over or collapsed
   double max_flipped = 0.003;
-  /// largest fraction of triangles that may take part in intersections that the target does not
-  /// have
+  /// Largest allowed fraction of the face's skin triangles that intersect other skin triangles of
+  /// the same face. Intersections that the skin of the face's target has too are not counted.
   double max_intersecting = 0.01;
   /// how much the gap between the lips may exceed the widest gap between the lips of any head, in
   /// mm; see SkinContacts

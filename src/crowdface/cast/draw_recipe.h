@@ -31,7 +31,8 @@ FaceDistribution distribution_of_group(const CastingOptions& casting,
 /// group's faces.
 std::vector<FaceDistribution> face_distributions(const CastingOptions& casting);
 
-/// Returns smoothness · L_max, rounded to whole smoothing iterations.
+/// Multiplies a smoothness (a fraction from 0 to 1) by the largest number of smoothing iterations
+/// of `scale`, and rounds the result to whole iterations.
 std::uint64_t iterations_of(double smoothness, const SmoothingLevelScale& scale);
 
 /// Scales the weights of a hand-written recipe so that they sum to one.

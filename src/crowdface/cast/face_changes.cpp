@@ -197,8 +197,9 @@ class FaceChanger {
         face.recipe = mixed(now.recipe, drawn.recipe, share, casting_.level_scale);
         return face;
       };
-      // Mix in more of the drawn face than `meets_limits` requires. This margin is needed because
-      // `meets_limits` does not build the whole mesh.
+      // Give the random face `drawn` a larger share of the mixture than `meets_limits` requires.
+      // This margin is needed because `meets_limits` measures the face without building the whole
+      // mesh.
       constexpr double kMargin = 0.05;
       const double share =
           smallest_fraction_where([&](double part) { return meets_limits(at(part)); });

@@ -17,11 +17,12 @@ namespace crowdface {
 /// CastingResult::changed. If a face cannot be redrawn, sets the shortfall.
 ///
 /// - A redrawn face keeps its group and its age, unless the change gives it another group. It keeps
-///   the crowd's minimum distance from the faces before it in the plan. These distances refer to
-///   the faces as they were before all reviews, so a redrawn face stays the same when the crowd
-///   grows or other faces are redrawn.
-/// - A variant is a mixture of another face (as it is before these changes) and a random face on
-///   the same target. The variant has the requested distance from the other face.
+///   the crowd's minimum distance from the faces before it in the plan. The distances are measured
+///   to the versions of these faces before all reviews. So a redrawn face stays the same when the
+///   crowd grows or other faces are redrawn.
+/// - A variant is a mixture of another face (as it is before these changes) and a random face. The
+///   random face is built on the target of the other face. The variant has the requested distance
+///   from the other face.
 /// - If a change sets only limits on measurements, the changed face is a mixture of the old face
 ///   and a random face that meets the limits. The fraction of the random face is as small as the
 ///   limits allow: zero if the old face already meets the limits.
@@ -56,7 +57,9 @@ NearestNeighbours nearest_neighbours(const FaceJudge& judge, const CastingResult
                                      const FaceSpace::Point& point,
                                      const std::vector<bool>& is_considered);
 
-/// Applies the changes that the config requests, before the changes that reviews request.
+/// Applies the changes that the config requests. If a face already has changes that reviews
+/// request, undoes them, applies the config's changes first, and then applies the reviews' changes
+/// again.
 void apply_changes_of_config(const CastingOptions& casting, const FaceJudge& judge,
                              CastingResult& cast);
 

@@ -33,7 +33,11 @@ class ColourChooser {
                                          compared_tags_[static_cast<std::size_t>(b)];
   }
 
-  /// Returns random colours for a face.
+  /// Returns random colours for a face: the weights of one or two heads whose colours are mixed.
+  /// These heads are chosen at random among the heads with the same tags as the head `typical` (see
+  /// have_equal_tags).
+  ///
+  /// \param typical  the face's typical head.
   ///
   /// \param who  text that makes the random numbers of each face or family different.
   std::vector<SourceWeight> drawn(Index typical, std::uint64_t index, std::uint32_t attempt,

@@ -37,8 +37,9 @@ FaceJudge::FaceJudge(const FaceSpace& space, const DiversityOptions& diversity,
   for (Index h = 0; h < space.head_point_count(); ++h) head_search_.add(space.head_point(h));
   std::vector<FaceSpace::Point> heads;
   for (Index h = 0; h < space.head_count(); ++h) heads.push_back(space.head_point(h));
-  // `same_person_mm_` is kSamePersonMm or, if smaller, this fraction of the median distance between
-  // two heads. (The median distance is small if the heads are similar to each other, or small.)
+  // `same_person_mm_` is the smaller of two values: kSamePersonMm, and this fraction of the median
+  // distance between two heads. (The median distance is small if the heads are similar to each
+  // other, or if the meshes of the heads are small.)
   constexpr double kFractionOfMedian = 0.1;
   same_person_mm_ = std::min(DiversityOptions::kSamePersonMm,
                              kFractionOfMedian * quartiles(pair_distances(heads)).median);

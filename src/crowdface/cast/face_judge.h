@@ -48,7 +48,8 @@ class FaceJudge {
   /// landmarks.
   std::optional<RejectionReason> check_traits(const FacePlan& face,
                                               const Positions& landmarks) const;
-  /// Checks the limits on measurements at the landmarks of the whole mesh. Takes a millisecond.
+  /// Like the overload with `landmarks`, but takes the positions of the landmarks from the face's
+  /// whole mesh. Takes about a millisecond.
   std::optional<RejectionReason> check_traits(const FacePlan& face) const;
 
   /// Checks everything that needs only the recipe and the face's point in the face space: weights,

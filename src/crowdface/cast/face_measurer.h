@@ -11,8 +11,8 @@
 namespace crowdface {
 
 /// Measures faces from their recipes, without building meshes. A landmark depends on only a few
-/// vertices. The positions of these vertices on a face are computed from the heads' positions at
-/// stored smoothing levels.
+/// vertices. The positions of these vertices on a face are computed from the positions of the same
+/// vertices on the input heads, before and after smoothing (see HeadsAtSamples).
 class FaceMeasurer {
  public:
   /// A landmark as a point in a triangle of the mesh: the weighted mean of the triangle's three

@@ -39,8 +39,11 @@ struct FacePlan {
   std::optional<std::string> family;  ///< name of the family of which the face is a member
   std::optional<std::string> group;   ///< name of the group that the face belongs to
   Recipe recipe;
-  std::optional<double> age;        ///< age from −1 to 1; empty if the face was not aged
-  std::optional<double> age_years;  ///< the wanted age, if it was given in years
+  /// The age that apply_age has given to the face: from −1 (young) to 1 (old), where 0 changes
+  /// nothing. Empty if apply_age did not change the face.
+  std::optional<double> age;
+  /// the wanted age in years; empty if the wanted age was not given in years
+  std::optional<double> age_years;
   /// mother and father, if the face's family has parents: names of heads or ids of faces
   std::vector<std::string> parents;
   /// one entry for each band of each region, region by region: name of the parent from whom the

@@ -31,8 +31,8 @@ FaceSamples samples_and_mirror_images(const FaceSamples& samples, const MirrorMa
 /// the samples' mirror images.
 FaceSamples samples_and_mirror_corners(FaceSamples samples, const MirrorMap& mirror);
 
-/// Returns the smoothing levels at which trajectories are stored: round(L_max·(j/63)²), without
-/// duplicates.
+/// Returns the smoothing levels at which trajectories are stored: round(`max_level` · (j/63)²) for
+/// j = 0, 1, …, 63, without duplicates.
 std::vector<std::uint64_t> stored_smoothing_levels(std::uint64_t max_level);
 
 /// How far smoothing displaces the samples of a head, #levels by 3·#samples. Row l holds S_L x − x:

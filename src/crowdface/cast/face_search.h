@@ -92,10 +92,11 @@ class FaceSearch {
   /// \param too_near_count  number of candidates of this round that were too near to the crowd;
   ///                        increased by the new ones
   void add_candidates(const CrowdSoFar& crowd, std::size_t& too_near_count);
-  /// Returns whether a candidate is far enough from all faces of the crowd. If several candidates
-  /// are wanted, also stores the candidate's distance from the crowd's sampled faces. If another
-  /// candidate is farther from the crowd, stores only an upper bound of this distance, because the
-  /// bound is faster to compute and usually sufficient.
+  /// Returns whether a candidate is far enough from every face of the crowd. If several candidates
+  /// are wanted, also sets `candidate.distance_to_crowd_mm`, the distance to the nearest sampled
+  /// face of the crowd. If the search has a candidate that is farther from the sampled faces, sets
+  /// only an upper bound of this distance, because the bound is faster to compute and usually
+  /// sufficient.
   bool is_far_from_crowd(Candidate& candidate, const CrowdSoFar& crowd) const;
   /// Compares the candidates with the faces that have joined the crowd since the last comparison.
   void compare_with_added_faces(const CrowdSoFar& crowd);

@@ -13,8 +13,9 @@
 namespace crowdface {
 namespace {
 
-/// Largest error with which span_basis may approximate smoothing displacements and coordinate
-/// functions: root mean square over the face, in millimetres.
+/// Tolerance for two approximations by span_basis: of the displacements of the heads by smoothing,
+/// and of the coordinate functions (see FaceSpaceTables). Each error is at most kFieldTolerance
+/// millimetres, as root mean square over the face.
 constexpr double kFieldTolerance = 0.02;
 /// Largest number P of orthonormal basis functions for each orientation (unmirrored and mirrored).
 constexpr Index kMaxBasisFunctions = 400;
@@ -138,12 +139,13 @@ void FaceSpace::write_centred_values(const Value& value, float* row) const {
     row[i] -= static_cast<float>(mean) * weight_square_roots_[i];
 }
 
-/// Computes the coordinate functions, in the order of FunctionOrder. A displacement field is the
-/// part of a mode that belongs to one head, multiplied by the weights of one region.
+/// Computes the coordinate functions, in the order of FunctionOrder. Each mode has one displacement
+/// per head and sample (see smoothing_displacement_modes). The displacement field of a region, a
+/// head and a mode has the mode's displacements for this head, multiplied by the region's weights.
 ///
 /// \param max_coefficients  #modes: the largest absolute coefficient of each mode over all levels.
-///                          Modes have unit length, so each mode's rows are multiplied by this
-///                          coefficient.
+///                          All displacement fields of a mode are multiplied by this coefficient,
+///                          because the modes themselves have unit length.
 FloatRows FaceSpace::coordinate_functions(const SpanBasis& modes,
                                           const std::vector<float>& max_coefficients,
                                           const FunctionOrder& order) const {
@@ -379,9 +381,9 @@ void FaceSpace::find_region_metrics(const FloatRows& basis) {
     });
     FloatRows metric(rank, rank);
     parallel_for_each(rank, [&](Index d) {
-      // Multiply principal direction d by the matrix G_k (see find_region_metrics), separately for
-      // each coordinate x, y, z. `add_product` reads the rows of `gram` as columns, because G_k is
-      // symmetric.
+      // `gram` is the matrix G_k of region k (see find_region_metrics). Multiply principal
+      // direction number d by G_k, separately for each coordinate x, y, z. `add_product` may read
+      // the rows of `gram` as columns, because G_k is symmetric.
       const auto count = static_cast<std::size_t>(functions);
       std::vector<float> along(3 * count, 0.F);
       for (std::size_t c = 0; c < 3; ++c) {

@@ -14,11 +14,13 @@ struct FaceSpaceTables {
   /// #levels by #modes: the coefficient of each mode (see smoothing_displacement_modes) at each
   /// smoothing level, divided by the mode's largest absolute coefficient
   FloatRows level_coefficients;
-  /// 3·#functions by #P: the coefficients of the coordinate functions in an orthonormal basis of P
-  /// scalar functions on the skin. A coordinate function has three rows, for its x, y and z. Each
-  /// face is a linear combination of the coordinate functions.
+  /// 3·#functions by #P. Each face is a linear combination of the coordinate functions. Each row
+  /// has the coefficients of the x, y or z component of one coordinate function, in an orthonormal
+  /// basis of P scalar functions on the skin.
   FloatRows basis_coefficients;
-  /// #D by 3·#P: one principal direction of the aligned faces per row
+  /// The D principal directions of a set of aligned faces, #D by 3·#P. Each row is one principal
+  /// direction: its x, y and z components, one after the other, each given by coefficients in the
+  /// basis of P functions.
   FloatRows principal_directions;
   /// For each region, the matrix of the region's metric, #D by #D; see find_region_metrics. Empty
   /// if there is only one region.
@@ -75,7 +77,7 @@ class FaceSpace {
   static double distance(const Point& a, const Point& b);
   /// A point, and one region's metric multiplied by the point's coordinates.
   struct RegionPoint {
-    const Point* point = nullptr;  ///< the point of a face
+    const Point* point = nullptr;  ///< the point of a face in the face space
     /// the region's metric multiplied by the point's coordinates with and without extrapolation,
     /// #dimensions each; empty if there is only one region
     Eigen::VectorXf metric_times_coordinates_with_extrapolation,
@@ -122,14 +124,16 @@ class FaceSpace {
   Index sample_at(Index i) const { return nonzero_weight_samples_[static_cast<std::size_t>(i)]; }
   /// Stores the samples with nonzero weight, and the square roots of their weights.
   void choose_nonzero_weight_samples(const std::vector<double>& weights);
-  /// Finds a few modes whose linear combinations give the displacements of all heads at all
-  /// smoothing levels. Displacement fields are needed for these modes only. The modes are an
-  /// orthonormal basis of the rows of a matrix with one row per level, and one column per head,
-  /// coordinate (x, y or z) and sample. An entry is the sample's displacement times √w, where w is
-  /// the weight of the sample.
+  /// Finds a few modes that approximate how smoothing displaces the heads at all levels. Consider a
+  /// matrix with one row per smoothing level. A row has one entry for each head, coordinate (x, y
+  /// or z) and sample: the displacement of the sample times √w, where w is the weight of the
+  /// sample. The modes are an orthonormal basis of these rows. So the displacements at each level
+  /// are a linear combination of the modes, and coordinate functions are needed for the modes only,
+  /// not for each level.
   SpanBasis smoothing_displacement_modes() const;
-  /// Subtracts the mean over the face from a scalar function, and writes the function's values at
-  /// the samples, times √w. (Rigid alignment would remove the mean anyway.)
+  /// Subtracts from a scalar function the function's weighted mean over the samples. Then writes,
+  /// for each sample, the function's value times √w, where w is the weight of the sample. (Rigid
+  /// alignment would remove the mean anyway.)
   template <class Value>
   void write_centred_values(const Value& value, float* row) const;
   /// Returns the coordinate functions at the samples, 3·#functions by #S; see FaceSpaceTables.
@@ -148,7 +152,8 @@ class FaceSpace {
   ///
   /// \return  The functions, #P by #S.
   FloatRows compute_basis_functions();
-  /// Computes the principal directions of random faces with this number of bands per region.
+  /// Makes random faces, and computes their principal directions. In each region, the detail of
+  /// these faces is divided into `bands` bands.
   void find_principal_directions(std::size_t bands);
   /// Finds the metric M_k of each region k. For two points x and y of faces in the span of the
   /// principal directions, (x − y)ᵀ M_k (x − y) = Σ_s w_s α_k(s) d(s)², where w_s is the weight of
@@ -159,28 +164,35 @@ class FaceSpace {
   void compute_region_area_fractions();
   /// Transposes the principal directions, and pads them with zeros to whole SIMD vectors.
   void transpose_directions();
-  /// Adds the coefficients of a face with respect to the coordinate functions, times a factor.
+  /// Computes the coefficients of a face with respect to the coordinate functions, multiplies them
+  /// by a factor, and adds the products to `to`.
   ///
-  /// \param extrapolation  whether to use the recipe's extrapolation factors, or 1.
+  /// \param extrapolation  whether the extrapolation factors of the recipe apply, or all
+  ///                       extrapolation factors are 1.
   /// \param orientation    0: the unmirrored face; 1: its mirror image.
-  /// \param to             #functions, in the order of FunctionOrder.
+  /// \param to             an array with one sum for each coordinate function, in the order of
+  ///                       FunctionOrder.
   void add_coefficients(const Recipe& recipe, Extrapolation extrapolation, Index orientation,
                         double factor, float* to) const;
-  /// Returns the coefficients of a face with respect to the coordinate functions, mirrored like the
-  /// face.
+  /// Returns the coefficients of a recipe's face with respect to the coordinate functions. If the
+  /// recipe mirrors the face, these are the coefficients of the mirrored face.
   std::vector<float> coefficients(const Recipe& recipe,
                                   Extrapolation extrapolation = Extrapolation::kAsGiven) const;
-  /// Returns the coefficients of a head, or of its mirror image, with respect to the coordinate
-  /// functions.
+  /// Returns the coefficients of a head with respect to the coordinate functions.
+  ///
+  /// \param head  number of a head, or (from head_count() on) of the mirror image of a head.
   std::vector<float> head_coefficients(Index head) const;
-  /// Returns for each face its aligned deviation from the mean head, #faces by 3·#P.
+  /// Aligns each face rigidly to the mean head, and subtracts the mean head. Returns one row per
+  /// face, #faces by 3·#P: the coefficients of the difference in the basis of P functions, for x, y
+  /// and z.
   ///
   /// \param coefficients  the coefficients of all faces with respect to the coordinate functions,
   ///                      one face after the other.
   FloatRows aligned_deviations(const std::vector<float>& coefficients) const;
   /// Rotates a shape to the best fit with the mean head, and subtracts the mean head.
   void align_and_subtract_mean(Eigen::Map<Shape> shape) const;
-  /// Returns the coordinates of faces along the principal directions.
+  /// Aligns each face rigidly to the mean head, and returns the face's coordinates along the
+  /// principal directions, #dimensions for each face.
   ///
   /// \param coefficients  the coefficients of all faces with respect to the coordinate functions,
   ///                      one face after the other.
@@ -191,7 +203,8 @@ class FaceSpace {
   Eigen::VectorXf weight_square_roots_;        ///< √w of each sample in `nonzero_weight_samples_`
   FaceSpaceTables tables_;
   Shape mean_shape_;  ///< coefficients of the mean head in the basis
-  /// one principal direction per column: 3·#P by #D, padded with zeros to a multiple of 16 columns
+  /// the transpose of FaceSpaceTables::principal_directions (one principal direction per column),
+  /// padded with columns of zeros to a multiple of 16 columns
   FloatRows directions_transposed_;
   /// for each region, its fraction of the face's surface area; empty if there is only one region
   std::vector<double> region_area_fractions_;

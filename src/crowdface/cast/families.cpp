@@ -69,22 +69,23 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
     throw_if_interrupted();
     if (drawn && !sampler.sample_parents(crowd, family_separation, f, rejections))
       return std::nullopt;
-    // Find a founder (from whom the members are derived). New parents must also resemble this
-    // founder.
+    // Find a founder, the face from which the members are derived. If parents of the family were
+    // made anew, they must resemble this founder; otherwise try other parents.
     FaceSearch founder([&](std::uint32_t attempt) { return sampler.founder(attempt); }, judge,
                        of_founder, family.parents.empty() ? kCandidatesPerFounder : 1,
                        f * attempts_each);
     auto found = founder.choose_face(crowd);
     rejections.add(founder.rejections());
     if (!found) continue;
-    const double to_half = sampler.fraction_of_strangers_nearer_than_parent(found->point);
-    // The founder may have at most this fraction of strangers that are nearer to the founder than a
-    // parent is. The limit grows with the number of tries. If both parents are new, the search soon
-    // finds a pair that matches well. If one parent is given, perhaps no new parent matches this
-    // parent well.
-    const double enough =
+    const double fraction_nearer = sampler.fraction_of_strangers_nearer_than_parent(found->point);
+    // `fraction_nearer` is the fraction of strangers that are nearer to the founder than the
+    // farther parent is. New parents are accepted if this fraction is at most `max_fraction`. This
+    // limit grows with the number of tries: if both parents are new, the search soon finds a pair
+    // that matches well, but if one parent is given, perhaps no new parent matches this parent
+    // well.
+    const double max_fraction =
         kMaxFractionOfNearerStrangersForFounder * (0.5 + static_cast<double>(f) / kMaxCouples);
-    if (drawn && f < kMaxCouples && to_half > enough) continue;
+    if (drawn && f < kMaxCouples && fraction_nearer > max_fraction) continue;
     FamilyPlan cast{family.name, std::move(found->face), std::move(found->point)};
     // For twins, a hidden child who is not part of the crowd replaces the founder.
     if (family.are_twins) {
@@ -92,7 +93,7 @@ std::optional<FamilyPlan> cast_family(const CastingOptions& casting, const Famil
           [&](std::uint32_t attempt) { return sampler.twins_prototype(cast, attempt); }, judge,
           of_founder, 1, f * attempts_each);
       auto child = model.choose_face(crowd, [&](const FaceSpace::Point& point) {
-        const bool too_far = to_half <= kMaxFractionOfNearerStrangersForFounder &&
+        const bool too_far = fraction_nearer <= kMaxFractionOfNearerStrangersForFounder &&
                              sampler.fraction_of_strangers_nearer_than_parent(point) >
                                  kMaxFractionOfNearerStrangersForFounder;
         return too_far ? std::optional(RejectionReason::kFamily)

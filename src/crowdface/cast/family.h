@@ -38,8 +38,8 @@ struct FamilyOptions {
   /// one entry for each band of each region, region by region: 0 if the detail comes from the
   /// mother, 1 from the father, −1 from a random parent
   std::vector<int> parent_of_band;
-  /// largest allowed distance of a member from the founder, a face outside the crowd from which all
-  /// members are derived
+  /// Largest allowed distance between a member and the founder. The founder is the face from which
+  /// all members are derived; it is not in the crowd.
   double max_distance_mm = 2.5;
   double min_distance_mm = 0;  ///< smallest allowed distance between two members of the family
   /// Whether members are as similar as twins: all are within 0.5 mm of the same face. This face is

@@ -20,8 +20,9 @@ namespace {
 
 /// smallest distance of a member from the founder, as a fraction of max_distance
 constexpr double kMinDistanceFraction = 0.4;
-/// A member is a mixture of the founder and a random face. The detail of this random face is a
-/// mixture too: a parent's detail has this weight, and random detail has the remaining weight.
+/// A member is a mixture of the founder and a random face. If the family has parents, each band of
+/// detail of this random face is a mixture too: the detail of the mother or the father has this
+/// weight, and random detail has the remaining weight.
 constexpr double kParentShare = 0.75;
 /// If the member is a child of two parents, the coarse shape of the random face is a mixture of one
 /// parent's coarse shape (with the weight kMainParentShapeShare), a random coarse shape
@@ -40,8 +41,10 @@ constexpr double kMaxFractionOfNearerStrangersForChild = 0.1;
 /// the founder's distance from this parent by at most this fraction of max_distance.
 constexpr double kMaxFartherThanFounder = 0.25;
 
-/// Returns the parameters of a new parent. If no target of the crowd has the parent's sex, all
-/// targets are allowed.
+/// Returns the distribution from which casting draws a new parent: the distribution of the parent's
+/// group or of the crowd, but with only those targets that have the parent's sex
+/// (Parent::possible_target_heads). If there are no such targets, keeps all targets of the
+/// distribution.
 FaceDistribution distribution_of_parent(const Parent& parent, const CastingOptions& casting) {
   FaceDistribution kind = distribution_of_group(casting, parent.group);
   std::vector<WeightedHead> own;
@@ -122,8 +125,8 @@ void FamilySampler::prepare_inheritance() {
     }
   }
   for (const WeightedHead& target : kind.targets) targets.push_back(target.head);
-  // Replace targets only if the group has several targets. With one target, all children would have
-  // the target's shape.
+  // Replace the parents' targets by targets of the group only if the group has several targets. If
+  // it has only one, all children would get the shape of this one target.
   target_substitutes_ = targets.size() > 1
                             ? SubstituteHeads(targets, casting_.tags, taken, judge_.space())
                             : SubstituteHeads();
@@ -321,8 +324,8 @@ FamilySampler::MemberDraft FamilySampler::member_draft(const FamilyPlan& family_
   const Range& ages = family_.age.range;
   draft.age = {ages.low + (ages.high - ages.low) * how_old, family_.age.unit};
   // `how_far` ranges from 0 (smallest distance from the founder) to 1 (largest distance)
-  draft.distance_mm = kMinDistanceFraction + (1 - kMinDistanceFraction) * how_far;
-  draft.distance_mm *= max_distance_from_founder_mm(family_plan);
+  draft.distance_mm = (kMinDistanceFraction + (1 - kMinDistanceFraction) * how_far) *
+                      max_distance_from_founder_mm(family_plan);
   if (family_plan.founder_is_prototype_of_twins) {
     draft.random_face.inherited_from = family_plan.founder.inherited_from;
     draft.age = {family_plan.founder.age.value_or(0)};
@@ -337,7 +340,8 @@ FacePlan FamilySampler::face_at_chosen_distance(const FamilyPlan& family_plan,
     return FaceSpace::distance(judge_.space().point(face.recipe), family_plan.founder_point) >
            draft.distance_mm;
   };
-  // Find by bisection the mixture of the founder and the random face that has the chosen distance.
+  // Mix the founder and the random face. Find by bisection the share `t` of the random face with
+  // which the mixture has the chosen distance from the founder.
   double t = 1, step = 0.5;
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
     const bool too_far = beyond(mixed_face(family_plan.founder, draft, t));

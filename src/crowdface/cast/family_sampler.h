@@ -23,8 +23,8 @@ struct FamilyPlan {
   /// FamilySampler::twins_prototype). This child has the twins' age and is not in the crowd.
   bool founder_is_prototype_of_twins = false;
   Index members_begin = 0, members_end = 0;  ///< indices of the members in the crowd: [begin, end)
-  /// Of all strangers, the fraction that is nearer to a child than a parent of this child is: the
-  /// maximum over all pairs of a parent and a child
+  /// For each child and each parent of the child, casting computes the fraction of strangers that
+  /// are nearer to the child than the parent is. This is the largest of these fractions.
   double fraction_of_strangers_nearer_than_parent = 0;
 };
 
@@ -59,8 +59,8 @@ class FamilySampler {
   /// Returns the face from which all members start: the mean of both parents or, without parents, a
   /// random face.
   FacePlan founder(std::uint32_t attempt) const;
-  /// Returns the hidden child that all twins resemble. Stores the child's age in the plan but does
-  /// not apply it to the recipe.
+  /// Returns the hidden child that all twins resemble. Sets FacePlan::age of the returned face, but
+  /// does not change the face's recipe to show this age.
   FacePlan twins_prototype(const FamilyPlan& family_plan, std::uint32_t attempt) const;
   /// Returns candidate number `attempt` for member number `member`; members count from 1.
   FacePlan member(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
@@ -99,11 +99,11 @@ class FamilySampler {
 
   /// Stores a parent in `parents_`, without the effects of the parent's age.
   void add_parent(std::size_t parent, std::string name, FacePlan face, FaceSpace::Point point);
-  /// Sets the distribution of the third contributor, and the substitutes for the parents' heads
-  /// that are outside the family's group. Called when the parents are known.
+  /// Sets `third_contributor_distribution_`, `target_substitutes_` and `source_substitutes_`.
+  /// Called when the parents are known.
   void prepare_inheritance();
-  /// Returns a parent's coarse shape as weights of heads. Heads outside the family's group are
-  /// replaced by similar heads of the group.
+  /// Returns a parent's coarse shape as weights of heads. Each head outside the family's group is
+  /// replaced by a similar head of the group.
   std::vector<SourceWeight> coarse_shape_of(std::size_t parent) const;
   /// Returns the distribution of the third contributor, who provides what members inherit from
   /// neither parent. The third contributor is a random mixture of heads that share the most tags
@@ -111,8 +111,8 @@ class FamilySampler {
   /// stays plausible.
   FaceDistribution third_contributor_distribution() const;
   /// Returns the band of detail that a parent passes on: the band of the parent's recipe or, if the
-  /// parent is an input head, the head's own detail. Heads outside the family's group are replaced
-  /// by similar heads of the group.
+  /// parent is an input head, the head's own detail. Each head outside the family's group is
+  /// replaced by a similar head of the group.
   BandRecipe parent_band(std::size_t parent, std::size_t region, std::size_t band,
                          const BandRecipe& random_band) const;
   /// Returns the parent from whom all members inherit this band of this region: 0 for the mother, 1
@@ -143,15 +143,16 @@ class FamilySampler {
   std::vector<std::size_t> parents_not_in_crowd_;
   /// parents that the last call of sample_parents made
   std::vector<FaceSearch::FoundFace> new_parents_;
-  /// Distribution of the third contributor: a random face from which members inherit what comes
-  /// from neither parent.
+  /// Distribution of the third contributor: a random face from which members inherit what they
+  /// inherit from neither parent.
   FaceDistribution third_contributor_distribution_;
   /// maps each target head of a parent to a similar target head of the family's group
   SubstituteHeads target_substitutes_;
-  /// For each band, the heads of the family's group that substitute for the parents' sources
-  /// outside the group. Empty: the family has no group, or no parents.
+  /// For each band: which head of the family's group replaces a head that lends detail to a parent
+  /// but is not in the group. Empty if the family has no group or no parents.
   std::vector<SubstituteHeads> source_substitutes_;
-  /// names of the families of which the parents are members or parents
+  /// Names of the families related to this family: families that have a parent of this family as a
+  /// member, and families that have a parent in common with this family.
   std::vector<std::string> relative_family_names_;
   /// points of relatives (kin) and of all other faces (strangers)
   NearestFaceSearch relative_points_, stranger_points_;

@@ -14,8 +14,8 @@
 namespace crowdface {
 
 /// Keeps families apart: every member is nearer to each member of its own family than to any face
-/// that is not a relative. The relatives of a face are its own family, the families of its parents,
-/// and families that share a parent.
+/// that is not a relative. The relatives of a member are the members of its own family, of its
+/// parents' families, and of all families that have a parent in common with its own family.
 class FamilySeparation {
  public:
   /// Returns whether a point is too near to a family. Each member has a radius: the distance to the

@@ -137,7 +137,8 @@ void add_rows_at_columns(const float* factors, const std::size_t* list, std::siz
 
 void add_product(const float* factors, std::size_t vectors, std::size_t count, const float* rows,
                  std::size_t width, float* to) {
-  // Multiply all vectors by some rows at a time, so that these rows stay in a fast cache.
+  // Multiply in blocks of kRows rows of the matrix `rows`: add the products of one block for all
+  // vectors before the next block, so that the block stays in a fast cache.
   constexpr std::size_t kRows = 128;
   const std::size_t one = hn::Lanes(Lanes());
   for (std::size_t begin = 0; begin < count; begin += kRows) {

@@ -184,8 +184,10 @@ double HairChooser::mean_age_of_heads(const Recipe& recipe) const {
 double HairChooser::apparent_age(const FacePlan& face) const {
   if (face.age_years) return apparent_age_of(*face.age_years);
   const double of_heads = mean_age_of_heads(face.recipe);
-  // The face's age moves the apparent age towards old or young. The square root makes grey hair
-  // visible at age 0.5 already.
+  // FacePlan::age ranges from −1 (young) to 1 (old). The apparent age lies between the mean age of
+  // the heads and the apparent age of an old or young person; `way` is the fraction of the way to
+  // the old or young person. Because of the square root, grey hair is visible at a FacePlan::age of
+  // 0.5 already.
   const double age = face.age.value_or(0);
   const double way = std::sqrt(std::min(1.0, std::abs(age)));
   return of_heads + way * ((age < 0 ? 0.15 : std::max(0.9, of_heads)) - of_heads);

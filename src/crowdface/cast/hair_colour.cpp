@@ -9,7 +9,8 @@
 namespace crowdface {
 namespace {
 
-// Colours are rounded to this number of steps between 0 and 1.
+// The concentrations of the two pigments, and the fraction of white hairs, are rounded to multiples
+// of 1 divided by these numbers.
 constexpr double kEumelaninSteps = 20, kPheomelaninSteps = 10, kGreySteps = 10;
 
 double to_step(double value, double steps) {
@@ -105,9 +106,13 @@ std::optional<HairColour> parse_hair_label(std::string_view label) {
 }
 
 std::array<float, 3> reflected_light(const HairColour& colour) {
-  // Coefficients for red, green and blue, fitted to the reflectance of blond, brown, black, copper
-  // and white hair. kWithoutPigment is the reflectance at pigment concentrations of zero, without
-  // the reflection at the hair's surface (kSurface).
+  // Each array has the values for red, green and blue. All constants are fitted to the reflectance
+  // of blond, brown, black, copper and white hair:
+  // - kSurface: reflectance of the hair's surface.
+  // - kWithoutPigment: reflectance of hair without pigment, minus kSurface. (As a coefficient of
+  //   the fit, it may exceed 1.)
+  // - kEumelanin, kPheomelanin: absorption per unit of pigment concentration.
+  // - kWhite: reflectance of white hair.
   constexpr std::array<double, 3> kWithoutPigment = {1.1, 0.78, 0.33};
   constexpr std::array<double, 3> kEumelanin = {5.3, 5.7, 5.2}, kPheomelanin = {0.5, 1.6, 2.8};
   constexpr std::array<double, 3> kWhite = {0.375, 0.352, 0.322};

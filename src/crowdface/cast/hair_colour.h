@@ -19,7 +19,8 @@ struct HairColour {
   bool operator==(const HairColour&) const = default;
 };
 
-/// A name for a hair colour in configs and in heads' tags, such as `red` and `red_hair`.
+/// A hair colour that has a name. A config names the colour by this name (`red`); tags of heads
+/// append `_hair` to the name (`red_hair`).
 struct NamedHairColour {
   std::string_view name;
   HairColour colour;
@@ -33,18 +34,19 @@ std::optional<HairColour> hair_colour_named(std::string_view name);
 /// represents. On each face, the attachment gets the colour of the face's hair of this kind.
 enum class Tint { kNone, kHair, kBrows, kBeard, kLashes };
 
-/// Returns the rounded colour of a person's brows, beard or lashes, given the colour of the scalp
-/// hair. Brows are darker than the scalp hair and turn grey late, beards are redder, and lashes are
-/// darkest.
+/// Returns the colour of a person's brows, beard or lashes (see `tint`), given the colour of the
+/// scalp hair. The result is rounded like by rounded_colour. Brows are darker than the scalp hair
+/// and turn grey late, beards are redder, and lashes are darkest.
 ///
 /// \param hair  the colour of the scalp hair.
 HairColour hair_colour_for(const HairColour& hair, Tint tint);
 
-/// Rounds the values of a colour to steps that are hardly visible, so that many faces have exactly
-/// the same colour.
+/// Rounds the three values of a colour to multiples of a step, so that many faces have exactly the
+/// same colour. The steps (1/20 for eumelanin, 1/10 for the other values) are hardly visible.
 HairColour rounded_colour(const HairColour& colour);
-/// Returns whether each pigment of the rounded colour is at most one step away from the same
-/// pigment of `named`. The fraction of grey is not compared.
+/// Returns whether the concentrations of both pigments in `rounded` differ from the concentrations
+/// in `named` by at most one rounding step (see rounded_colour). The fractions of white hairs are
+/// not compared.
 bool is_shade_of(const HairColour& rounded, const HairColour& named);
 /// Returns whether white hairs hide the pigments: with a third of white hairs, red hair looks grey.
 bool looks_grey(const HairColour& colour);

@@ -12,8 +12,8 @@
 
 namespace crowdface {
 
-/// The data of all heads that the blend needs at the sample vertices. These data suffice to compute
-/// the face of any recipe at the sample vertices.
+/// The data of all heads at the sample vertices. These data suffice to compute, for any recipe, the
+/// positions of the sample vertices on the recipe's face.
 struct HeadsAtSamples {
   /// for each head, the positions of the samples, #S by 3, in millimetres
   std::vector<Positions> heads;
@@ -24,25 +24,31 @@ struct HeadsAtSamples {
   /// For each region, ranges [begin, end) that contain all samples with nonzero weight. Loops over
   /// a region's samples skip the other samples.
   std::vector<std::vector<std::pair<Index, Index>>> sample_ranges;
-  std::vector<std::uint64_t> levels;  ///< smoothing level of each row of the trajectories
-  double mm_per_unit = 1;             ///< millimetres per unit of the trajectories
+  /// for each row of every element of `trajectories`: the smoothing level of this row, as a number
+  /// of iterations
+  std::vector<std::uint64_t> levels;
+  double mm_per_unit = 1;  ///< millimetres per unit of the trajectories
   /// storage of `trajectories` if this object owns them, otherwise empty
   std::vector<Trajectory> owned_trajectories;
   /// The heads' mirror images at the same samples, used to mirror faces; null: no face is mirrored.
   std::shared_ptr<const HeadsAtSamples> mirror_images;
 };
 
-/// Collects the data of the heads at the samples, without mirror images.
+/// Collects the data of the heads at the samples. Leaves HeadsAtSamples::mirror_images empty; see
+/// sample_mirror_images.
+///
+/// \param max_level  largest smoothing level, in iterations, of the `trajectories`.
 HeadsAtSamples sample_heads(const HeadSet& head_set, const RegionWeights& regions,
                             const FaceSamples& samples, std::span<const Trajectory> trajectories,
                             std::uint64_t max_level, double mm_per_unit);
 
 /// Computes the mirror images of the heads at the same samples. If the mirror image of a sample is
-/// not a vertex, the weights and trajectories there are interpolated.
+/// not a vertex, the region weights and the trajectory at this point are interpolated between
+/// vertices.
 ///
 /// \param heads   The heads at the samples.
-/// \param trajectory_vertices  The vertices that the trajectories of `heads` contain:
-///                samples_and_mirror_corners of the samples.
+/// \param trajectory_vertices  The vertices whose displacements by smoothing `heads.trajectories`
+///                stores: the result of samples_and_mirror_corners for `samples`.
 std::shared_ptr<const HeadsAtSamples> sample_mirror_images(const HeadSet& head_set,
                                                            const RegionWeights& regions,
                                                            const MirrorMap& mirror,

@@ -40,7 +40,8 @@ class LikenessTree {
     return static_cast<std::size_t>(blocks().point_number(static_cast<Index>(place)));
   }
 
-  /// Returns the nearest remaining faces, beginning with the nearest.
+  /// Returns the `count` faces nearest to `face`, beginning with the nearest. Ignores `face` itself
+  /// and the faces that are marked in `gone_`.
   std::vector<Neighbour> nearest(std::size_t face, std::size_t count) const {
     std::vector<Neighbour> near;
     if (count == 0) return near;

@@ -14,8 +14,8 @@ struct Neighbour {
   double distance_mm = 0;
 };
 
-/// Similar faces in a whole crowd. The result does not depend on the order in which the faces were
-/// cast.
+/// For all faces of a crowd: which faces are similar to each other. These data do not depend on the
+/// order in which the faces were cast.
 struct Likeness {
   /// indices of all faces, in an order in which consecutive faces look alike
   std::vector<std::size_t> face_order;

@@ -17,13 +17,16 @@ struct MergedReviews {
 };
 
 /// Merges reviews whose reviewers did not see each other's results (see
-/// Review::review_count_seen_by_reviewer). Equal requests apply once: a face that both reviews
-/// reject is redrawn once, and a change that both reviews request is made once. Both notes stay. If
-/// two reviews disagree,
+/// Review::review_count_seen_by_reviewer). The rules for two such reviews are:
 ///
-/// - a face that only one review rejects is redrawn;
-/// - if both reviews reject a face with different locked parts, the earlier review applies;
-/// - if both reviews change the same key of a face, the later review is applied last.
+/// - If both reviews reject a face, the face is redrawn once. If both reviews request the same
+///   change, the change is made once.
+/// - If both reviews have a note about a face, the merged review has both notes.
+/// - If only one review rejects a face, the face is redrawn.
+/// - If both reviews reject a face but lock different parts, the face is redrawn with the locked
+///   parts of the earlier review.
+/// - If both reviews change the same key of a face in different ways, both changes are applied,
+///   first the change of the earlier review. So the later review determines the result.
 MergedReviews merged_reviews(const std::vector<Review>& reviews);
 
 }  // namespace crowdface

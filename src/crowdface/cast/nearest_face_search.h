@@ -26,7 +26,8 @@ class PointTree {
   void search(const std::vector<float>& query, Index begin, Index end,
               double sufficient_squared_distance, NearestPoint& best) const;
 
-  /// The bounding box of the points of a node, and the range of these points' numbers.
+  /// The bounding box of all points of a tree node, and the smallest and the largest point number
+  /// (see PointBlocks::point_number) in the node.
   struct Bounds {
     LeadingCoordinatesBox box;
     /// smallest and largest number of a point in the node

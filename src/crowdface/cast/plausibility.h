@@ -42,7 +42,7 @@ class Plausibility {
                                Index left_out_head);
   static double squared_distance(const Metric& metric, const Eigen::VectorXf& point);
 
-  Metric metric_;  ///< the metric of all heads
+  Metric metric_;  ///< metric computed from all heads, with none left out
   /// the Mahalanobis distance from the mean that a new head typically has
   double typical_distance_ = 1;
 };

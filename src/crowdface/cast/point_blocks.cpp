@@ -8,16 +8,16 @@
 namespace crowdface {
 
 PointBlocks::PointBlocks(Index dimensions)
-    : dimensions_((dimensions + kCoordinatesPerChunk - 1) / kCoordinatesPerChunk *
-                  kCoordinatesPerChunk),
-      chunks_(static_cast<std::size_t>(dimensions_ / kCoordinatesPerChunk)) {}
+    : padded_dimensions_((dimensions + kCoordinatesPerChunk - 1) / kCoordinatesPerChunk *
+                         kCoordinatesPerChunk),
+      chunks_(static_cast<std::size_t>(padded_dimensions_ / kCoordinatesPerChunk)) {}
 
 void PointBlocks::add(Index number, const float* coordinates) {
   if (size() % kLanes == 0) {
     for (auto& chunk : chunks_) chunk.resize(chunk.size() + kCoordinatesPerChunk * kLanes);
   }
-  for (Index d = 0; d < dimensions_; ++d) {
-    chunks_[static_cast<std::size_t>(d / kCoordinatesPerChunk)][chunk_offset(size(), d)] =
+  for (Index d = 0; d < padded_dimensions_; ++d) {
+    chunks_[static_cast<std::size_t>(d / kCoordinatesPerChunk)][offset_in_chunk(size(), d)] =
         coordinates[d];
   }
   point_numbers_.push_back(number);
@@ -29,7 +29,7 @@ void PointBlocks::clear() {
 }
 
 std::vector<float> PointBlocks::padded_query(const Eigen::VectorXf& query) const {
-  std::vector<float> values(static_cast<std::size_t>(dimensions_), 0.F);
+  std::vector<float> values(static_cast<std::size_t>(padded_dimensions_), 0.F);
   std::copy(query.data(), query.data() + query.size(), values.begin());
   return values;
 }
@@ -37,10 +37,10 @@ std::vector<float> PointBlocks::padded_query(const Eigen::VectorXf& query) const
 PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& query, Index block,
                                                   float bound) const {
   Lanes sums = {};
-  for (Index chunk = 0; chunk < dimensions_; chunk += kCoordinatesPerChunk) {
+  for (Index chunk = 0; chunk < padded_dimensions_; chunk += kCoordinatesPerChunk) {
     // The sums only grow, so once all sums exceed the bound, no point of the block is within the
     // bound.
-    if (!add_squares(query.data() + chunk, &chunk_of(chunk)[chunk_offset(block * kLanes, chunk)],
+    if (!add_squares(query.data() + chunk, &chunk_of(chunk)[offset_in_chunk(block * kLanes, chunk)],
                      kCoordinatesPerChunk, bound, sums.data())) {
       sums.fill(HUGE_VALF);
       return sums;

@@ -47,8 +47,8 @@ struct LeadingCoordinatesBox {
 
 /// Points in blocks of sixteen, each point with a number that the caller of `add` chooses. A block
 /// stores the first coordinates of all its points, then the second coordinates, and so on, so that
-/// a query compares sixteen points at a time. The leading coordinates, in which faces differ most,
-/// rule out nearly all blocks early.
+/// a query compares sixteen points at a time. In a FaceSpace, points differ most in their leading
+/// coordinates, so a query rules out nearly all blocks after the leading coordinates.
 class PointBlocks {
  public:
   using Index = Eigen::Index;
@@ -63,13 +63,15 @@ class PointBlocks {
   void add(Index number, const float* coordinates);
   void clear();
   Index size() const { return static_cast<Index>(point_numbers_.size()); }
-  Index padded_dimensions() const { return dimensions_; }
+  /// Returns the number of coordinates of each stored point, including the zeros at the end.
+  Index padded_dimensions() const { return padded_dimensions_; }
   /// Returns the number that the caller of `add` gave to a point.
   /// \param index  0 for the point that was added first.
   Index point_number(Index index) const { return point_numbers_[static_cast<std::size_t>(index)]; }
-  /// Returns a coordinate of the point with this index; see point_number.
+  /// Returns coordinate number `dimension` of the point that was added as number `index`, counted
+  /// from 0. (Not the number that the caller of `add` chose.)
   float coordinate(Index index, Index dimension) const {
-    return chunk_of(dimension)[chunk_offset(index, dimension)];
+    return chunk_of(dimension)[offset_in_chunk(index, dimension)];
   }
 
   /// Returns the query, padded with zeros to padded_dimensions() values.
@@ -89,19 +91,22 @@ class PointBlocks {
   /// number of coordinates that are summed before the sums are compared with the bound
   static constexpr Index kCoordinatesPerChunk = 16;
 
-  /// Returns the offset of a point's coordinate within the coordinate's chunk.
-  static std::size_t chunk_offset(Index index, Index dimension) {
+  /// Returns the index of a coordinate of a point within the chunk `chunk_of(dimension)`.
+  ///
+  /// \param index  0 for the point that was added first.
+  static std::size_t offset_in_chunk(Index index, Index dimension) {
     return static_cast<std::size_t>(
         (index / kLanes * kCoordinatesPerChunk + dimension % kCoordinatesPerChunk) * kLanes +
         index % kLanes);
   }
-  /// Returns the chunk that contains this coordinate of all points; see `chunks_`.
+  /// Returns the element of `chunks_` that contains, for every point, coordinate number
+  /// `dimension`.
   const std::vector<float>& chunk_of(Index dimension) const {
     return chunks_[static_cast<std::size_t>(dimension / kCoordinatesPerChunk)];
   }
 
   /// number of stored coordinates of each point, a multiple of kCoordinatesPerChunk
-  Index dimensions_;
+  Index padded_dimensions_;
   std::vector<Index> point_numbers_;  ///< numbers of the points, in the order of `add`
   /// For each chunk of kCoordinatesPerChunk coordinates, the values sorted by block, then
   /// coordinate, then lane.

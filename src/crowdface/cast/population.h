@@ -41,6 +41,7 @@ class PopulationBalance {
   };
   /// Returns the bin of the grid that contains the face's measurement.
   static std::size_t bin_of(const TraitTarget& target, const Positions& landmarks);
+  /// Computes `squared_excess_after_adding` from `cumulative_excess`.
   static void update_squared_excess(Trait& trait);
 
   std::vector<Trait> traits_;

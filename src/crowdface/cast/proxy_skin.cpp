@@ -38,16 +38,18 @@ std::vector<TrianglePair> nearby_non_adjacent_pairs(const std::vector<Triangle>&
                                                     const Positions& mean) {
   const Adjacency adjacency = build_adjacency(topology_of(triangles, mean.rows()));
   std::vector<TrianglePair> pairs;
-  // for each vertex, the most recently visited triangle whose neighbourhood contains the vertex
-  std::vector<std::uint32_t> neighbour_of(static_cast<std::size_t>(mean.rows()), kNoIndex);
+  // For each vertex: the last triangle, of those that the loop has visited so far as `first`, whose
+  // neighbourhood contains the vertex.
+  std::vector<std::uint32_t> last_triangle_near(static_cast<std::size_t>(mean.rows()), kNoIndex);
   std::uint32_t first = kNoIndex;
   for (const TrianglePair& pair : near_pairs(triangles, mean, kPairMarginMm)) {
     if (pair.first != first) {
       first = pair.first;
-      mark_neighbourhood(adjacency, triangles[first], first, neighbour_of);
+      mark_neighbourhood(adjacency, triangles[first], first, last_triangle_near);
     }
     const Triangle& other = triangles[pair.second];
-    if (std::ranges::none_of(other, [&](std::uint32_t v) { return neighbour_of[v] == first; })) {
+    if (std::ranges::none_of(other,
+                             [&](std::uint32_t v) { return last_triangle_near[v] == first; })) {
       pairs.push_back(pair);
     }
   }

@@ -21,7 +21,9 @@ class ProxySkin {
   /// The skin of a face's target (a head or a mixture of heads), prepared for comparison with the
   /// face's skin.
   struct ReferenceSkin {
-    TargetTriangles triangles;       ///< measures flips and stretch relative to the target
+    /// the target's triangles, with which the triangles of a face are compared to find flipped and
+    /// stretched triangles
+    TargetTriangles triangles;
     NewIntersections intersections;  ///< counts intersections that the target does not have
   };
   /// \param head  index into the constructor's `heads`

@@ -13,8 +13,8 @@ namespace crowdface {
 /// A reviewer's verdict on one face.
 struct ReviewMark {
   enum class Verdict {
-    kKeep,    ///< the face stays as it is
-    kReject,  ///< the face is redrawn, except for the locked parts
+    kKeep,    ///< the face stays unchanged
+    kReject,  ///< a new random face replaces the face; only the locked parts stay
   };
   std::string id;  ///< id of the face that is marked
   Verdict verdict = Verdict::kKeep;
@@ -43,8 +43,8 @@ struct FaceChange {
   std::vector<std::size_t> locked_bands;
   /// Limits on the face's measurements. The face is changed only as far as these limits require.
   TraitLimits traits;
-  /// Names of attachments that replace the face's attachments of the same kinds. Empty list: the
-  /// face wears nothing.
+  /// If set: names of attachments that the face gets; each replaces the face's attachment of the
+  /// same kind. Special case: an empty list removes all attachments of the face.
   std::optional<std::vector<std::string>> attachments;
   /// Kinds and names of attachments that are taken off the face.
   std::vector<std::string> removed_attachments;
@@ -62,9 +62,10 @@ struct FaceChange {
 
 /// The marks and changes that one reviewer requests.
 struct Review {
-  /// Number of sampled faces of the crowd that was reviewed. The review applies to this crowd.
-  /// Faces with larger numbers are cast after the review, so that a larger crowd changes no
-  /// reviewed face. Empty: the whole crowd was reviewed.
+  /// Number n of sampled faces that the crowd had when it was reviewed. If the crowd is larger now,
+  /// casting first casts the faces 1 … n, then applies the review, and then casts the faces after
+  /// n. So no reviewed face changes when the crowd becomes larger. Empty, or in spread mode: the
+  /// review applies after all faces of the crowd are cast.
   std::optional<std::uint64_t> reviewed_face_count;
   /// Number of reviews, from the start of the list, whose results the reviewer saw; see
   /// merged_reviews. Empty: all earlier reviews.

@@ -23,8 +23,8 @@ struct SampleCells {
 SampleCells find_sample_cells(const Adjacency& adjacency, const Positions& mean,
                               const FaceSamples& samples);
 
-/// Returns the weight of each sample: the fraction of the total area of all cells that the sample's
-/// cell covers.
+/// Returns the weight of each sample: the area of the sample's cell, divided by the total area of
+/// all cells.
 ///
 /// \param areas  the area of each vertex; not negative.
 /// \throws InvalidInput if all areas are zero.

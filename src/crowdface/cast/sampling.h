@@ -24,8 +24,8 @@ struct Range {
 
 /// The unit of an age.
 enum class AgeUnit {
-  kFraction,  ///< from −1 (young) to 1 (old), see apply_age
-  kYears,
+  kFraction,  ///< the age is a number from −1 (young) to 1 (old), see apply_age
+  kYears,     ///< the age is in years
 };
 
 /// An age; see age_as_fraction.
@@ -47,22 +47,24 @@ struct AgeRange {
 struct PositionDistribution {
   /// How the position is drawn.
   enum class Kind {
-    /// On the straight line from the anchor of a source, which is chosen at random, to a random
-    /// point in the convex hull of all sources' anchors. `pull` limits the distance from the
-    /// anchor.
+    /// A source and a point in the convex hull of all sources' anchors are chosen at random. The
+    /// position lies on the straight line from this source's anchor to this point. `pull` limits
+    /// the distance from the anchor.
     kAnchored,
-    kUniform,  ///< anywhere in the convex hull of the sources' anchors
-    kAround,   ///< in the disc of `radius` around a head's anchor
-    kFixed,    ///< always at the point `at`
+    kUniform,  ///< the position lies anywhere in the convex hull of the sources' anchors
+    /// the position lies in a disc around the anchor of a head; the disc's radius is `radius`
+    kAround,
+    kFixed,  ///< the position is always the point `at`
   };
   Kind kind = Kind::kAnchored;
-  /// kAround: the head whose anchor is the centre of the disc. If empty, the anchor of the face's
-  /// target is the centre.
+  /// Used only with kAround: the head whose anchor is the centre of the disc. If `head` is empty,
+  /// the centre is the anchor of the face's target.
   std::optional<Eigen::Index> head;
-  double radius = 0;  ///< with kAround: radius of the disc, in units of the weight plane
-  PlanePoint at = PlanePoint::Zero();  ///< with kFixed: the point at which the position always is
-  /// kAnchored: the position lies at most this fraction (0 … 1) of the way from the anchor to the
-  /// random point in the convex hull. 0: the position is always the anchor.
+  /// used only with kAround: radius of the disc, in the same unit as the coordinates of the anchors
+  double radius = 0;
+  PlanePoint at = PlanePoint::Zero();  ///< used only with kFixed: the position
+  /// Used only with kAnchored: the position lies at most this fraction (0 … 1) of the way from the
+  /// anchor to the random point in the convex hull. 0: the position is always the anchor.
   double pull = 0.25;
 };
 
@@ -70,12 +72,12 @@ struct PositionDistribution {
 struct SmoothnessDistribution {
   /// The unit of `range`.
   enum class Unit {
-    /// a fraction of L_max, the largest number of smoothing iterations; the slider in the paper has
-    /// the same unit
+    /// values are fractions of L_max, the largest number of smoothing iterations; the slider in the
+    /// paper has the same unit
     kFraction,
-    kIterations,  ///< a number of smoothing iterations
-    /// a wavelength in mm: smoothing halves the amplitude of relief that has this wavelength
-    /// (docs/method.md)
+    kIterations,  ///< values are numbers of smoothing iterations
+    /// values are wavelengths in mm: smoothing halves the amplitude of relief that has this
+    /// wavelength (docs/method.md)
     kSize,
   };
   Unit unit = Unit::kFraction;
@@ -220,7 +222,9 @@ struct ManualRecipe {
   std::optional<AgeRange> age;  ///< range of the face's age; empty: as for sampled faces
   std::optional<Range> asymmetry;
   std::optional<bool> mirrored;
-  TraitLimits traits = {};  ///< limits on measurements that the random values must meet
+  /// limits on the face's measurements; the values that the recipe leaves random are drawn so that
+  /// the face meets these limits
+  TraitLimits traits = {};
 };
 
 }  // namespace crowdface

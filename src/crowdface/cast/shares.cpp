@@ -23,10 +23,11 @@ std::uint64_t deadline(double share, std::uint64_t m) {
   return static_cast<std::uint64_t>(std::ceil(static_cast<double>(m) / share - kRounding));
 }
 
-/// Returns whether face `n` must be assigned to a share (to any share), because otherwise a share
-/// would miss a deadline. A share with the fraction q must get at least ⌊q·m⌋ of the first m faces.
-/// Face `n` must be assigned if there is an m from n to n + horizon for which all shares together
-/// still need more than m − n faces, because only the m − n faces n + 1 to m follow face `n`.
+/// Returns whether face `n` must be assigned to some share, because otherwise a share would miss a
+/// deadline. The deadlines: for each m, a share with the fraction q must get at least ⌊q·m⌋ of the
+/// first m faces. Suppose that face `n` is not assigned. Then only the m − n faces n + 1 to m
+/// remain to meet the deadlines of the number m. So the function checks, for each m from n to n +
+/// horizon, whether all shares together still need more than m − n of the first m faces.
 /// \param served  number of faces before face `n` that are assigned to shares
 bool must_serve(const std::vector<double>& shares, std::uint64_t served, std::uint64_t n,
                 std::uint64_t horizon) {

@@ -11,10 +11,11 @@ using FloatRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 FloatRows fixed_order_product(const FloatRows& a, const FloatRows& b);
 
 /// An orthonormal basis of the linear span of the rows of a matrix, and the coordinates of these
-/// rows in the basis.
+/// rows in the basis. The matrix is #N by #S, and the basis has #P vectors.
 struct SpanBasis {
-  FloatRows directions;   ///< #P by #S, one basis vector per row
-  FloatRows coordinates;  ///< #N by #P: row n is approximately Σ_p coordinates(n, p) directions(p)
+  FloatRows directions;  ///< #P by #S: each of the P rows is one basis vector with S components
+  /// #N by #P: row n of the matrix is approximately Σ_p coordinates(n, p) · (row p of `directions`)
+  FloatRows coordinates;
 };
 
 /// Finds a basis that spans all rows. The row with the longest remainder (the part outside the

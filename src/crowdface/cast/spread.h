@@ -47,7 +47,8 @@ class FarthestPoints {
     /// distance to the nearest picked or initial face; infinite if there is no such face
     double distance_mm = 0;
   };
-  /// Returns the farthest candidate of a group, without picking this candidate.
+  /// Of the candidates of a group, returns the candidate farthest from all picked and initial
+  /// faces. Does not pick this candidate.
   ///
   /// \param group_index  −1: the candidates without a group.
   Pick farthest(int group_index) const;

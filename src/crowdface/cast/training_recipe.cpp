@@ -33,9 +33,10 @@ Recipe random_training_recipe(const HeadsAtSamples& heads, std::size_t bands, st
       }
       band.weights = normalized_weights(std::move(weights));
       const auto [level, factor] = draw(purpose, 3);
-      // A band begins at a number of iterations L; the size of the band's detail is proportional to
-      // √L. The L of the first band is uniform. The size of each finer band is uniform below the
-      // size of the next coarser band.
+      // A band begins at a number of iterations L; the largest size of the band's detail is
+      // proportional to √L. For the first band, L is uniformly random between 0 and the largest
+      // level. For each finer band, √L (the size) is uniformly random between 0 and the √L of the
+      // next coarser band.
       band.iterations = static_cast<std::uint64_t>(b == 0 ? level * most : level * level * most);
       band.extrapolation = 0.6 + 0.8 * factor;
       most = static_cast<double>(band.iterations);

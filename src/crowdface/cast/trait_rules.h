@@ -23,8 +23,8 @@ class TraitRules {
   /// faces have the crowd's limits, except faces without an index and an id, which are not part of
   /// the crowd and have no limits.
   TraitLimits limits_of(const FacePlan& face) const;
-  /// Checks a face against the limits of the face. Returns nothing if the landmarks meet the
-  /// limits.
+  /// Checks whether a face's landmarks meet the limits that apply to the face (see limits_of).
+  /// Returns nothing if they do, otherwise kTraits.
   ///
   /// \param landmarks  from FaceMeasurer::landmarks or exact_landmarks
   std::optional<RejectionReason> check(const FacePlan& face, const Positions& landmarks) const;

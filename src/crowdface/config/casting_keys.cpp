@@ -39,8 +39,8 @@ struct Quota {
   std::optional<std::size_t> band;
 };
 
-/// Returns the heads of all quotas for a band. If no band is given, returns the heads of all quotas
-/// for the target.
+/// Returns the heads of all quotas that apply to a band. If no band is given, returns the heads of
+/// all quotas that apply to the targets of faces (the heads that faces are built on).
 std::vector<Eigen::Index> heads_of(const std::vector<Quota>& quotas,
                                    std::optional<std::size_t> band) {
   std::vector<Eigen::Index> heads;

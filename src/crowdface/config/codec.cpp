@@ -38,8 +38,9 @@ Codec<double> fraction() {
   return codec;
 }
 
-/// Makes a codec for a smoothness given as a size: smoothing halves relief of this wavelength. The
-/// size is in mm, and is at most `smoothing.max_size`.
+/// Makes a codec for a smoothness that is given as a wavelength in mm (in the config: a size).
+/// Smoothing halves the amplitude of relief that has this wavelength. The wavelength is at most
+/// `smoothing.max_size`.
 Codec<double> relief_size() {
   return restricted(length(1e9), [](double size, const YamlNode& node, ConfigDraft& draft) {
     const Config::Smoothing& smoothing = draft.config.smoothing;

@@ -50,7 +50,8 @@ Codec<LengthUnit> length_unit();
 /// Codec for a length with a unit. The value is converted to millimetres, and must be in [0,
 /// high_mm].
 Codec<double> length(double high_mm);
-/// Codec for a length as in `length`, but refuses 0.
+/// Codec for a length with a unit. The value is converted to millimetres, must be above 0, and must
+/// be at most high_mm.
 Codec<double> positive_length(double high_mm);
 /// Like `codec`, but refuses 0.
 ///

@@ -42,15 +42,16 @@ struct TraitTarget;
 
 /// What to do if the heads are not aligned with each other.
 enum class Align {
-  kCheck,  ///< warn about heads that are not aligned, and do not move them
-  kRigid,  ///< align every head rigidly with the first head, by the best rotation and translation
-  kNone,   ///< do not check
+  kCheck,  ///< crowdface warns about heads that are not aligned, and does not move them
+  /// crowdface aligns every head rigidly with the first head, by the best rotation and translation
+  kRigid,
+  kNone,  ///< crowdface neither checks whether the heads are aligned nor moves them
 };
 
 /// Whether a crowd gets a gallery page, on which users select faces.
 enum class Gallery {
-  kAuto,  ///< a gallery, if the crowd has pictures and this build contains the gallery page
-  kNone,  ///< no gallery
+  kAuto,  ///< the crowd gets a gallery if it has pictures and this build contains the gallery page
+  kNone,  ///< the crowd gets no gallery
 };
 
 /// The weights with which the heads' textures are blended into a face's textures: the weights that
@@ -59,9 +60,11 @@ enum class ColourWeights { kRecipe, kSampled };
 
 /// Which textures a new face gets.
 enum class TextureBlend {
-  kAuto,    ///< a blend of the heads' textures, or kTarget if these textures do not differ
-  kTarget,  ///< the textures of the face's target
-  kNone,    ///< the same as kTarget, but rendered images show no textures
+  /// the face gets a blend of the heads' textures; like kTarget if these textures do not differ
+  kAuto,
+  kTarget,  ///< the face gets the textures of its target
+  /// the face's files get the textures of its target, but rendered images show no textures
+  kNone,
 };
 /// A file format of blended textures.
 enum class TextureFormat { kPng, kJpeg, kExr };
@@ -74,10 +77,11 @@ enum class SheetTexture {
 
 /// How the smoothed versions of each head are represented.
 enum class LevelRepresentation {
-  /// displacement fields fitted to each head; `tolerance_mm` determines the number of fields
+  /// by displacement fields that are fitted to each head; `tolerance_mm` determines the number of
+  /// fields
   kBasis,
   kExact,  ///< nothing is stored; the smoothing filter computes each level on demand
-  kCubic,  ///< for each vertex, a cubic polynomial of the smoothing level L (§5.1 of the paper)
+  kCubic,  ///< by a cubic polynomial of the smoothing level L for each vertex (§5.1 of the paper)
 };
 
 /// How rendered images show a material. This overrides the kind of surface that the material's name
@@ -153,7 +157,8 @@ struct Config {
     Boundary boundary = Boundary::kFixed;  ///< whether smoothing moves open mesh boundaries
     /// how one iteration smooths (key `operator`)
     OperatorKind operator_kind = OperatorKind::kUmbrella;
-    LevelRepresentation levels = LevelRepresentation::kBasis;  ///< how smoothed heads are stored
+    /// how the smoothed versions of the heads, one for each smoothing level, are represented
+    LevelRepresentation levels = LevelRepresentation::kBasis;
     /// with `levels: basis`: largest distance between a vertex of a smoothed head and the vertex's
     /// approximation by displacement fields
     double tolerance_mm = 0.05;
@@ -169,7 +174,9 @@ struct Config {
   /// How eyes, teeth and lashes follow the skin. The config names such a part by its material, its
   /// group, or as "component N".
   struct Parts {
-    bool follow_skin = true;  ///< false with `parts: none`: everything is blended like skin
+    /// whether eyes, teeth and lashes follow the skin. False if the config has `parts: none`: then
+    /// all components of a head are blended like skin
+    bool follow_skin = true;
     /// whether the shape of a rigid part is the target's or blended
     PartShape shape = PartShape::kTarget;
     /// Names of the components that are blended (skin), move rigidly (rigid), or have vertices that
@@ -186,10 +193,11 @@ struct Config {
     /// folder that contains a subfolder with shapes for each head; empty: none
     std::filesystem::path heads_directory;
     std::vector<std::string> names;  ///< names of the shapes; empty: there are no shapes
-    /// for each name: the file of the template's shape; empty if the template lacks the shape
+    /// for each shape in `names`: the file of the template's version of the shape; empty if the
+    /// template lacks the shape
     std::vector<std::filesystem::path> template_files;
-    /// for each head, and for each name: the file of the head's shape; empty if the head lacks the
-    /// shape
+    /// for each head, one file for each shape in `names`: the file of the head's own version of the
+    /// shape; empty if the head lacks the shape
     std::vector<std::vector<std::filesystem::path>> head_files;
   } shapes;
 
@@ -313,7 +321,8 @@ struct Config {
   /// The mesh with which each face is compared, vertex by vertex: the face's target (kTarget), the
   /// nearest face of the crowd (kNearest), or `file`. A colour map shows the distances.
   struct MeshComparison {
-    /// kNothing: faces are not compared; kFile: `file`; for the other values see above
+    /// What each face is compared with: nothing (kNothing: no comparison), the face's target
+    /// (kTarget), the nearest face of the crowd (kNearest), or `file` (kFile).
     enum class Reference { kNothing, kTarget, kNearest, kFile } reference = Reference::kNothing;
     /// a mesh, or the folder of another crowd whose faces have the same ids
     std::filesystem::path file;
@@ -375,14 +384,15 @@ struct Config {
 /// \param directory  the folder to which written paths are relative.
 std::string effective_config(const Config& config, const std::filesystem::path& directory);
 
-/// Returns every key of the effective config that is not marked with Key::not_affecting_face_files.
-/// The files of a face depend only on these keys, the face's recipe and the input files. Omits keys
-/// that have their default value. Existing faces therefore stay up to date if a new version of the
-/// program adds a key.
+/// Returns the keys of the effective config that affect the files of faces: all keys except the
+/// keys marked with Key::not_affecting_face_files. The files of a face depend only on these keys,
+/// the face's recipe and the input files. Keys with their default value are omitted, so that
+/// existing faces stay up to date if a new version of the program adds a key.
 std::string face_settings_yaml(const Config& config);
 
-/// Returns every key of the effective config that is not marked with Key::not_affecting_recipes.
-/// Also returns the key `changes`. Apart from reviews, a plan depends only on the returned keys.
+/// Returns the keys of the effective config that affect recipes: all keys except the keys marked
+/// with Key::not_affecting_recipes. Also returns the key `changes`. Apart from reviews, a plan
+/// depends only on the returned keys.
 ///
 /// \param directory  the folder to which the paths are relative.
 std::string plan_settings_yaml(const Config& config, const std::filesystem::path& directory);

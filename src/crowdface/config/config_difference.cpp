@@ -73,8 +73,9 @@ bool is_same(const YamlNode& a, const YamlNode& b) {
   return paths.empty();
 }
 
-/// From each group, removes the keys whose value is the same in `sampling`. So a difference in such
-/// a key is reported only once.
+/// Removes from each entry of `groups` the keys that have the same value in the section `sampling`:
+/// the group inherits these keys. If such a key differs between two configs, the difference is then
+/// reported only once, for `sampling`.
 void remove_inherited_keys(YamlNode& root) {
   const YamlEntry* sampling = root.find("sampling");
   const auto groups = std::ranges::find(root.entries, "groups", &YamlEntry::key);
@@ -142,8 +143,8 @@ std::optional<RequiredDistances> distances_of(const YamlNode& root) {
   return distances;
 }
 
-/// Returns whether both configs require the same smallest distances for the old crowd's faces and
-/// families.
+/// Returns whether the config `root` requires the same minimum distances as the config `old`, for
+/// all sampled faces and families of the crowd that was made with `old`.
 bool keeps_distances(const YamlNode& old, const YamlNode& root) {
   const auto before = distances_of(old), now = distances_of(root);
   const auto count = number_at(old, kCount);

@@ -27,13 +27,13 @@ struct ConfigDraft {
   /// see ConfigOverrides::ignored_reviews_folder
   std::filesystem::path ignored_reviews_folder;
   std::vector<std::string> warnings;  ///< see ConfigReading
-  /// Whether the sections for heads, tags, regions and smoothing are valid. A complaint about a
-  /// section sets its flag to false. Values in other sections that refer to this section are then
-  /// not checked, so that one mistake gives only one message.
-  bool are_heads_known = false;
-  bool are_tags_known = true;
-  bool are_regions_known = true;
-  bool is_smoothing_known = true;
+  // Each of the next four members says whether one section is valid. A complaint about a section
+  // sets the section's member to false. Values in other sections that refer to this section are
+  // then not checked, so that one mistake gives only one message.
+  bool are_heads_known = false;    ///< whether the section of the heads is valid
+  bool are_tags_known = true;      ///< whether the heads' tags are valid
+  bool are_regions_known = true;   ///< whether the section of the regions is valid
+  bool is_smoothing_known = true;  ///< whether the section of the smoothing is valid
 };
 
 /// Returns the pairs of region and band that a name selects, as indices into region_band_names().

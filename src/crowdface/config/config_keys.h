@@ -227,9 +227,10 @@ std::string starter_keys(const Keys<Section>& keys, const StarterFacts& facts) {
   return text;
 }
 
-/// Returns the Starter for a section. (A section is a key whose value is a mapping; the mapping has
-/// the keys `keys`.) The Starter returns the starter lines of all `keys` as the section's value. If
-/// none of the `keys` has starter lines, the starter config does not contain the section.
+/// Returns the Starter of a section, a key whose value is a mapping with the keys `keys`. The
+/// Starter is a function. It returns the starter lines of all `keys`, joined by starter_keys, as
+/// the value of the section. If none of the `keys` has starter lines, it returns nothing, and the
+/// starter config does not contain the section.
 ///
 /// \param keys           must outlive the returned function.
 /// \param comment_above  comment on the lines before the section; empty: none.

@@ -24,7 +24,8 @@ struct ConfigOverrides {
   std::vector<std::string> review = {};
   /// `--without-reviews`: whether to ignore the reviews stored in the crowd's folder
   bool without_reviews = false;
-  /// whether to apply the stored reviews even if the folder contains the crowd of another config
+  /// whether the run keeps and applies the reviews that are stored in the crowd's folder, even if
+  /// the folder contains the crowd of another config
   bool keep_reviews_of_other_configs = false;
   /// Reviews stored in the crowd's folder. The program reads these reviews first. If the config
   /// lists a copy of one of these reviews, the copy is ignored.
@@ -48,8 +49,8 @@ struct ConfigReading {
   bool are_heads_known = false;
   /// whether `config.regions.names` and `config.regions.mask` are valid
   bool are_regions_known = false;
-  /// Warnings about keys that are overridden by other keys, if the config is complete; one line for
-  /// each key.
+  /// Warnings, one line each, for example about keys that other keys override. The warnings about
+  /// overridden keys are present only if the config is complete.
   std::vector<std::string> warnings = {};
 };
 

@@ -61,7 +61,8 @@ std::vector<std::string> texts_of(const Items& items, const Text& text) {
   return texts;
 }
 
-/// Adds a complaint that lists the words that are accepted.
+/// Adds a complaint that the node's value is none of the expected `words`. The caller has found
+/// that this is the case.
 void expect_one_of(const YamlNode& node, const std::vector<std::string>& words, Complaints& out);
 /// Reads a word. If the word is in `words`, returns the value that the word stands for. Otherwise,
 /// adds a complaint and returns nothing.
@@ -90,15 +91,21 @@ std::optional<double> factor_of_rounded_shares(const std::vector<double>& shares
 /// Formats a number, rounded to a whole number, without an exponent: -1000000, not -1e+06.
 std::string plain_number(double value);
 
-/// Return a list or mapping in YAML's flow style, in one line: "[a, b]", "{a: 1, b: 2}".
+/// Returns a list in YAML's flow style, in one line: "[a, b]".
 std::string yaml_flow_list(const std::vector<std::string>& items);
+/// Returns a mapping in YAML's flow style, in one line: "{a: 1, b: 2}".
+///
+/// \param entries  texts such as "a: 1", from yaml_entry.
 std::string yaml_flow_map(const std::vector<std::string>& entries);
 /// Returns a list of names in flow style; names that YAML would misread are quoted.
 std::string yaml_flow_list_of_names(const std::vector<std::string>& names);
-/// Return a list (yaml_block_list) or a mapping (yaml_block_map) in YAML's block style, with one
-/// line for each item; "[]" or "{}" if empty. yaml_entry() and yaml_block_list() indent the lines
-/// of such a result.
+/// Returns a list in YAML's block style, with one line for each item; "[]" if there are no items.
+/// If an item is itself in block style, indents its lines.
 std::string yaml_block_list(const std::vector<std::string>& items);
+/// Returns a mapping in YAML's block style, with one line for each entry; "{}" if there are no
+/// entries.
+///
+/// \param entries  texts such as "a: 1", from yaml_entry.
 std::string yaml_block_map(const std::vector<std::string>& entries);
 /// Returns an entry of a YAML mapping, "key: value". If the value is in block style, indents its
 /// lines.

@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::uint64_t kMaxMembers = 1000;
 
-/// Returns whether an earlier family has a member or a new parent with this id. The id may be given
-/// without the prefix "CROWD_".
+/// Returns whether casting makes a face with this id for an earlier family of the config: a member
+/// of the family, or a parent that does not exist yet (Parent::is_new). The id may lack the crowd's
+/// name and the underscore at its start.
 bool is_face_of_family(const std::string& id, const Config& config) {
   return std::ranges::any_of(config.families, [&](const FamilyOptions& family) {
     const std::vector<std::string> ids = face_ids_of_family(family, config.crowd.name);
@@ -81,10 +82,11 @@ std::optional<Parent> read_parent(const YamlNode& node, std::string_view role,
   return Parent{std::nullopt, *name};
 }
 
-/// Returns the second parent of a family for which the config names only one parent: a random head,
-/// so that the crowd gets no further face. The head has the parent's sex if any head is tagged with
-/// this sex. The head depends only on the other parent, so two families with the same single parent
-/// have the same second parent.
+/// Returns the parent with this role (mother or father) for a family whose config names only the
+/// other parent. The returned parent is a random head, not a new face of the crowd. The head is
+/// tagged female for a mother and male for a father, if any head has this tag. The choice depends
+/// only on the named parent `other`, so two families that name the same single parent get the same
+/// second parent.
 std::optional<Parent> absent_parent(std::string_view role, const Parent& other,
                                     const ConfigDraft& draft) {
   const Config::Faces& faces = draft.config.faces;

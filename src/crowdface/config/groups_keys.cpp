@@ -79,8 +79,8 @@ void restrict_targets_to_tags(const YamlNode& node, Group& group, ConfigDraft& d
   }
 }
 
-/// Removes all heads that have at least one of these tags from the group's targets, sources and
-/// bands.
+/// Reads the key `without` of a group, a list of tags. From the targets and sources of the group
+/// and of its bands, removes all heads that have at least one of these tags.
 void read_without(const YamlNode& node, Group& group, ConfigDraft& draft) {
   const auto tags = list(name(), "a list of tags, [old, bearded]").read(node, draft);
   if (!tags) return;

@@ -64,7 +64,8 @@ std::string objection_to_array(const fs::path& file) {
   if (shape->size() == 3 && shape->back() == 3 && shape->front() != 1) {
     return concat("it has ", shape->front(), " heads: save each head to its own file");
   }
-  // An array of 3 by n has its own message: the code that reads arrays asks for the transpose.
+  // Return no objection to an array of n by 3, which can be a head, nor to an array of 3 by n: the
+  // code that reads arrays later refuses an array of 3 by n, with a message that asks for n by 3.
   if (shape->size() >= 2 && (shape->back() == 3 || shape->front() == 3)) return {};
   std::string sizes;
   for (const std::size_t size : *shape) sizes += concat(sizes.empty() ? "" : " by ", size);
@@ -100,7 +101,8 @@ std::string left_out_message(const std::string& where, const std::vector<fs::pat
     others.resize(kNamed);
     others.emplace_back("…");
   }
-  // `to_read_all` proposes a pattern. A pattern does not help if no file has a format of heads.
+  // `to_read_all` advises the user to select the heads by a file name pattern. Leave this advice
+  // out if no file has a format that crowdface can read as a head.
   return concat(quoted(where), ": left out ", count == 1 ? "is " : "are ", join(others), " (",
                 count, ")",
                 has_heads       ? to_read_all

@@ -147,8 +147,8 @@ std::string add_missing_keys(std::string text, const Review& review, const Revie
 }
 
 /// Adds a review file to the config, unless the file is a copy of an earlier review file. The
-/// config stores the text of the review. If the file lacks one of these values, adds the value to
-/// the stored text:
+/// config stores the text of the review file. The stored text always has the following two values;
+/// if the file lacks a value, the value is added to the stored text:
 ///
 /// - the number of faces that were reviewed;
 /// - for a review in the crowd's folder, the minimum distance that the crowd had before the config

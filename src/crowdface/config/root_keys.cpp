@@ -123,7 +123,8 @@ const Keys<Plane>& plane_keys() {
   return keys;
 }
 
-/// Adds a complaint about `layout: manual` if a head has no anchor.
+/// Checks the section `plane`. If the section has `layout: manual`, it must give every head an
+/// anchor; adds a complaint if any head has none.
 void check_plane(const YamlNode& node, bool is_valid, ConfigDraft& draft) {
   const Config& config = draft.config;
   if (config.plane.layout != Layout::kManual || !draft.are_heads_known || !is_valid) return;

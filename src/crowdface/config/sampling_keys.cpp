@@ -16,10 +16,10 @@ constexpr std::uint64_t kMaxSources = 50;
 using Names = std::vector<std::string>;
 using Kind = PositionDistribution::Kind;
 
-/// A value of a config that may differ between regions.
+/// The value of one config key, if the value may differ between regions.
 struct PerRegion {
   std::optional<YamlNode> whole;  ///< value of all regions that `of_region` does not contain
-  /// regions with their own values, as pairs of index and value
+  /// for each region that has its own value: index of the region, and the value
   std::vector<std::pair<std::size_t, const YamlNode*>> of_region;
 };
 
@@ -27,7 +27,8 @@ struct PerRegion {
 ///
 /// - `V`: the value V of all regions;
 /// - `{default: V, top: W}`: the value W of the region `top`, and the value V of all other regions;
-/// - `{distribution: uniform, top: W}`: the same, if V is the mapping `{distribution: uniform}`.
+/// - `{distribution: uniform, top: W}`: the value W of the region `top`, and the mapping V =
+///   `{distribution: uniform}` as the value of all other regions.
 ///
 /// If a region and a parameter have the same name, an entry with this name belongs to the region if
 /// the entry's value is a mapping, and otherwise to the parameter.
@@ -132,7 +133,8 @@ const Keys<PositionDistribution>& position_keys() {
   return keys;
 }
 
-/// The keys that a position with one kind of distribution may have.
+/// The keys that the config may use to describe the distribution of a position on the weight plane,
+/// if the distribution is of the kind `kind`.
 struct KindKeys {
   Kind kind;
   Names keys;

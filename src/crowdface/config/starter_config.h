@@ -23,7 +23,8 @@ struct StarterFacts {
   Eigen::Index vertex_count = 0;  ///< number of vertices of each head
   Axis up = {1, 1};               ///< direction from chin to crown
   Axis front = {2, 1};            ///< direction in which the faces look
-  /// true if some heads are rotated or shifted relative to the other heads
+  /// whether the written config has `align: rigid`, because some heads are rotated or shifted
+  /// relative to the other heads
   bool uses_rigid_alignment = false;
   std::string crowd_name = "crowd";
   std::string mask_file;  ///< region mask, relative to the config's folder; empty: none

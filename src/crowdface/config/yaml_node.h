@@ -23,11 +23,11 @@ struct YamlEntry;
 /// location. (yaml-cpp's own nodes silently keep the first of two equal keys and read 010 as 8.)
 struct YamlNode {
   enum class Kind {
-    kNothing,  ///< no value, `~` or `null`
+    kNothing,  ///< the node has no value, or the value `~` or `null`
     kScalar,
     kList,
     kMap,
-    kRefused,  ///< not usable; a complaint about the node has been added
+    kRefused,  ///< the node cannot be used; a complaint about it has been added
   };
   Kind kind = Kind::kNothing;
   YamlPlace place;

@@ -41,9 +41,10 @@ FileDigest hash_file(const std::filesystem::path& path);
 /// Whether the file at `path` has this size and hash. Returns false if the file cannot be read.
 bool has_content(const std::filesystem::path& path, const FileDigest& content);
 
-/// After this call, each new MappedFile maps its file instead of copying it, and a SIGBUS handler
-/// deals with files that are truncated while mapped. Call this function at program start: the
-/// handler applies to the whole process. A SIGBUS handler that is already installed stays in place.
+/// After this call, each new MappedFile maps its file into memory instead of copying it. Installs a
+/// SIGBUS handler for the whole process, which applies OnTruncation if a mapped file is truncated.
+/// If the process already has a SIGBUS handler, keeps that handler instead. Call this function at
+/// program start.
 void watch_mapped_files();
 
 /// What to do when this program reads a mapped file that another program has truncated.

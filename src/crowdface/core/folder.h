@@ -18,7 +18,8 @@ namespace crowdface {
 std::vector<std::filesystem::path> list_folder(const std::filesystem::path& folder,
                                                std::error_code* error = nullptr);
 
-/// The entries of a folder for which `is_wanted` is true. \throws IoError like list_folder.
+/// Like list_folder, but returns only the entries for which `is_wanted` is true. \throws IoError
+/// like list_folder.
 std::vector<std::filesystem::path> list_files(
     const std::filesystem::path& folder,
     const std::function<bool(const std::filesystem::path&)>& is_wanted,
@@ -43,7 +44,8 @@ bool is_inside_folder(const std::filesystem::path& path, const std::filesystem::
 /// detected.
 class DirectoryHandle {
  public:
-  /// \throws CannotCreate if the folder cannot be opened.
+  /// \throws CannotCreate if the folder cannot be opened, because then no output can be created in
+  /// it.
   explicit DirectoryHandle(const std::filesystem::path& folder);
   /// Checks that the path still leads to the directory that this object opened: nobody has moved or
   /// replaced the directory.

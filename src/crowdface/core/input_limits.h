@@ -10,13 +10,15 @@ namespace crowdface {
 /// Maximum sizes of inputs. A larger input is rejected before its memory is allocated, so that a
 /// hostile or broken file causes an error message instead of exhausting the machine.
 struct InputLimits {
-  std::uint64_t vertices = 1ULL << 26U;      ///< number of vertices of a mesh
-  std::uint64_t faces = 1ULL << 26U;         ///< number of polygons of a mesh
-  std::uint64_t image_pixels = 1ULL << 28U;  ///< width times height of a mask or texture
-  std::uint64_t image_bytes = 1ULL << 32U;   ///< memory for the pixels of all images together
-  std::uint64_t textures = 1000;             ///< number of textures of one head
-  std::uint64_t yaml_bytes = 1ULL << 20U;    ///< size of a config or review file
-  /// nesting depth of lists and mappings in a config or review file
+  std::uint64_t vertices = 1ULL << 26U;  ///< largest number of vertices of a mesh
+  std::uint64_t faces = 1ULL << 26U;     ///< largest number of polygons (faces) of a mesh
+  /// largest product of width and height of a mask or texture
+  std::uint64_t image_pixels = 1ULL << 28U;
+  /// largest memory for the pixels of all images together, in bytes
+  std::uint64_t image_bytes = 1ULL << 32U;
+  std::uint64_t textures = 1000;           ///< largest number of textures of one head
+  std::uint64_t yaml_bytes = 1ULL << 20U;  ///< largest size of a config or review file, in bytes
+  /// largest nesting depth of lists and mappings in a config or review file
   std::uint64_t yaml_depth = 64;
 };
 

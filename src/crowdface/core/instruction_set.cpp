@@ -32,8 +32,8 @@ std::vector<std::string> instruction_sets() {
 
 void use_instruction_set(std::string_view name) {
   for (const Known& known : kKnown) {
-    // Highway chooses the best target whose bit is set, or the portable target if no bit fits this
-    // processor.
+    // Set the mask of allowed targets to the one bit `known.target`. Highway then chooses this
+    // target, or the portable target if the bit fits no target that this processor supports.
     if (known.name == name && is_here(known)) return hwy::GetChosenTarget().Update(known.target);
   }
   throw UsageError(concat("expected an instruction set of this machine (", join(instruction_sets()),

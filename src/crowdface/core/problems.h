@@ -20,8 +20,9 @@ class Problems {
   std::size_t size() const { return messages_.size(); }
   const std::vector<std::string>& messages() const { return messages_; }
 
-  /// The exit code of the collected errors: the first of 64, 66 and 65 that occurs, or else the
-  /// code of the first error. Returns 0 if there is no error.
+  /// Returns one exit code for all collected errors. If any error has the code 64, returns 64;
+  /// otherwise 66 if any error has this code; otherwise 65 if any error has this code; otherwise
+  /// the code of the error that was added first. Returns 0 if there is no error.
   ExitCode code() const;
 
   /// \throws RecoverableError with all messages, one per line, if there are any.

@@ -15,7 +15,7 @@ namespace crowdface {
 
 /// A function that returns the current time, as seconds since an arbitrary fixed time.
 using SecondsClock = std::function<double()>;
-/// A clock that changes of the system time do not affect.
+/// Returns a clock that is not affected if somebody changes the system time.
 SecondsClock steady_seconds_clock();
 
 /// Estimates how many steps a stage makes per second, from the second half of the time since the
@@ -83,11 +83,12 @@ class Progress {
   std::string stage_;
   std::size_t total_steps_;
   SecondsClock clock_;
-  double start_seconds_;  ///< time of the construction on `clock_`
+  double start_seconds_;  ///< time, measured by `clock_`, at which this object was constructed
   std::atomic<std::size_t> finished_steps_{0};
   mutable std::mutex mutex_;
   StepRate rate_;  ///< estimates the steps per second; guarded by mutex_
-  /// time of the last output on `clock_`; start_seconds_ before the first output
+  /// Time of the last output, measured by `clock_`. Before the first output, the value is
+  /// `start_seconds_`.
   double last_shown_seconds_;
   bool has_shown_ = false;  ///< whether `show` has written a line
 };

@@ -39,9 +39,11 @@ double random_between(const RandomKey& key, double low, double high) {
 }
 
 double random_stratified(const RandomKey& key, std::uint64_t strata) {
-  // A run is the sequence of the indices k·strata, …, k·strata + strata − 1 for one k. The indices
-  // of a run visit each interval once, in cyclic order. The first interval and the cyclic direction
-  // are random; lane kStrataLane gives these two random numbers.
+  // [0, 1) is divided into `strata` equal intervals. A run is the sequence of the indices k·strata,
+  // …, k·strata + strata − 1 for one k. Each index of a run gets a number in a different interval:
+  // the first index in a random interval, and each further index in the next interval or, in half
+  // of the runs, in the previous interval. The lane kStrataLane gives the two random numbers that
+  // determine this order.
   constexpr std::uint32_t kStrataLane = 0x5A17;
   const RandomKey run{key.seed, key.index / strata, key.purpose, key.attempt};
   const auto [place, direction] = random_pair(run, kStrataLane);

@@ -19,16 +19,16 @@ using TextSink = std::function<void(std::string_view)>;
 /// same text. Objects that the function captures by reference must outlive it.
 using TextPieces = std::function<void(const TextSink& take)>;
 
-/// Makes a text by concatenating `item(0)` … `item(count − 1)`. Several threads call `item`. The
-/// returned function throws Interrupted after a signal.
+/// Makes a text by concatenating `item(0)` … `item(count − 1)`. Several threads call `item`. A
+/// TextPieces is a function: the returned text throws Interrupted if it is called after a signal.
 TextPieces text_of_items(std::size_t count, std::function<std::string(std::size_t)> item);
 
 /// Returns the whole text as one string.
 std::string whole_text(const TextPieces& text);
 /// Returns the size and the hash of the text.
 FileDigest digest_of(const TextPieces& text);
-/// Writes the whole text to a file atomically, like `write_file`. \return size and hash of the
-/// file.
+/// Writes the whole text to a file atomically, like the function `write_file` for a text in memory
+/// (core/file.h). \return size and hash of the file.
 FileDigest write_file(const std::filesystem::path& path, const TextPieces& text);
 
 /// Reads a file in pieces, from start to end. \throws MissingInput, IoError like read_file.

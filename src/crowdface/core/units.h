@@ -44,8 +44,9 @@ std::optional<LengthUnit> parse_length_unit(std::string_view text);
 /// The unit among `units` for which `length` units are closest to `typical_mm` (ratio closest to
 /// 1).
 LengthUnit nearest_unit(double length, double typical_mm, std::span<const LengthUnit> units);
-/// The unit for which `length` units equal `typical_mm`, with two significant digits; Poser's unit
-/// (243.84 cm) if it fits within 10 %.
+/// Returns a unit such that a length of `length` units is about `typical_mm` millimetres. Rounds
+/// the unit to two significant digits. If the unit differs from Poser's unit (243.84 cm) by at most
+/// 10 %, returns Poser's unit.
 LengthUnit fitting_unit(double length, double typical_mm);
 /// Parses a length with its unit, such as "8 mm" or "1.5cm". Returns millimetres; nothing if the
 /// text is not a length.

@@ -184,8 +184,8 @@ bool holds_other_files(const CrowdDirectory& directory, const std::string& effec
                          std::ranges::any_of(crowd_folders(directory), [](const fs::path& folder) {
                            return !list_folder(folder).empty();
                          });
-  // Check again: another shard may have begun in the meantime. A shard writes config.yaml before
-  // its other files.
+  // Check again whether config.yaml exists: another shard of the same crowd may have begun in the
+  // meantime. A shard writes config.yaml before its other files.
   return holds_any && !path_exists(directory.config());
 }
 

@@ -65,8 +65,8 @@ struct CrowdDirectory {
   }
   /// Folder with the scripts and logs of the tasks that run on other machines.
   std::filesystem::path cluster_task_folder() const { return root / "submit"; }
-  /// The log, ledger and lock of a shard. If the shard is the whole crowd: the log, ledger and lock
-  /// of the crowd.
+  // The next three functions return the path of a shard's own log, ledger or lock. If the shard is
+  // the whole crowd, they return the path of the crowd's log, ledger or lock.
   std::filesystem::path log(const Shard& shard) const { return shard_path(log(), shard); }
   std::filesystem::path ledger(const Shard& shard) const { return shard_path(ledger(), shard); }
   std::filesystem::path lock(const Shard& shard) const { return shard_path(lock(), shard); }

@@ -27,7 +27,8 @@ Json band_to_json(const BandRecipe& band, const PlanNames& names) {
 }
 
 /// Converts the recipe of a region to a JSON object. Stores the values of the first band directly
-/// in this object, and the values of each further band under `bands` and the band's name.
+/// in this object. Stores the values of each further band in the member `bands`, an object whose
+/// keys are the names of the bands.
 Json region_to_json(const RegionRecipe& region, const PlanNames& names) {
   Json json = band_to_json(region, names);
   for (const SourceWeight& part : region.colours) {

@@ -147,8 +147,9 @@ class Ledger {
   /// the ledgers of other runs, which this object only reads
   std::vector<std::filesystem::path> other_ledgers_;
   std::map<std::string, Item> items_;  ///< all items; the key is the name of the item
-  /// Files that an earlier line of a finished item lists, but that the item's finished entry does
-  /// not list. `compact` removes such a file unless the finished entry of another item lists it.
+  /// Old files of items that were made again. When an item is finished, its new ledger line may
+  /// lack files that an older line of the same item lists; these files are stored here. `compact`
+  /// removes such a file, unless the new line of another item lists the file.
   std::vector<LedgerEntry::File> replaced_files_;
   bool has_appended_ = false;         ///< whether this run has appended lines
   std::mutex mutex_;                  ///< guards items_, replaced_files_ and has_appended_

@@ -11,10 +11,15 @@
 
 namespace crowdface {
 
-/// The similarities of faces, and the heads' positions on the weight plane, for sheets and gallery.
+/// The data about a crowd that sheets and gallery need to sort faces: which faces are similar, and
+/// the anchors of the heads. (Each head has an anchor, a point on the weight plane; the distances
+/// of a face's position from the anchors determine the weights with which the heads are blended.)
 struct CrowdLikeness {
-  std::vector<PlanePoint> anchors;  ///< one per head: its position on the weight plane
-  Likeness likeness;                ///< the nearest faces of each face, and an order of the faces
+  /// one per head: the head's anchor, a point on the weight plane
+  std::vector<PlanePoint> anchors;
+  /// for each face, the faces nearest to it; and an order of all faces in which consecutive faces
+  /// look alike
+  Likeness likeness;
 };
 
 /// Computes the CrowdLikeness of a crowd that was just cast. Rounds distances to four decimals, as

@@ -18,7 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// a sum of shares or weights that a user wrote by hand may miss its limit by kRounding
+/// Tolerance for shares or weights that a user wrote by hand: their sum may exceed 1, or differ
+/// from a required sum of 1, by at most kRounding.
 constexpr double kRounding = 1e-6;
 
 /// Reads the fields of one line of a plan. Errors name the file, the line and the field.

@@ -38,12 +38,13 @@ std::vector<std::filesystem::path> existing_shard_paths(const std::filesystem::p
 
 /// The state of a shard, according to its latest run.
 enum class ShardState {
-  kWaiting,  ///< no run has begun
-  /// working, or killed without notice: only the time since the last write tells which
+  kWaiting,  ///< no run of the shard has begun
+  /// the latest run is working, or was killed without notice: only the time since its last write
+  /// tells which
   kWorking,
   kDone,         ///< all faces of the shard are done
-  kInterrupted,  ///< stopped by a signal; the next run continues the shard
-  kFailed
+  kInterrupted,  ///< a signal stopped the latest run; the next run continues the shard
+  kFailed        ///< the latest run ended with an error
 };
 /// The state's name in files and messages, such as "waiting".
 std::string_view name_of(ShardState state);

@@ -11,11 +11,13 @@ namespace crowdface {
 /// Result of comparing a crowd's folder with its ledger. All lists are empty if no file has changed
 /// since the crowd was written.
 struct CrowdCheck {
-  std::size_t file_count = 0;              ///< number of files in the ledger
-  std::vector<std::string> missing_files;  ///< missing files, relative to the folder
-  std::vector<std::string> altered_files;  ///< files whose content differs from the ledger
-  /// items that no ledger lists: ids of planned faces, and the names of the plan file and the
-  /// report file
+  std::size_t file_count = 0;  ///< number of files in the ledger
+  /// paths of files that are missing, relative to the crowd's folder
+  std::vector<std::string> missing_files;
+  /// paths of files whose content differs from the ledger, relative to the crowd's folder
+  std::vector<std::string> altered_files;
+  /// Items that are not finished, because no ledger lists them. An item is the id of a planned
+  /// face, or the name of the plan file or of the report file.
   std::vector<std::string> unfinished_items;
   /// messages about damaged or incomplete ledgers, and about shards that were not gathered
   std::vector<std::string> remarks;

@@ -73,7 +73,7 @@ class EditApi {
   /// \throws UsageError while `crowdface generate` is running.
   void require_no_run();
 
-  /// Reads the bands that a key in the body of a request lists.
+  /// Reads a list of bands from the value that the body of a request has at `key`.
   /// \return band indices as in ReviewMark::locked_bands
   /// \throws UsageError with the name of the key if the value is not valid.
   std::vector<std::size_t> bands_in(const Json& body, const std::string& key) const;

@@ -14,8 +14,9 @@ namespace {
 
 using Change = std::function<void(Recipe& recipe, double fraction)>;
 
-/// Sets the position of a region on the plane to a point between two heads' anchors. Sets the
-/// region's weights accordingly.
+/// Moves a region on the weight plane, as a user does by dragging the region's controller: sets the
+/// region's position to a point between the anchors of two heads, and sets the heads' weights in
+/// the region that belong to this position.
 void set_region_position(const CastingOptions& casting, Recipe& recipe, std::size_t region,
                          double share) {
   const std::vector<PlanePoint>& anchors = casting.anchors;

@@ -35,8 +35,8 @@ Job load_edited_job(const std::filesystem::path& config_or_crowd, ConfigOverride
 /// The distances, measurements and warnings that the editor shows for a face.
 struct FaceMeasures {
   Index nearest_head = 0;  ///< index of the nearest input head
-  /// Distance to `nearest_head`: the smaller of the distances of two faces, one with the recipe's
-  /// extrapolation factors and one with all extrapolation factors set to 1.
+  /// Distance from the measured face to `nearest_head`. This is the smaller of two distances: with
+  /// the recipe's extrapolation factors, and with all extrapolation factors set to 1.
   double nearest_head_distance_mm = 0;
   /// distance of the finished face, with the extrapolation factors of its recipe, to `nearest_head`
   double nearest_head_distance_with_extrapolation_mm = 0;
@@ -71,7 +71,7 @@ class EditSession {
   /// The faces of the plan in the job's output folder; null if there is no plan or if the plan was
   /// made with other settings.
   const std::vector<FacePlan>* crowd() const { return crowd_ ? &*crowd_ : nullptr; }
-  /// The mesh with fewer triangles that the page shows.
+  /// The mesh that the page shows. It has fewer triangles than the mesh of a face.
   const PreviewMesh& preview() const { return preview_; }
   /// The atlas with the heads' textures. The preview's texture coordinates refer to this atlas.
   const TextureAtlas& textures() const { return textures_; }
@@ -101,35 +101,40 @@ class EditSession {
   /// such as the gap between the lips.
   /// \param opened_id  id of the crowd's face from which the edit began, or empty
   FaceMeasures measure(const FacePlan& recipe, const std::string& opened_id = "") const;
-  /// Like the other overload, but also checks the gaps of the mesh.
-  /// \param face  result of `build`
+  /// Measures a face like the other overload, but also checks, on the face's mesh, gaps between
+  /// parts of the skin, such as the gap between the lips.
+  /// \param face  all vertex positions of the face, from `build`
   FaceMeasures measure(const FacePlan& recipe, const Positions& face,
                        const std::string& opened_id = "") const;
   /// Finds visible faults in the whole mesh of a face; see MeshFaults.
-  /// \param face  result of `build`
+  /// \param face  all vertex positions of the face, from `build`
   std::vector<std::string> mesh_faults(const Recipe& recipe, const Positions& face) const {
     return faults_.faults_of(recipe, face);
   }
   /// Root mean square distance between two faces, in mm.
   double distance_mm(const FacePlan& one, const FacePlan& other) const;
-  /// Changes the weights of a face so that a measurement comes as near to `wanted` as the heads
-  /// allow; see steer_trait. Returns the changed face.
-  /// \param locked_bands  bands that do not change, as in SampleRequest
+  /// Changes the weights with which a face is blended from the heads, so that the measurement
+  /// `trait` comes as near to the value `wanted` as the heads allow; see steer_trait. Returns the
+  /// changed face.
+  /// \param locked_bands  bands of detail whose weights do not change, indexed as in
+  ///                      SampleRequest::locked_bands
   /// \throws UsageError if the measurement is not available, or if the config has
-  ///         Normalization::kPrinted, which only allows weights given by a position on the plane.
+  ///         Normalization::kPrinted. (With kPrinted, a face cannot have weights of its own: a
+  ///         position on the weight plane determines the weights.)
   FacePlan steer(FacePlan face, const std::string& trait, double wanted,
                  const std::vector<std::size_t>& locked_bands) const;
-  /// Samples faces for the user to choose from; see the function sample_faces.
+  /// Samples random faces, from which the user chooses one. Calls the free function `sample_faces`
+  /// of editor/sample_faces.h.
   std::vector<FacePlan> sample_faces(const SampleRequest& request) const;
   /// Unit normals of the full-resolution mesh at the preview's vertices: three numbers for each
   /// preview vertex.
-  /// \param face  result of `build`
+  /// \param face  all vertex positions of the face, from `build`
   std::vector<float> preview_normals(const Positions& face) const;
   /// Roughness of a face at the preview's vertices, 0 … 255 for the range 0 … 1; empty if there is
   /// no roughness map.
   std::vector<std::uint8_t> preview_roughness(const TextureSet& texture_set) const;
   /// Positions of the preview's vertices on a face: three numbers for each preview vertex.
-  /// \param face  result of `build`
+  /// \param face  all vertex positions of the face, from `build`
   std::vector<float> preview_points(const Positions& face) const;
 
  private:
@@ -153,7 +158,8 @@ class EditSession {
   /// The face that the page shows first: the first face of the crowd. If there is no crowd, all
   /// regions are at the first head's anchor.
   FacePlan first_face() const;
-  /// For each head: the displacement fields from which the page computes smoothed shapes.
+  /// Returns for each head the data from which the page computes the head's shape at any smoothing
+  /// level: displacement fields and their level functions.
   std::vector<HeadSmoothing> preview_levels() const;
 
   Job job_;  ///< the config, the input heads with their textures, and the smoothing operator

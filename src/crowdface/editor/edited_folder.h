@@ -76,7 +76,8 @@ class EditedFolder {
   std::filesystem::path path_;
   DirectoryHandle handle_;  ///< detects whether another folder has replaced this folder
   std::mutex mutex_;
-  /// id of the only page that may save the state; empty: no page called set_only_saving_page
+  /// id of the only page that may save the state; empty if no page has called
+  /// `set_only_saving_page`
   std::string editing_page_id_;
 };
 

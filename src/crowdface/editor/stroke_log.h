@@ -16,10 +16,11 @@ namespace crowdface {
 /// masks are saved. The strokes therefore survive the end of the editor.
 class StrokeLog {
  public:
-  /// Reads the strokes of an earlier editor that painted on the same masks; ignores an incomplete
-  /// last line.
-  /// \param preview_digest  hash of the masks and of the preview. Strokes that were painted on
-  ///                        other masks are discarded with a log message.
+  /// Reads the strokes that an earlier session of the editor stored in `file`. Ignores an
+  /// incomplete last line.
+  /// \param preview_digest  hash of the masks and of the preview mesh that the new session paints
+  ///                        on. If the stored strokes were painted on other masks, they are
+  ///                        discarded with a log message.
   StrokeLog(std::filesystem::path file, const Digest& preview_digest);
 
   /// All stored strokes and undo steps, oldest first.

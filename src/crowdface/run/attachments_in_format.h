@@ -68,8 +68,8 @@ class AttachmentsInFormat {
     for (const auto& [kind, most] : max_bytes_by_kind) bytes += most;
     return bytes;
   }
-  /// Like the function above, for a format in which exactly one file of a face contains each
-  /// attachment.
+  /// Like the overload with `files`, but for a format in which each attachment of a face is
+  /// contained in exactly one of the face's files.
   std::size_t encoding_memory_bytes() const {
     return encoding_memory_bytes([](const Attachment&) { return 1U; });
   }
@@ -82,7 +82,8 @@ class AttachmentsInFormat {
 /// equal for all faces.
 template <class Mesh, class Part>
 struct MeshWithAttachments {
-  Mesh mesh;                        ///< the faces' topology, texture coordinates and materials
+  /// the data that the meshes of all faces have in common: topology, texture coordinates, materials
+  Mesh mesh;
   AttachmentsInFormat<Part> parts;  ///< the attachments
 
   /// Memory of the mesh and the attachments, in bytes.

@@ -41,7 +41,7 @@ std::vector<PlanePoint> lay_out(const Config& config, const Eigen::MatrixXd& hea
       anchors = similarity_layout(head_distances);
       break;
     case Layout::kManual:
-      break;  // the config gives every head an anchor, see below
+      break;  // the config gives every head an anchor; the loop below sets these anchors
   }
   for (const auto& [head, anchor] : config.plane.anchors) {
     anchors[static_cast<std::size_t>(head)] = anchor;

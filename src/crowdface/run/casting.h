@@ -47,7 +47,8 @@ struct CrowdDistances {
   double face_to_head_median_ratio = 0;
 };
 
-/// Statistics of how similar the members of a family are.
+/// Statistics of one family: how similar the members are to each other, to the founder, to their
+/// parents and to other faces.
 struct FamilyReport {
   std::string name;
   std::uint64_t member_count = 0;

@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 
 /// Copies each file once: heads in one folder usually refer to the same files.
 class MaterialCopies {
-  /// A neutral texture, the hair colour with which to tint it, and the paths of the tinted copies.
+  /// A neutral texture, one hair colour, and the files to write. Each of these files gets the same
+  /// picture: the neutral texture, tinted with the hair colour.
   struct TintedTexture {
     fs::path neutral;
     HairColour colour;

@@ -66,9 +66,9 @@ std::optional<GlbOverlay> painted_eyes(const Config& config, const Inputs& input
   return overlay;
 }
 
-/// Returns, for each polygon, which image is the polygon's texture of this kind: an index into
-/// `held`, or kNoIndex if the polygon has no texture of this kind. Returns an empty list if no
-/// polygon has a texture of this kind.
+/// Returns for each polygon the image that is the polygon's texture of the kind `kind` (such as a
+/// colour or normal map). The image is given as an index into `held`; kNoIndex if the polygon has
+/// no such texture. Returns an empty list if no polygon has such a texture.
 /// \param held  the images of the GLB file
 std::vector<std::uint32_t> images_of(const std::vector<GlbPicture>& held, const Inputs& inputs,
                                      TextureKind kind) {

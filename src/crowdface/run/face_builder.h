@@ -106,8 +106,9 @@ class FaceBuilder {
   std::optional<SkinContacts> contacts_;
   /// #contacts by #regions: the region weights at each contact; each row sums to one
   std::vector<std::vector<double>> contact_masks_;
-  bool corrects_contacts_;  ///< whether `correct_contacts` corrects gaps
-  double mm_per_unit_;      ///< millimetres per unit of the mesh files
+  /// whether the function `correct_contacts` corrects gaps between skin surfaces, or does nothing
+  bool corrects_contacts_;
+  double mm_per_unit_;  ///< millimetres per unit of the mesh files
   /// moves eyes, teeth and other parts with the skin; empty if there is only skin
   std::optional<PartFollower> follower_;
 };

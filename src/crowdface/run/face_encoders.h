@@ -51,7 +51,7 @@ struct FinishedFace {
   /// images of the face and its gallery script; empty if the face is not rendered
   std::optional<FacePictures> pictures;
 
-  /// encode the mesh files of the face; null if no mesh files are written
+  /// the object that encodes the mesh files of the face; null if no mesh files are written
   const FaceEncoders* encoders = nullptr;
   // FaceEncoders::prepare computes the following members.
   Positions normals;  ///< #V vertex normals; no rows if no file contains normals
@@ -59,8 +59,9 @@ struct FinishedFace {
   Positions joints;   ///< positions of the rig's joints
   /// content of each image file of the face's textures, see FaceMesh::images
   std::vector<std::string_view> images;
-  std::vector<std::string> image_names;  ///< paths of these image files, see FaceMesh::image_names
-  /// The data of the face at one level of detail, which `meshes` refers to.
+  /// for each element of `images`: path of the image file, see FaceMesh::image_names
+  std::vector<std::string> image_names;
+  /// The data of the face at one level of detail. An element of `meshes` refers to these data.
   struct ReducedMesh {
     Positions positions, normals;
     ColourRows colours;
@@ -141,8 +142,9 @@ class FaceEncoders {
   std::vector<AttachmentsInFormat<MeshEncoder>> attachments_;
   /// encodes the faces' blended textures; empty if faces have none
   std::optional<FaceTextureEncoder> texture_encoder_;
-  /// Move the named points (`points_`) and the joints of the rig (`joints_`) with a face. `points_`
-  /// is empty if the inputs have no named points; `joints_` is empty if no file has a rig.
+  /// The objects that move the named points (`points_`) and the joints of the rig (`joints_`) with
+  /// a face. `points_` is empty if the inputs have no named points; `joints_` is empty if no file
+  /// has a rig.
   std::optional<PointCarrier> points_, joints_;
   /// the polygons around each vertex, for vertex normals; empty if no format needs normals
   std::optional<NormalFans> fans_;

@@ -25,8 +25,9 @@ struct FinishedFace;
 /// files.
 struct FaceFile {
   std::filesystem::path path;
-  /// Section and key under which report.json stores the file's hash, for example section "lods" and
-  /// key "LOD1.obj", or no section and key "mesh". Empty key: the report omits the hash.
+  /// Where report.json stores the file's hash: under `report_key` in the section `report_section`
+  /// of the face, such as "LOD1.obj" in "lods". Empty section: directly in the entry of the face,
+  /// such as under the key "mesh". Empty key: the report omits the hash.
   std::string report_section, report_key;
   /// Encodes the file. The result refers to the face and to the face's encoders.
   std::function<EncodedFile(const FinishedFace& face)> make;
@@ -37,7 +38,9 @@ struct MeshFileOptions {
   const std::vector<MeshFormat>& formats;  ///< formats of the mesh files
   std::filesystem::path folder;            ///< folder of the meshes
   std::string stem;                        ///< first part of the file names, such as the face's id
-  /// whether the face has files for levels of detail, blend shapes and named points
+  /// Whether the list contains, in addition to the whole mesh at rest, the files for levels of
+  /// detail, blend shapes, named points and the body's texture. If false, it contains none of these
+  /// files.
   bool includes_all_variants = true;
 };
 /// Lists the mesh files of a face, and the files of the face's attachments, textures and material.

@@ -17,9 +17,10 @@ struct FaceFinisher {
   const FaceTextures& textures;        ///< blends a face's textures
   const FaceAttachments& attachments;  ///< places attachments on a face
   const FaceShapes& shapes;            ///< transfers blend shapes to a face
-  /// encode the face's mesh files; null: no meshes are written
+  /// the object that encodes the face's mesh files; null: no meshes are written
   const FaceEncoders* encoders = nullptr;
-  const CrowdRenders* renders = nullptr;  ///< render the face; null: nothing is rendered
+  /// the object that renders images of the face; null: nothing is rendered
+  const CrowdRenders* renders = nullptr;
 
   /// Completes a blended face: adds shapes, attachments, textures and renders. The renders are the
   /// same whether the positions come from blending or from the face's mesh file. Thread-safe.

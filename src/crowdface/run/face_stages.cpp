@@ -24,9 +24,10 @@
 namespace crowdface {
 namespace {
 
-/// Maximum number of faces in one group, which is blended in one batch. The blender reads the
-/// heads' fields once for each group. Larger groups lose more time to memory allocation than they
-/// save in reading. Must be a multiple of the number of faces that one matrix product handles.
+/// Maximum number of faces in a group. All faces of a group are blended together, so that the
+/// blender reads the heads' fields once for each group. Larger groups lose more time to memory
+/// allocation than they save in reading. Must be a multiple of the number of faces that one matrix
+/// product handles.
 constexpr std::size_t kMaxAtOnce = 24;
 /// Memory for rendering, per vertex of a face: normals, projected quads, and the gallery's smaller
 /// mesh. Measured at 1.2 million vertices, with a margin.

@@ -62,7 +62,8 @@ class FaceStages {
   const FaceShapes& shapes_;            ///< transfers blend shapes to the faces
   /// finds defects in the skin of a face's whole mesh; empty if the config asks for no such check
   std::optional<SkinCheck> check_;
-  std::size_t faces_per_group_;  ///< number of faces that are blended in one batch
+  /// number of faces in a group; all faces of a group are blended together
+  std::size_t faces_per_group_;
   /// maximum total size, in bytes, of the encoded files that wait to be written
   std::uint64_t max_waiting_bytes_;
 };

@@ -14,8 +14,9 @@
 namespace crowdface {
 namespace {
 
-/// Returns, for each head, how far smoothing displaces some vertices at each stored smoothing level
-/// (the trajectories). Uses the same fitted or exact levels as blending.
+/// Returns for each head a trajectory: how far smoothing displaces the vertices `samples` at each
+/// of the levels that stored_smoothing_levels returns. Like blending, computes the smoothed
+/// positions exactly if `prepared` has a filter, otherwise from the fitted displacement fields.
 std::vector<Trajectory> trajectories_at(const Config& config, const Inputs& inputs,
                                         const PreparedHeads& prepared, const FaceSamples& samples) {
   const std::vector<std::uint64_t> levels = stored_smoothing_levels(inputs.max_level);

@@ -24,7 +24,7 @@ class FaceTraits {
   FaceTraits(const FaceTraits&) = delete;
   FaceTraits& operator=(const FaceTraits&) = delete;
 
-  /// Estimates the landmarks of candidate faces for casting.
+  /// The object with which casting estimates the landmarks and measurements of candidate faces.
   const FaceMeasurer& measurer() const { return *measurer_; }
   /// The measured traits, as indices into measurements().
   const std::vector<std::size_t>& trait_indices() const { return trait_indices_; }
@@ -36,7 +36,8 @@ class FaceTraits {
   /// the neck (kBent), or the mesh before it is moved and bent (kAsBlended). Casting measures
   /// kAsBlended, so that recipes do not depend on the body.
   enum class NeckState { kBent, kAsBlended };
-  /// Computes the positions that the landmarks have on the selected mesh of the face.
+  /// Computes the positions of the landmarks on a mesh of the recipe's face: on the written mesh,
+  /// or on the mesh before it is moved and bent. `neck` selects the mesh.
   Positions exact_landmarks(const Recipe& recipe, NeckState neck) const;
   /// Replaces the positions of the vertices `landmark_vertices_` by their positions on the mirrored
   /// face.

@@ -190,8 +190,8 @@ void log_dry_run(const Config& config, const Inputs* inputs) {
 
 /// What a run over a crowd does about missing faces.
 enum class Purpose {
-  kGenerate,  ///< build missing faces
-  kGather,    ///< fail if a face is missing
+  kGenerate,  ///< the run builds missing faces
+  kGather,    ///< the run fails if a face is missing
 };
 
 /// Maximum memory of the process, in bytes.

@@ -13,8 +13,12 @@ namespace crowdface {
 
 /// Where a run gets the plan of its faces.
 enum class PlanSource {
-  kFolderOrCasting,  ///< the folder's plan; the run casts if the folder has no plan of this job
-  kFolder,           ///< the folder's plan; the run fails if the folder has no plan of this job
+  /// the run uses the plan in the crowd's folder; if the folder has no plan of this job, the run
+  /// casts
+  kFolderOrCasting,
+  /// the run uses the plan in the crowd's folder; if the folder has no plan of this job, the run
+  /// fails
+  kFolder,
 };
 
 struct GenerateOptions {
@@ -42,8 +46,8 @@ void generate(const Config& config, const GenerateOptions& options);
 /// \throws MissingInput that names missing or altered faces.
 void gather(const std::filesystem::path& crowd_directory, const std::filesystem::path& cache);
 
-/// Only casts the crowd: writes config.yaml, plan.jsonl and crowd.csv into the crowd's folder. The
-/// second function takes a config object instead of a config file.
+/// Casts a crowd without building faces: writes config.yaml, plan.jsonl and crowd.csv into the
+/// crowd's folder. The overloads take the name of a config file, or a config.
 void plan(const std::filesystem::path& config_file, const ConfigOverrides& overrides,
           const GenerateOptions& options);
 void plan(const Config& config, const GenerateOptions& options);

@@ -17,9 +17,9 @@
 
 namespace crowdface {
 
-/// Measures how much of a face's irises hair covers, as seen from the front. Measures only
-/// attachments of the kind "hair" that come near an eye on the head for which they were made. The
-/// heads need eyeballs as separate parts. Not thread-safe.
+/// Measures the fraction of an iris that is covered by hair, as seen from the front of the face.
+/// Measures only attachments of the kind "hair" that come near an eye on the head for which they
+/// were made. The heads need eyeballs as separate parts. Not thread-safe.
 class IrisCover {
  public:
   /// Casting lets no face wear a haircut that covers a larger fraction of an iris.

@@ -82,8 +82,9 @@ void check_sampling(const SamplingOptions& sampling, const std::string& where, c
   }
 }
 
-/// Warns about each band that begins at 0 smoothing iterations in every region, and therefore
-/// contains no detail.
+/// Returns a warning about each band without detail. A band contains the detail that smoothing with
+/// its number of iterations removes, down to the next finer band. So a band has no detail if its
+/// number of iterations is 0 in every region.
 std::vector<std::string> empty_bands(const SamplingOptions& sampling, const Config& config,
                                      const Inputs& inputs) {
   std::vector<std::string> warnings;
@@ -144,8 +145,9 @@ Config with_kept_distances(Config config, const std::string& before) {
 }
 
 /// Completes a config with facts about the crowd that exists in the output folder: the number of
-/// existing faces, the minimum distances of these faces, and whether there are numbered subfolders.
-/// A new crowd gets subfolders if it is large.
+/// existing faces, the smallest allowed distances between faces with which these faces were cast,
+/// and the number of faces in each numbered subfolder. If there is no such crowd, a large crowd
+/// gets numbered subfolders.
 /// \param replaced  whether the run casts the crowd again (`--force`).
 void continue_crowd(Config& config, bool replaced) {
   const CrowdDirectory directory{config.output.directory};

@@ -22,8 +22,9 @@
 
 namespace crowdface {
 
-/// Empty values for members of FaceMesh that a face does not have.
+/// The value of a FaceMesh member such as `normals` if the mesh lacks these positions.
 inline const Positions kNoPositions;
+/// The value of FaceMesh::colours if the mesh has no vertex colours.
 inline const ColourRows kNoColours;
 
 /// The mesh of a face with all data that a file may contain. The mesh is at rest or in a blend

@@ -14,9 +14,10 @@
 namespace crowdface {
 namespace {
 
-/// Fifteen viewing directions: five horizontal directions from the left over the front to the
-/// right, each from below, level and from above.
-ViewSetup viewing_of(const Config& config) {
+/// Returns the fifteen directions from which defects of a mesh are looked for: all combinations of
+/// five horizontal angles (from the left over the front to the right) and three heights (from
+/// below, level, from above).
+ViewSetup viewing_directions(const Config& config) {
   const HeadAxes axes = head_axes(config);
   ViewSetup view_setup{{}, mm_per(config.faces.units)};
   for (const double aside : {-1.5, -0.6, 0.0, 0.6, 1.5}) {
@@ -40,7 +41,7 @@ bool skin_is_judged(const Config& config, const Inputs& inputs) {
 
 SkinCheck skin_check(const Config& config, const Inputs& inputs, const std::set<Index>& targets) {
   return {inputs.head_set.topology, inputs.skin_components, inputs.head_set.heads, targets,
-          viewing_of(config)};
+          viewing_directions(config)};
 }
 
 ProtrudingPartsCheck protruding_parts_check(const Config& config, const Inputs& inputs) {
@@ -58,7 +59,7 @@ ProtrudingPartsCheck protruding_parts_check(const Config& config, const Inputs& 
                          [&](std::uint32_t of) { return kinds.empty() || seen.contains(of); });
   }
   return {inputs.head_set.topology, inputs.skin_components, components, mean_head(inputs.head_set),
-          viewing_of(config)};
+          viewing_directions(config)};
 }
 
 bool casting_builds_candidate_meshes(const Config& config) {

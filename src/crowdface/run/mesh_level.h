@@ -25,8 +25,8 @@ struct MeshLevel {
   std::size_t level_number = 0;  ///< number of the level of detail; 0 is the whole mesh
   /// the reduced mesh that faces have at this level; null: the whole mesh
   const DetailLevel* face_level = nullptr;
-  /// the reduced form of each attachment that any face wears, and of the body; empty for the whole
-  /// mesh
+  /// The reduced mesh of each attachment that any face wears. If files contain the body, the body
+  /// is one of these attachments. Empty at level 0, where nothing is reduced.
   std::map<const Attachment*, DetailLevel> attachments;
   const Attachment* body = nullptr;  ///< the body; null if files do not contain the body
 
@@ -64,8 +64,8 @@ std::vector<T> select_rows(const std::vector<T>& whole, std::span<const std::uin
   for (const std::uint32_t row : rows) selected.push_back(whole[row]);
   return selected;
 }
-/// Like the function above, with several values for each polygon or vertex. Returns an empty result
-/// if `whole` is empty.
+/// Like the other overload of select_rows, but with several values for each polygon or vertex.
+/// Returns an empty result if `whole` is empty.
 template <class T>
 CompressedRows<T> select_rows(const CompressedRows<T>& whole, std::span<const std::uint32_t> rows) {
   CompressedRows<T> selected;

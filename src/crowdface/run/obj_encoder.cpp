@@ -117,8 +117,10 @@ MeshEncoder whole_encoder(const MeshSource& source) {
       memory, encode};
 }
 
-/// Returns the encoder for a level of detail: plain OBJ files that do not copy the text of the
-/// target head's file. Target heads with the same materials share a template.
+/// Returns the encoder that writes the OBJ files of faces at a level of detail. It writes these
+/// files from scratch. (The OBJ file of a whole mesh is a copy of the target head's file with other
+/// positions.) Target heads with the same materials share one PlainObjTemplate, which holds the
+/// text that is equal for all faces.
 MeshEncoder level_encoder(const MeshSource& source, const DetailLevel& level) {
   struct LevelTemplates {
     std::vector<PlainObjTemplate> obj;

@@ -81,7 +81,8 @@ class OverriddenPlan {
     return worn;
   }
 
-  /// Whether the tags of a face's typical head allow any attachment of this kind, name or colour.
+  /// Whether the face may wear any attachment whose kind, name or colour is `word`. The tags of the
+  /// face's typical head (see typical_head) decide this.
   bool may_wear_any(const std::string& word, const FacePlan& face) const {
     const auto head = static_cast<std::size_t>(typical_head(face.recipe, config_.faces.tags));
     return std::ranges::any_of(config_.attachments.items, [&](const AttachmentEntry& item) {

@@ -147,9 +147,11 @@ void ScarcityWarning::on_face_accepted(const RejectionCounts& rejected) {
   const std::uint64_t too_near = rejected.of(RejectionReason::kMinDistance);
   const auto round =
       static_cast<std::uint64_t>(casting_.diversity.candidate_count(cast_face_count_));
-  // Casting finds candidates in rounds of `round` candidates each. In all rounds before the last,
-  // every candidate was too near to a face of the crowd. Casting accepted a candidate of the last
-  // round.
+  // Tell the forecast how many candidates for this face were too near to a face of the crowd, and
+  // how many were far enough. Casting generates candidates in rounds of `round` candidates each. In
+  // all rounds before the last round, every candidate was too near. So the remainder of `too_near`
+  // divided by `round` is the number of candidates of the last round that were too near; all other
+  // candidates of the last round were far enough.
   forecast_.add(too_near, round - too_near % round);
   const auto faces = forecast_.estimated_face_count();
   const auto attempts = static_cast<std::uint64_t>(casting_.diversity.max_attempts);

@@ -12,9 +12,11 @@
 namespace crowdface {
 namespace {
 
-/// Places the faces in rows, in the coordinate axes of the stage (the USD layer of the crowd).
+/// Places the faces in a grid of rows and columns, in the coordinate axes of the stage (the USD
+/// layer of the crowd).
 struct Rows {
-  Eigen::Vector3d side, back;  ///< offsets to the next column and to the next row
+  /// offsets from a face to the face in the next column, and to the face in the next row
+  Eigen::Vector3d side, back;
   std::size_t columns = 1;
 
   Eigen::Vector3d place(std::size_t face) const {

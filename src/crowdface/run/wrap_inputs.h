@@ -73,7 +73,8 @@ LengthUnit parse_unit(const std::string& option, const std::string& text);
 std::vector<std::filesystem::path> list_files_with_extensions(
     const std::filesystem::path& folder, const std::vector<std::string>& endings);
 
-/// Lists the scans in a folder, sorted by name, without arrays of landmarks and of polygons.
+/// Lists the scans in a folder, sorted by name. Omits array files (.npy) that hold landmarks or
+/// polygons instead of a scan.
 /// \throws MissingInput; UsageError if a scan would give a head with a reserved name or with the
 /// name of another head; InvalidInput if there are no scans.
 std::vector<std::filesystem::path> list_scans(const std::filesystem::path& folder);

@@ -152,11 +152,12 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
   return file;
 }
 
-/// Returns the landmarks from the files. If the files have too few landmarks and the pose of the
-/// scan is known, adds landmarks that are detected from the scan's shape.
-/// \param hint  pose of the scan; empty if unknown. If the files have too few landmarks, the
-///     function searches the scan for a face and stores this face in `hint->face`. If `hint` was
-///     empty, the axes of this face become the pose of the scan.
+/// Returns the landmarks from the files. If the files have too few landmarks, searches the scan for
+/// a face, and adds landmarks that are detected from the scan's shape. Adds none if the scan's pose
+/// is unknown and no face is found.
+/// \param hint  The caller passes the pose of the scan, or an empty value if the pose is unknown. If
+///     the function finds a face, it stores the face in `hint->face`. If `hint` was empty, the
+///     function also stores the face's axes as the pose of the scan.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
   const LandmarkFile file = landmarks_for(shared, task);
@@ -380,8 +381,9 @@ void wrap_scans(const WrapOptions& options) {
         wrap_one(options, shared, wrap_textures, task, inputs);
       }
     } catch (const RecoverableError& error) {
-      // Record the problem of this scan, and continue with the other scans.
+      // An interruption or a failed write ends the command.
       if (error.code() == ExitCode::kInterrupted || error.code() == ExitCode::kIoError) throw;
+      // After all other errors, record the problem of this scan and continue with the next scan.
       problems.add(error);
     }
     progress.step();

@@ -18,7 +18,8 @@ namespace crowdface {
 struct TextureFiles {
   std::filesystem::path material_file;           ///< the material file, beside the head's OBJ file
   std::vector<std::filesystem::path> map_files;  ///< one colour texture per image
-  /// masks of the texels that the scan does not show, in the folder of the report
+  /// masks (in the folder of the report) that mark the texels of the head that the scan does not
+  /// show
   std::vector<std::filesystem::path> mask_files;
 
   /// Returns the paths of the material file, maps and masks; empty if the template has no images.
@@ -59,7 +60,8 @@ class WrapTextures {
   BakeTemplate bake_template_;  ///< the template, prepared for baking
 };
 
-/// Adds the hashes of the material files and textures that an OBJ scan names to `hasher`.
+/// Adds hashes to `hasher`: the hashes of all material files and textures that an OBJ file of a
+/// scan names.
 void add_texture_files(const std::filesystem::path& scan, Hasher& hasher);
 
 }  // namespace crowdface
