@@ -65,7 +65,7 @@ RigidMotion RigidPlacement::push_out_of_skin(
     const Eigen::Vector3d turned = arm.cross(one.outward_normal);
     const Eigen::Vector3d& n = one.outward_normal;
     program.add_target({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), arm.dot(n)},
-                       one.height, weight);
+                       one.missing_height, weight);
   }
   for (std::size_t u = 0; u < kUnknowns; ++u) program.add_target(u, 0, kMotionWeight);
   const QuadraticProgram::Vector x = program.solve(0);

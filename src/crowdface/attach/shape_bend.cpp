@@ -39,8 +39,8 @@ constexpr std::size_t kMinPatchVertices = 6;
 /// sphere's radius.
 constexpr double kAmbiguousMm = 2, kFarRatio = 4;
 
-/// Finds the root of each point of an attachment on the skin, starting the search at the root of a
-/// neighbouring point.
+/// Finds the root of each point of an attachment: the point of the skin that is nearest to this
+/// point. Starts each search at the root of a neighbouring point of the attachment.
 class RootSearch {
  public:
   RootSearch(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
@@ -89,8 +89,8 @@ class RootSearch {
     });
   }
 
-  /// Finds the roots of all points that are connected with the start point in the attachment's
-  /// mesh, in order of their distance from the skin.
+  /// Finds the root of the start point and the roots of all points that edges of the attachment's
+  /// mesh connect with the start point. Points near the skin come first.
   void find_connected_roots(const QueueEntry& start, const std::vector<QueueEntry>& nearest,
                             const Adjacency& neighbours) {
     std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;

@@ -21,7 +21,8 @@ class SkinGaps {
   /// A vertex that is too near to the skin or inside the skin.
   struct Violation {
     std::uint32_t vertex;  ///< index of the attachment's vertex
-    double height;         ///< distance by which the vertex must move along `outward_normal`
+    /// minimum distance of the vertex from the skin, minus its present distance
+    double missing_height;
     Eigen::Vector3d outward_normal;  ///< unit normal of the skin at the point nearest to the vertex
   };
   /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the

@@ -68,7 +68,8 @@ class ScanColours {
     std::uint32_t first = 0, second = 0, third = 0;
   };
 
-  HeadSet mesh_;                                   ///< topology and texture coordinates of the file
+  /// a set without heads that holds the topology and the texture coordinates of the scan's file
+  HeadSet mesh_;
   std::vector<TriangleCorners> triangle_corners_;  ///< all triangles of the file
   MeshMaps colours_;                               ///< the file's colour textures
   /// #V by 3: colours of vertices in linear light; or no rows

@@ -75,7 +75,8 @@ void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const Regi
                         {power_series(filter.kind(), bands[f][b].band->iterations)}});
     }
   }
-  // Smooth the band differences of all faces together, in one pass of the filter.
+  // Smooth the differences of all bands of all faces together, in one pass of the filter. See
+  // band_differences.
   const auto smoothed = filter.run<double>(inputs);
   const auto* of_face = smoothed.data();
   for (std::size_t f = 0; f < recipes.size(); of_face += bands[f].size(), ++f) {

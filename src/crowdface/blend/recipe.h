@@ -62,9 +62,10 @@ struct Recipe {
   Index target = 0;
   /// for each region of the mask: which heads lend detail, and how much
   std::vector<RegionRecipe> regions;
-  /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, not zero, summing to one. If
-  /// empty, B is the target alone. Eq. 2 is linear in B, so its result is also linear in the heads
-  /// of the mixture.
+  /// If the face is built on a mixture of heads instead of one head: the weights of the heads in
+  /// this mixture, by ascending head, not zero, summing to one. If empty, the face is built on the
+  /// head `target` alone. The blend (Eq. 2) is linear in the head on which the face is built, so
+  /// its result is also linear in the heads of the mixture.
   std::vector<SourceWeight> mixture = {};
   /// The weights of the heads in the textures of all regions: by ascending head, not zero, summing
   /// to one. If empty, RegionRecipe::colours determines the weights in each region.
@@ -85,9 +86,9 @@ double mirror_image_weight(const Recipe& recipe);
 /// A smoothing level, and the weighted heads whose sum is smoothed to this level; see
 /// weights_by_level.
 struct LevelWeights {
-  std::uint64_t level = 0;  ///< L_b, the level as a number of smoothing iterations
-  /// the weights s_h of the heads in the sum G_b (see weights_by_level), in the order of summation;
-  /// a head may occur twice
+  std::uint64_t level = 0;  ///< number of smoothing iterations; L_b in weights_by_level
+  /// the weights of the heads in the sum (G_b in weights_by_level), in the order of summation; a
+  /// head may occur twice
   std::vector<SourceWeight> weights;
 };
 

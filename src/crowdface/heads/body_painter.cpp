@@ -24,9 +24,10 @@ struct SquareLayout {
       : per_row(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(polygons))))) {}
   int side() const { return kTexels * per_row; }
   Eigen::RowVector2d place(Index polygon, std::size_t corner, std::size_t corners) const {
-    // The polygon's corners lie on a circle of this radius (in texels) around the centre of the
-    // polygon's square. So the corners of a quad are the centres of the square's four corner
-    // texels, and interpolation reads no texel outside the square.
+    // Each polygon has its own square of kTexels × kTexels texels in the texture. The texture
+    // coordinates of the polygon's corners lie on a circle around the square's centre. With this
+    // radius (in texels), the corners of a quad are the centres of the square's four corner texels,
+    // so interpolation reads no texel outside the square.
     constexpr double kRadius = 1.5 * std::numbers::sqrt2;
     const double angle =
         2 * std::numbers::pi * (static_cast<double>(corner) + 0.5) / static_cast<double>(corners);

@@ -29,7 +29,7 @@ constexpr double kEyesAboveMouthMm = 65;
 struct Window {
   /// the window's centre: its distance from the symmetry plane and its height above the mouth
   double across, above_mouth;
-  /// standard deviations of the Gaussian, across and along the height of the face
+  /// the Gaussian's standard deviations in millimetres, across the face and along its height
   double sigma_across = 4, sigma_up = 3.5;
 };
 
@@ -43,9 +43,10 @@ struct Term {
   Direction direction;
 };
 
-/// A movement of one feature of the face. Its value, the sum of the terms, is the displacement of
-/// the feature minus the displacement of the skin around the feature. The difference cancels the
-/// displacements of longer, wider or more prominent faces.
+/// A movement of one feature of the face, compared with the median head. The movement's value is
+/// the sum of its `terms`: the displacement of the feature minus the displacement of the skin
+/// around the feature. In a longer, wider or more prominent face, both displacements are about
+/// equal, so the value is near 0.
 struct Movement {
   std::vector<Term> terms;
   /// standard deviation of the movement's value among heads with a neutral expression (synthetic,

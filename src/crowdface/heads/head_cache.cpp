@@ -40,8 +40,9 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
   arrays("numbers", fields.quantized_values);
 };
 
-/// Whether a prepared head that was read from the cache has these sizes and consistent fields.
-/// First sets the members of its fields that the cache does not store: vertex count and rank.
+/// Whether a prepared head that was read from the cache has these sizes and consistent vector
+/// fields (LevelFields). Before the check, sets the vertex count and the rank of the vector fields,
+/// which the cache does not store.
 bool is_head(PreparedHead& head, const HeadCacheSizes& sizes) {
   const Eigen::MatrixXd& coefficients = head.levels.function_coefficients;
   LevelFields& fields = head.levels.fields;

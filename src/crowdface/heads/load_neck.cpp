@@ -122,7 +122,8 @@ struct Poses {
 /// The body on which the heads are placed, and the heads' rotation.
 struct PlacementGoal {
   BodyBelowNeck body;
-  Matrix3d rotation = Matrix3d::Identity();  ///< rotation of all heads from their common pose
+  /// rotation that turns all heads from their common pose into the pose that fits the body
+  Matrix3d rotation = Matrix3d::Identity();
 };
 
 PlacementGoal find_goal(const Config& config, const Inputs& inputs, const Rim& rim,

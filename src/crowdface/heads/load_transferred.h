@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Loads what every face gets in addition to its head: shapes, points, a rig, attachments, and the
-// fit to a body. Each function requires inputs whose heads and parts are known, and adds all
-// problems that it finds.
+// fit to a body. Each function requires inputs whose heads and parts are known, and adds all faults
+// of the files to its argument `problems`.
 #pragma once
 
 #include "crowdface/config/config.h"
@@ -32,8 +32,9 @@ void load_points(const Config& config, Inputs& inputs, Problems& problems);
 /// far from the heads or of another size.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
-/// Loads the attachments in parallel. A mesh that cannot be read or lies far from the head, or a
-/// fitted head with another topology, is a problem. Faults in materials only cause warnings.
+/// Loads the attachments in parallel. These faults are problems: an attachment's mesh cannot be
+/// read; the mesh lies far from the head; the head to which the attachment was fitted has another
+/// topology than the heads of `inputs`. Faults in materials only cause warnings.
 /// \param cache  see load_shapes
 void load_attachments(const Config& config, const CacheFolder& cache, Inputs& inputs,
                       Problems& problems);

@@ -14,8 +14,8 @@
 
 namespace crowdface {
 
-/// The joints and weights of the vertices of a skinned mesh. For each pair of attributes JOINTS_n
-/// and WEIGHTS_n, both lists have an element with four numbers per vertex.
+/// The joints and weights of the vertices of a skinned mesh. Element n of both lists comes from the
+/// attributes JOINTS_n and WEIGHTS_n; it has four numbers for each vertex.
 struct GltfSkinWeights {
   std::vector<std::vector<std::uint32_t>> joints;  ///< indices into the skin's list of joints
   std::vector<std::vector<double>> weights;        ///< weights of these joints

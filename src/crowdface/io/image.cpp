@@ -58,8 +58,8 @@ const ImageCodec& codec_of(std::string_view format) {
 struct OpenImage {
   const ImageCodec& codec;
   ImageHeader header;
-  /// For a Photoshop file: its content without layers, which `picture` reads in place of the file.
-  /// Null for other files.
+  /// The content of a Photoshop file without its layers. `picture` reads this content in place of
+  /// the file. Null for files of other formats.
   std::unique_ptr<const std::string> rewritten;
   std::unique_ptr<void, void (*)(void*)> picture;
 };

@@ -139,7 +139,8 @@ std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size)
   return size;
 }
 
-/// Length of the run of equal bytes at `bytes`, from kMinRun to `most`.
+/// Length of the run of equal bytes that begins at `bytes`, at most `most`. Requires that the first
+/// kMinRun bytes are equal.
 std::size_t run_length(const std::uint8_t* bytes, std::size_t most) {
   std::size_t length = kMinRun;
   const std::uint64_t repeated = bytes[0] * std::uint64_t{0x0101010101010101};

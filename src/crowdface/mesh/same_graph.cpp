@@ -247,7 +247,8 @@ class Matcher {
     return sum;
   }
 
-  /// Moves b rigidly so that the matched vertices lie as close together as possible.
+  /// Moves mesh b rigidly so that its matched vertices lie as close as possible to their partners
+  /// in mesh a.
   void align(const Pairs& pairs) {
     Positions from(static_cast<Index>(pairs.size()), 3), to(static_cast<Index>(pairs.size()), 3);
     for (std::size_t i = 0; i < pairs.size(); ++i) {

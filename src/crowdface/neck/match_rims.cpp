@@ -150,7 +150,8 @@ const OrderedRim& best_rigid_fit(const std::vector<OrderedRim>& orders,
   return alike && other->fit.degrees < best->fit.degrees ? *other : *best;
 }
 
-/// Text with the lengths and distances of the nearest rims. \param rims nearest first
+/// Text that lists the body's rims nearest to the heads' rim: for each, its number of vertices and
+/// the distance of its centroid from the centroid of the heads' rim. \param rims nearest first
 std::string list_of(const std::vector<RimMatch>& rims) {
   constexpr std::size_t kNamed = 6;
   std::vector<std::string> named;

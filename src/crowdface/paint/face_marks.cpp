@@ -187,17 +187,19 @@ constexpr double kBridgeSearchMm = 10, kTipSearchMm = 14, kMouthSpreadMm = 12;
 /// the lips and of the chin.
 constexpr double kBridgeHalfWidthMm = 15, kLipHalfWidthMm = 5, kChinHalfWidthMm = 10;
 /// The search for the bridge and the tip of the nose prefers heights near the feature's height on
-/// the mean face: the search subtracts a penalty from each measured depth. The penalty is this
-/// length at the highest and the lowest searched height, and smaller between these two heights. On
-/// a mesh with long edges, the penalty is larger.
+/// the mean face: the search subtracts a penalty from each measured depth. On a mesh with edges of
+/// at most kFineMm, the penalty is this length at the highest and the lowest searched height, and
+/// smaller between these two heights. On a mesh with longer edges, all penalties are multiplied by
+/// a factor above 1.
 constexpr double kMaxHeightPenaltyMm = 3;
 /// kMaxMiddleOffsetMm: if the middle of the skin is farther than this length from the symmetry
 /// plane of the relief, the symmetry plane of the relief is used. kMaxEyeOffsetMm: if the heights
 /// of the eyeballs and of the relief's eyes differ by more than this length, the eyeballs are
 /// ignored.
 constexpr double kMaxMiddleOffsetMm = 4, kMaxEyeOffsetMm = 20;
-constexpr double kFineMm = 5;      ///< edges up to this length resolve the lips
-constexpr double kMaxEdgeMm = 18;  ///< longer edges do not show a face
+constexpr double kFineMm = 5;  ///< edges up to this length resolve the lips
+/// A mesh whose edges near the face are longer is too coarse to show a face.
+constexpr double kMaxEdgeMm = 18;
 struct MouthAndChin {
   double mouth = 0, chin = 0;  ///< heights of mouth and chin
 };

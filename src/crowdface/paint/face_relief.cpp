@@ -49,8 +49,10 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
 /// eye_agreement.
 constexpr double kEyeAgreementWeight = 0.15;
 
-/// Returns 1 if the midpoint of the known eyeballs is near the point between the eyes of a match,
-/// −1 if the two points are farther apart than kNearMm, and 0 if no eyeballs are known.
+/// Compares the midpoint between the known eyeballs with the midpoint between the eyes of the
+/// relief, as a match places the relief on the surface. Returns 1 if these two points are closer
+/// together than kNearMm, −1 if they are farther apart, and 0 if no eyeballs are known.
+/// \param across, height  coordinates of the relief's midpoint, along the side axis and up
 int eye_agreement(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                   double height, double scale) {
   constexpr double kNearMm = 20;
@@ -89,8 +91,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
     const double scale = best.scale;
     const double top = box.max().y() - 0.5 * kReliefTopRowHeightMm * scale,
                  low = box.min().y() + kReliefTopRowHeightMm * scale;
-    // Try all heights, and lateral positions whose distance from the middle is at most a quarter of
-    // the breadth.
+    // Try the relief at all heights on the surface, and at lateral positions whose distance from
+    // the surface's middle is at most a quarter of the surface's breadth.
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {
       for (int i = -aside; i <= aside; ++i) {
@@ -443,8 +445,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   // A face counts as aligned with the requested axes if the axes of the face differ from the
   // requested axes by less than this angle, in degrees.
   constexpr double kAlignedDegrees = 5;
-  // A pitch below this angle, in degrees, is attributed to the posture of the head or the form of
-  // the face.
+  // If the face is pitched up or down by less than this angle, in degrees, relative to the nearest
+  // requested axes, the pitch is ignored: it is due to the posture of the head or the shape of the
+  // face.
   constexpr double kMinPitch = 10;
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
   const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {
@@ -471,7 +474,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
-    // Choose the requested axes that are nearest to the axes of the face.
+    // Among the caller's orientations (`all_axes`), choose the one that differs from the axes of
+    // the face by the smallest angle.
     match.nearest_orientation_index = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -

@@ -112,8 +112,9 @@ void PartContact::find_search_starts(const Positions& positions,
       nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
-  // For each pair, keep at most kMaxSearchStarts of the skin vertices found as start vertices. Omit
-  // a vertex that is closer than `apart` to another start vertex of the pair.
+  // `nearest` has, for each head and pair, the nearest skin vertex. Choose at most kMaxSearchStarts
+  // of a pair's nearest vertices as start vertices. Omit a vertex that is closer than `apart` to
+  // another start vertex of the pair.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     SearchStarts& starts = pairs_[i].search_starts;
     std::size_t count = 1;
@@ -154,7 +155,8 @@ void PartContact::find_clusters(const Positions& positions, const std::vector<He
     open.emplace_back(middle, end);
     open.emplace_back(begin, middle);
   }
-  // Set Cluster::height_margin of each cluster from the largest height differences in the heads.
+  // Set Cluster::height_margin of each cluster. In every head, measure by how much the cluster's
+  // middle pair is higher above the skin than each other pair of the cluster; use the maximum.
   for (Cluster& cluster : clusters_) {
     for (const Head& head : heads) {
       const auto rough = [&](std::size_t i) {

@@ -36,7 +36,8 @@ class PartContact {
   };
   /// Returns the height of a point of the part above the nearest skin.
   ///
-  /// \param pair   Index of the pair whose vertex is at `point`.
+  /// \param pair   Index of a pair. The pair's vertex of the part is at `point`; the search for the
+  ///               nearest skin starts near the pair's triangle.
   /// \param skin   Positions of the head or face whose skin is used, #V by 3.
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
@@ -75,7 +76,8 @@ class PartContact {
   /// lower bound for the heights of all pairs of the cluster.
   struct Cluster {
     std::size_t begin, end;  ///< the cluster consists of `pairs_[begin]` to `pairs_[end - 1]`
-    /// estimated upper bound of the height by which the middle pair is above any other pair
+    /// estimated upper bound for: height above the skin of the middle pair's vertex, minus the
+    /// smallest such height of the cluster's vertices
     double height_margin;
     /// Returns the index of the middle pair.
     std::size_t middle() const { return begin + (end - begin) / 2; }

@@ -22,7 +22,7 @@ constexpr double kMinFront = 0.35;
 /// Number of sectors around the axis of the eye; the rim has at most one vertex in each sector.
 constexpr std::size_t kRimSectors = 60;
 /// Largest number of lid vertices that are used; more vertices are subsampled evenly.
-constexpr std::size_t kMaxLids = 2500;
+constexpr std::size_t kMaxLidVertices = 2500;
 
 /// kMeanGapWeight: weight of the error of a lid's mean gap, relative to the mean square error of
 /// the gaps at the rim. kMeanGapTolerance: tolerance of the mean gap, as a fraction of the radius;
@@ -101,7 +101,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
     if (best.vertex != kNoIndex) rim.push_back(best.vertex);
   }
   std::ranges::sort(rim);
-  const std::vector<std::uint32_t> some = evenly_spaced_items(near, kMaxLids);
+  const std::vector<std::uint32_t> some = evenly_spaced_items(near, kMaxLidVertices);
   std::set_union(some.begin(), some.end(), rim.begin(), rim.end(),
                  std::back_inserter(lids.vertices));
   for (const std::uint32_t v : rim) {

@@ -65,15 +65,18 @@ class EyeSocket {
  private:
   /// Whether the optimisation may change the size of the eyeball.
   enum class SizeMode { kFree, kKept };
-  /// A lid vertex on a face.
+  /// A vertex of a lid, and its position in a new head ("face").
   struct LidPoint {
-    Eigen::Vector3d point;  ///< position on the face
+    Eigen::Vector3d point;  ///< position of the vertex
     std::uint32_t index;    ///< index into `Lids::vertices`
   };
-  /// Returns `motion` improved by one step of the optimisation.
-  /// \param far   The function removes from `lids` the points whose distance from the eyeball is
-  ///              larger than this fraction of the eyeball's radius.
-  /// \param lids  The lid vertices to check.
+  /// Returns the motion of the eyeball improved by one step of the optimisation.
+  /// \param target       Index of the head whose eyeball is moved.
+  /// \param skin_motion  Motion of the skin around the eye, from this head to the face.
+  /// \param motion       Motion of the eyeball before the step, from this head to the face.
+  /// \param far          The function removes from `lids` the points whose distance from the
+  ///                     eyeball is larger than this fraction of the eyeball's radius.
+  /// \param lids         The lid vertices to check.
   RigidMotion step(std::size_t target, const RigidMotion& skin_motion, const RigidMotion& motion,
                    double far, SizeMode size_mode, std::vector<LidPoint>& lids) const;
   /// Repeats `step` until the eyeball hardly moves; starts from `motion`.

@@ -43,7 +43,8 @@ constexpr double kBoxReach = 0.03;
 /// length.
 constexpr double kNearness = 0.05;
 
-constexpr double kRoundingFactor = 1 + 1e-9;  ///< factor on limits of sums; allows for rounding
+/// The upper limit for a sum is multiplied by this factor, to allow for rounding errors of the sum.
+constexpr double kRoundingFactor = 1 + 1e-9;
 
 using Vertices = std::vector<std::uint32_t>;
 

@@ -19,7 +19,8 @@ namespace {
 /// fraction of its radius (about 12 mm). kSocketReach: for other parts, as a fraction of the skin's
 /// extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
-/// Largest number of a part's vertices that determine its socket.
+/// The socket of a part is the skin near the part's vertices. If the part has more vertices than
+/// this number, a subset of this size is used to find the socket.
 constexpr std::size_t kMaxSocketVertices = 4000;
 /// Fractions of the skin's extent. kContactReach: largest distance at which skin and part are
 /// tested for contact. kContactMargin: smallest clearance that is kept.

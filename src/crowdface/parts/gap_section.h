@@ -73,11 +73,11 @@ class Clearance {
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
-    /// The two neighbouring points of the low profile between which the point on the low profile
-    /// lies. They are given by their indices in the list of all profile points (see `points_`).
+    /// Indices, in the list of all profile points (`points_`), of two neighbouring points of the
+    /// low profile. The opposite point on the low profile is interpolated between these two.
     std::array<std::uint32_t, 2> low_indices;
-    /// The two neighbouring points of the high profile between which the point on the high profile
-    /// lies, as indices in the same list.
+    /// Indices, in the list of all profile points (`points_`), of two neighbouring points of the
+    /// high profile. The opposite point on the high profile is interpolated between these two.
     std::array<std::uint32_t, 2> high_indices;
     /// weights of `low_indices` and of `high_indices`; each pair sums to one
     std::array<double, 2> low_weights, high_weights;
@@ -97,20 +97,20 @@ class Clearance {
   ///
   /// \param depths  Depths of all profile points, from depths().
   std::vector<OppositePoints> opposite_points(std::span<const double> depths) const;
-  /// Returns the coordinates of all profile points along the section's `up`. The points of the low
-  /// profile come first.
+  /// Returns the height of each profile point: its coordinate along the direction `up` of the
+  /// section. The points of the low profile come first.
   std::vector<double> heights(const Positions& positions) const {
     return coordinates(up_, positions);
   }
-  /// Returns the coordinates of all profile points along the section's `inward()`, in the order of
-  /// `heights`.
+  /// Returns the depth of each profile point: its coordinate along the direction `inward()` of the
+  /// section. The points have the same order as in `heights`.
   std::vector<double> depths(const Positions& positions) const {
     return coordinates(inward_, positions);
   }
   /// Returns the smallest gap of the given pairs of points; negative if the profiles intersect.
   static double gap(std::span<const OppositePoints> opposite_pairs,
                     std::span<const double> heights);
-  /// Returns the smallest gap of the section on a head.
+  /// Returns the smallest gap between the section's low profile and its high profile on a head.
   double gap(const Positions& positions) const;
 
  private:

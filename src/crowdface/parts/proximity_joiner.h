@@ -47,8 +47,8 @@ class ProximityJoiner {
   DisjointSets& groups_;
   MedianSplitTree tree_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< bounding box of each node of the tree
-  /// for each node: if all points of the node are known to belong to one group, a component of this
-  /// group; otherwise kNoIndex
+  /// for each node: if all points of the node are known to belong to one group of components, any
+  /// one component of this group, which stands for the group; otherwise kNoIndex
   std::vector<std::uint32_t> groups_of_nodes_;
 };
 

@@ -54,7 +54,7 @@ class QuadraticProgram {
   std::size_t unknowns_;
   std::array<Vector, kMaxUnknowns> quadratic_ = {};  ///< Q of the objective ½ xᵀ Q x − linear·x
   Vector linear_ = {};         ///< `linear` of the objective ½ xᵀ Q x − linear·x
-  std::vector<Bound> bounds_;  ///< all constraints
+  std::vector<Bound> bounds_;  ///< all constraints, each a lower bound for a·x
 };
 
 }  // namespace crowdface

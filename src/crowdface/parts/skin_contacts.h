@@ -59,10 +59,12 @@ class SkinContacts {
     /// value of the kernel: positive on the gap's high side, negative on its low side
     double weight;
   };
-  /// Derivatives of the heights and depths of a group's profile points with respect to the
-  /// amplitude of one section. The points have the same order as in Profiles.
+  /// How the amplitude of one section moves a group's profile points. The points have the same
+  /// order as in Profiles.
   struct PointMotions {
-    std::vector<double> heights, depths;  ///< one derivative for each profile point
+    /// for each profile point: the derivatives of its height and its depth with respect to the
+    /// amplitude
+    std::vector<double> heights, depths;
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {

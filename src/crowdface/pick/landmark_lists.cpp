@@ -186,7 +186,7 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
 
 /// The columns of a table whose header names the columns x, y and z, or the column vertex.
 struct TableColumns {
-  std::size_t count = 0;  ///< number of columns of the table; 0 if there is no such header
+  std::size_t count = 0;  ///< number of columns of the table; 0 if no header names these columns
   std::vector<std::size_t> numbers;  ///< indices of the columns x, y and z, or of the column vertex
   std::optional<std::size_t> name;   ///< index of the column that has the names
   /// index of the column that has 0 for points that were not placed

@@ -41,8 +41,10 @@ std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>
 /// position on the scan is the picked or suggested position on the template, mapped by `pose`,
 /// corrected by the residuals of nearby pairs, and projected to the scan's skin.
 struct SuggestedPlaces {
-  std::map<std::string, PickedPlace> template_places;  ///< suggested positions on the template
-  std::map<std::string, PickedPlace> scan_places;      ///< suggested positions on the scan
+  /// by landmark name: the suggested position of the landmark on the template
+  std::map<std::string, PickedPlace> template_places;
+  /// by landmark name: the suggested position of the landmark on the scan
+  std::map<std::string, PickedPlace> scan_places;
   std::optional<LandmarkPose> pose;  ///< pose of the template on the scan; see fit_pose_to_picked
 };
 

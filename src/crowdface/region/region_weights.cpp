@@ -66,8 +66,8 @@ struct LoadedMask {
   }
 };
 
-/// A function that returns which channel of a tile to examine. The index may differ between the
-/// tiles of one mask.
+/// A function that returns the index of the channel to examine in a tile. This channel index may
+/// differ between the tiles of one mask.
 using ChannelOf = std::function<int(const LoadedTile&)>;
 
 ChannelOf colour(std::size_t number) {

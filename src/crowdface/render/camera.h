@@ -31,8 +31,8 @@ struct Camera {
 
 /// Orientation of the heads in their files.
 struct HeadFrame {
-  Axis up = {1, 1};
-  Axis front = {2, 1};  ///< viewing direction of the faces
+  Axis up = {1, 1};     ///< direction of the top of the head; default +Y
+  Axis front = {2, 1};  ///< direction in which the faces look; default +Z
 };
 
 /// How fit_camera and fit_cameras place the heads in the image.

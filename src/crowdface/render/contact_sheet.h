@@ -66,8 +66,9 @@ struct CellSize {
 /// \throws BrokenPrecondition if there are no cells, or more cells than columns · rows;
 ///         InvalidInput if the sheet would exceed 65,500 pixels on a side or 5·10⁸ pixels in all.
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
-/// Computes the layout of a sheet with these cells. \throws InvalidInput also if the cells' images
-/// differ in size.
+/// Computes the layout of a sheet with these cells.
+/// \throws BrokenPrecondition, InvalidInput like the function above; also InvalidInput if the
+///         cells' images differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Largest number of rows that a sheet with cells of this size can have; 0 if not even one row

@@ -66,8 +66,9 @@ class WorkspacePool {
 
 /// The geometry that occludes light.
 struct Occluders {
-  std::vector<std::uint32_t> vertices;  ///< occluding vertices of the mesh; empty: all vertices
-  /// occluding quads, as indices into `vertices`; empty: all quads of the mesh
+  /// indices of the face mesh's vertices that the occluding geometry uses; empty: all vertices
+  std::vector<std::uint32_t> vertices;
+  /// the quads that occlude light, as indices into `vertices`; empty: all quads of the mesh
   std::vector<Quad> quads;
   /// x, y, z of each occluding vertex in the average face. If empty, there is no average face, and
   /// the renderer builds a new scene for each face.

@@ -117,9 +117,11 @@ struct Boxes {
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
   /// index of the last square of the image that the box overlaps; −1: the quad is not visible
   alignas(64) std::int32_t square[kCount];
-  alignas(64) std::int32_t in_one_square[kCount];    ///< not 0: the box overlaps only this square
+  /// not 0: the box overlaps no other square than `square`
+  alignas(64) std::int32_t in_one_square[kCount];
   alignas(64) std::int32_t no_pixel_centre[kCount];  ///< 1: no pixel centre is in the box
-  /// Box relative to `square`, packed into four bytes: left (lowest byte), top, right, bottom.
+  /// The quad's box in pixels, relative to the upper left corner of the rim of square `square`.
+  /// Four bytes hold the box: left (lowest byte), top, right, bottom.
   alignas(64) std::int32_t in_square[kCount];
 };
 

@@ -95,8 +95,10 @@ struct DepthBuffer {
 /// Corners of the two triangles into which Embree splits a quad.
 inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1, 3}, {2, 3, 1}}};
 
-/// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier quad
-/// stays. The result has the same bits with every instruction set.
+/// Rasterizes the quads of one square of the image (see kSquareSide) into the depth buffer. Of two
+/// quads that are equally near, the earlier quad stays. The result has the same bits with every
+/// instruction set.
+/// \param pixel_quads  the quads that overlap the square or its rim
 /// \param placed  all vertices, projected to the image
 /// \param corner  image pixel at the upper left corner of the square's rim
 /// \param pixels  kRimmedSide² pixels of the square and its rim, row by row

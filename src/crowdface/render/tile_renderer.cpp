@@ -145,8 +145,8 @@ class Tile {
   }
 
   void render(Rgb8Image& image) {
-    // Trace one sample in every pixel. Trace a few samples in pixels that may show attachments,
-    // because attachments may be transparent.
+    // If a pixel may show attachments, trace a few samples in it, because attachments may be
+    // transparent. In every other pixel, trace one sample.
     trace_camera_rays([&](int x, int y, const Pixel&) {
       return may_have_attachments(x, y) ? &sampling_.coarse_samples : &sampling_.centre_sample;
     });
@@ -292,12 +292,14 @@ class Tile {
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
-  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, where `disc` is a point of
-  /// the unit disc. Consecutive rays have the same `disc`, so that their directions are similar.
-  /// A pixel with PixelVariation::kNone gets `directions.rays_per_pixel()` rays, spread over the
-  /// hits of the pixel. Any other pixel gets at least this number of rays, and at least one ray for
-  /// each kHitsPerShadowRay hits. filter_visibility gives the hits without a ray the visibility of
-  /// similar points nearby.
+  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace. `disc` is a point of the
+  /// unit disc, which determines the ray's direction. All rays with the same `disc` follow one
+  /// another, so that consecutive rays mostly have similar directions.
+  ///
+  /// A pixel with PixelVariation::kNone gets `directions.rays_per_pixel()` rays, which start at
+  /// different hits of the pixel. Any other pixel gets at least this number of rays, and at least
+  /// one ray for every kHitsPerShadowRay hits. Some hits get no ray; filter_visibility gives these
+  /// hits the visibility of similar points nearby.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
@@ -328,8 +330,10 @@ class Tile {
   }
 
   /// Traces the shadow rays from all hits towards a light, and stores the rays in `memory_.rays`.
-  /// \param light   member of CameraHit in which the function counts the rays of each hit
-  /// \param ray_of  returns the ray from a hit for a point of the unit disc; nothing if the light
+  /// \param light   member of CameraHit that belongs to the light: there, the function counts the
+  ///                hit's rays and the rays that reached the light
+  /// \param ray_of  function of a hit and a point of the unit disc: returns the ray that starts at
+  ///                the hit, in the direction that the point determines; nothing if the light
   ///                cannot reach the hit
   /// \return for each ray: whether a surface blocks the ray
   template <class RayOf>
