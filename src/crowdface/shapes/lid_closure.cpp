@@ -45,8 +45,10 @@ constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
 
-/// Returns the position, in the shape, of one rim vertex of the upper or lower lid: the vertex
-/// whose coordinate along the opening is nearest to `at`.
+/// Returns the position of one rim vertex of the upper or lower lid: the vertex whose coordinate
+/// along the lid opening is nearest to `at`.
+/// \param shape  positions of the template's vertices with the blend shape applied, #V by 3
+/// \param along  unit vector along the lid opening
 Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
                        const Eigen::Vector3d& along) {
   double nearest = std::numeric_limits<double>::max();

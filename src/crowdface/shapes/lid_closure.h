@@ -21,8 +21,8 @@ struct TemplateEye {
   std::vector<std::uint32_t> skin_vertices;  ///< indices of skin vertices around the eye, ascending
 };
 
-/// An eyeball of a face. The eyeball is a copy of the eyeball of one input head: `motion` carries it
-/// from the head to the face.
+/// An eyeball of a face. The eyeball is a copy of the eyeball of one input head: `motion` carries
+/// it from the head to the face.
 struct FaceEye {
   const BallRadii* ball;  ///< radii of the head's eyeball
   RigidMotion motion;     ///< motion of the eyeball from the head to the face
@@ -101,8 +101,8 @@ class LidClosure {
   void restore_closure(const Positions& face, const RigidMotion& face_motion,
                        const LidTargets& targets, Positions& moves) const;
 
-  /// Adjusts the displacements of a face in the shape until its lids have the gaps and distances in
-  /// `targets`.
+  /// Adjusts the displacements by which the shape moves a face. Afterwards, the gaps between the
+  /// lids and the distances of the lids from the eyeball are about equal to `targets`.
   ///
   /// \param face   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the face.
@@ -117,11 +117,11 @@ class LidClosure {
                            Positions& moves) const;
 
  private:
-  /// A point of a lid's profile, on an edge of the mesh. `row_a` and `row_b` are the rows of the
-  /// edge's two ends in the shape's displacements; kNoIndex for an end that the shape does not
-  /// move.
+  /// A point of a lid's profile, on an edge of the mesh.
   struct ProfilePoint {
     EdgePoint edge;
+    /// row of each of the edge's two ends in the shape's displacements; kNoIndex for an end that
+    /// the shape does not move
     std::uint32_t row_a, row_b;
   };
   /// A section across the eye's opening, where a plane cuts both lids. A profile is the curve that
@@ -142,7 +142,7 @@ class LidClosure {
     double along_opening;  ///< coordinate along EyeAxes::along
     double height;         ///< coordinate along EyeAxes::up
   };
-  /// A vertex of the skin around the eye that the shape moves.
+  /// A vertex of the skin around the eye. The shape moves this vertex.
   struct LidVertex {
     std::uint32_t row, vertex;  ///< row in the shape's displacements, and the vertex of this row
     std::uint32_t skin_index;   ///< index into TemplateEye::skin_vertices
@@ -163,10 +163,14 @@ class LidClosure {
   std::span<const double> section_weights(std::size_t lid) const {
     return {section_weights_.data() + lid * sections_.size(), sections_.size()};
   }
-  /// Scales the vertical movement of each of the first `count` lid vertices by 1 + the weighted sum
-  /// of the sections' gains.
-  /// \param unscaled_moves  displacements before scaling, one row for each vertex of the shape.
-  /// \param gains    relative increase of the vertical movement at each section.
+  /// Multiplies the vertical movement of each of the first `count` lid vertices by 1 + Σ w_s g_s.
+  /// Here, g_s is the gain of the lid section s, and w_s is the vertex's weight for this section
+  /// (see section_weights).
+  /// \param up              unit vector from the lower lid to the upper lid.
+  /// \param unscaled_moves  displacements before scaling, one row for each vertex that the shape
+  ///                        moves.
+  /// \param gains           relative increase of the vertical movement at each of `sections_`.
+  /// \param moves           receives the displacements after scaling.
   void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& unscaled_moves,
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball; negative inside. This
@@ -201,12 +205,14 @@ class LidClosure {
   HeadAxes axes_;
   double radius_ = 0;                 ///< radius of the template's eyeball
   std::vector<LidSection> sections_;  ///< the sections at which the shape closes the lids
-  /// the vertices around the eye that the shape moves; those of profiles come first
+  /// The skin vertices around the eye that the shape moves. The vertices on whose edges the points
+  /// of the lid profiles lie (see LidSection) come first.
   std::vector<LidVertex> lid_vertices_;
   /// number of lid vertices that belong to profiles; these come first in lid_vertices_
   std::size_t profile_vertex_count_ = 0;
-  /// #lid_vertices_ by #sections_: weights with which each lid vertex follows the sections. The
-  /// vertical movement of the vertex grows by the weighted sum of the sections' gains.
+  /// #lid_vertices_ by #sections_: for each lid vertex, a weight for each section. The vertical
+  /// movement of the vertex is multiplied by 1 + the weighted sum of the sections' gains (see
+  /// move_lids).
   std::vector<double> section_weights_;
 };
 

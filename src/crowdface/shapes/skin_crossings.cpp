@@ -14,9 +14,10 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. Two triangles may intersect on a face
-// if their distance on the template with the shape applied is at most kMaxTemplateGap, or
-// kMaxFacingTemplateGap if the triangles face each other.
+// The search for intersections on a face tests only pairs of triangles that are close together on
+// the template with the face's blend shape applied. There, the distance of the two triangles is at
+// most kMaxTemplateGap, or kMaxFacingTemplateGap if they face each other. Both lengths are
+// fractions of the skin's extent, about 430 mm.
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
@@ -216,9 +217,11 @@ class SkinCrossings::Repair {
     }
   }
 
-  /// Arranges the skin near the intersections as on the template with the blend shape applied.
-  /// Averages the difference between face and template over skin that is close together on the
-  /// template with the blend shape applied.
+  /// Gives the skin near the intersections the arrangement that the skin has on the "shaped
+  /// template": the template with the blend shape applied. Each skin vertex has a difference: its
+  /// position on the face minus its position on the shaped template. The function replaces each
+  /// difference by the mean of the differences of vertices that are close together on the shaped
+  /// template.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kArrangeFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, searched_skin_.search);

@@ -51,7 +51,9 @@ class SkinOverParts {
     Triangle covering_triangle;
     /// triangles near `covering_triangle`; on a generated face, any of them may cover the vertex
     std::vector<Triangle> candidates;
-    double depth;  ///< depth below the skin that the vertex should have, on the template's scale
+    /// How far the vertex should lie below the skin, in the unit of the template. On a face, this
+    /// depth is multiplied by the scale of the face relative to the template.
+    double depth;
   };
 
   /// A point of the skin, and the displacement by which to push the skin there.

@@ -18,12 +18,15 @@ namespace crowdface {
 template <class T>
 struct FilterInput {
   std::vector<Row<T>> values;  ///< the vector field x, #V rows
-  /// coefficients a_k of each polynomial Σ_k a_k T_k(W) x to evaluate
+  /// Coefficients a_k of each polynomial Σ_k a_k T_k(W) x to evaluate. T_k is the k-th Chebyshev
+  /// polynomial, W is the matrix of ChebyshevFilter, and x is the vector field `values`.
   std::vector<ChebyshevSeries> series;
 };
 
-/// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. The positions of the
-/// probes at any level are linear combinations of the terms, so they need no further filter pass.
+/// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. W is the matrix of
+/// ChebyshevFilter, and x is the filtered vector field. The positions of the probes at any
+/// smoothing level are linear combinations of the terms, so computing these positions takes no
+/// further pass of the filter.
 struct RecordedTerms {
   std::vector<std::uint32_t> vertices;  ///< vertex indices of the probes
   Columns terms;  ///< #terms by 3·#vertices: row k receives T_k(W) x at the vertices

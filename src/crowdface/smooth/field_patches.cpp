@@ -16,9 +16,13 @@ namespace {
 
 constexpr std::size_t kPatchesPerTask = 16;
 
-/// Returns weights w_p that bound the error of a sum: |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each
-/// of the levels L and any error vectors e_p. With m_p = max_L |φ_p(L)|, the Cauchy–Schwarz
-/// inequality gives w_p = m_p √(max_L Σ_q (φ_q(L) / m_q)²).
+/// Returns a weight w_p for each vector field of a head. The weights turn errors e_p of the fields
+/// at a vertex into an upper bound for the vertex's error at every level L in `levels`:
+///
+///     |Σ_p φ_p(L) e_p| ≤ √(Σ_p w_p² |e_p|²)
+///
+/// φ_p are the level functions of the head (see HeadSmoothing). With m_p = max_L |φ_p(L)|, the
+/// Cauchy–Schwarz inequality gives w_p = m_p √(max_L Σ_q (φ_q(L) / m_q)²).
 std::vector<double> error_weights(const HeadSmoothing& head,
                                   std::span<const std::uint64_t> levels) {
   std::vector<std::vector<double>> functions;

@@ -19,7 +19,8 @@ namespace crowdface {
 /// LevelBasis or the paper's CubicFit.
 struct HeadSmoothing {
   LevelFields fields;  ///< the vector fields c_p: an offset for each vertex
-  /// returns φ_0(L), φ_1(L), … for a level L
+  /// For a level (number of smoothing iterations), returns one factor for each of the fields: the
+  /// values φ_0(L), φ_1(L), … of the level functions.
   std::function<std::vector<double>(std::uint64_t level)> functions;
 };
 
@@ -48,7 +49,7 @@ struct FieldPatch {
   /// Number of 16-bit values stored for each field: 3 coordinates at each of the
   /// `stored_vertex_count` vertices, rounded up to a multiple of kPatchPadding.
   std::size_t values_per_field() const { return values_per_field(stored_vertex_count); }
-  /// Like values_per_field(), for a given number of skeleton vertices.
+  /// Like values_per_field(), for a given number of vertices at which fields are stored.
   static std::size_t values_per_field(std::size_t stored_vertex_count) {
     return (3 * stored_vertex_count + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
   }

@@ -28,10 +28,11 @@ struct LevelBasis {
   /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the interpolation weights of
   /// LevelNodes
   Eigen::MatrixXd function_coefficients;
-  LevelFields fields;  ///< the vector fields c_p, with a vector at each vertex of the mesh
-  BasisError error;    ///< measured distances between this basis and the exact filter
+  /// the vector fields c_p (p = 0 … rank() − 1), each with a vector at each vertex of the mesh
+  LevelFields fields;
+  BasisError error;  ///< measured distances between this basis and the exact filter
 
-  /// Number of vector fields c_p.
+  /// Number of vector fields of the basis.
   Index rank() const { return function_coefficients.cols(); }
 };
 

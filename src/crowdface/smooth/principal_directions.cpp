@@ -120,8 +120,9 @@ void combine_fields(const PrincipalDirections& directions, const NodeDisplacemen
   }
 }
 
-/// The largest error over the sampled vertices, for each tested level and each number of kept
-/// directions: #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
+/// Returns PrincipalDirections::max_errors: the largest distance of a sampled vertex from its exact
+/// position, for each tested level and each number of kept directions (0 to #nodes). The function
+/// computes in single precision, which is accurate enough for choosing a rank.
 Eigen::MatrixXd max_errors(const PrincipalDirections& directions, const NodeDisplacements& sample) {
   const Index nodes = sample.node_count, levels = directions.level_functions.rows();
   // Transpose the matrix, so that the functions of one level are contiguous.

@@ -28,14 +28,18 @@ struct NodeDisplacements {
 };
 
 /// Orthogonal directions in the space of vertex trajectories, most important first. A trajectory is
-/// the displacement of a vertex as a function of the level. All directions together reproduce the
-/// displacements at the node levels exactly; the first few directions reproduce them approximately.
+/// the displacement of a vertex as a function of the smoothing level (number of smoothing
+/// iterations). All directions together reproduce the displacements at the levels of the nodes (see
+/// LevelNodes) exactly; the first few directions reproduce them approximately.
 struct PrincipalDirections {
-  /// #nodes by #nodes, coefficients of the level functions:
-  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the weights of LevelNodes
+  /// #nodes by #nodes: row n belongs to node n, column p to direction p. Column p gives the level
+  /// function of direction p, by which the direction's vector field is multiplied at level L:
+  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p). Here, w_n(L) are the interpolation weights of
+  /// LevelNodes.
   Eigen::MatrixXd function_coefficients;
-  /// #nodes by #nodes, coefficients of the vector fields: c_p = Σ_n field_coefficients(n, p) d_n.
-  /// d_n holds the displacements of all vertices at the smoothing level of node n.
+  /// #nodes by #nodes: column p gives the vector field of direction p,
+  /// c_p = Σ_n field_coefficients(n, p) d_n. Here, d_n are the displacements of all vertices at the
+  /// smoothing level of node n.
   Eigen::MatrixXd field_coefficients;
   Eigen::MatrixXd level_functions;  ///< #levels by #nodes: φ_p at the tested levels
   /// #levels by (#nodes + 1): entry (l, r) is the largest error of any sampled vertex at the tested

@@ -27,19 +27,23 @@ struct TextureBlendOptions {
 
 /// Blends a texture for each face from the textures of the heads (docs/textures.md). The map of
 /// head h has the values D_h: optical densities of colours, slopes of normals, or plain values. C_h
-/// is the coarse part of D_h. The blended value is
+/// is the coarse part of D_h. The blended value D is given by this formula:
 ///
 ///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
 ///
+/// The sums are over all heads h. The symbols have these meanings:
+///
 /// - W_h, the weight of the coarse part, is the same at all points of a face. W_h is the mean of
 ///   two weights of head h: the head's weight in the target's colours, and the area-weighted mean
-///   of the head's weights in all regions (see colour_weights).
+///   of the head's weights in all regions (see colour_weights). The weights in the target's colours
+///   are the recipe's colour weights if given; otherwise, they are the heads' weights in the target
+///   (1 for the target head, or the weights of a mixture).
 /// - v_h, the weight of the detail, varies over the face. v_h is the mean of W_h and the weight of
 ///   head h in the region at the point.
 /// - The gain g restores the contrast of detail that averaging removes:
-///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. If the details of all
-///   heads agree, g is 1. The largest value of g is 1/√Σ v_h², the gain for uncorrelated details
-///   (after Heitz & Neyret 2018).
+///   g² = Σ_h v_h c_hh / Σ_h Σ_i v_h v_i c_hi, where c_hi is the covariance of the details of heads
+///   h and i. If the details of all heads agree, g is 1. The largest value of g is 1/√Σ v_h², the
+///   gain for uncorrelated details (after Heitz & Neyret 2018).
 ///
 /// If a head has no texture, the weight of this head goes to the heads that have textures. Results
 /// are bit-identical on any number of threads.
@@ -98,7 +102,7 @@ std::vector<double> region_area_fractions(const RegionWeights& regions,
 
 /// Colour weights of the heads in one face. Each list has #heads weights, which sum to one. The
 /// weights for skin are the weights W_h of TextureBlender. The weights for eyes and teeth are the
-/// heads' weights in the target's colours.
+/// heads' weights in the target's colours, which TextureBlender defines.
 struct FaceColourWeights {
   std::vector<double> weights_for_skin, weights_for_eyes_and_teeth;
 };

@@ -58,8 +58,9 @@ struct ShapeFitOptions {
   /// weighted mean plus the sum of the squared coefficients. With a larger weight, the coefficients
   /// may therefore be farther from 0.
   double scan_weight = 7;
-  /// Weight of the part of a vertex's offset from the scan that lies along the surface. The part
-  /// along the normal has weight 1.
+  /// The offset of a skin vertex from the scan has two components: along the scan's normal, and
+  /// tangential to the scan's surface. This is the weight of the tangential component. The normal
+  /// component has weight 1.
   double tangential_weight = 0.1;
   /// Weight of the landmarks relative to the weight of the scan's surface.
   double landmark_weight = 0.2;

@@ -50,7 +50,8 @@ class Hair {
   double thickness(const Eigen::Vector3d& p) const;
 
  private:
-  /// Returns the height of a point above this person's hairline, cm; negative below.
+  /// Returns the height of a point above this person's hairline, cm; negative below. The hairline
+  /// depends on the person's hair style and on the recession of the hair.
   double height_above_style_hairline(const Eigen::Vector3d& p) const {
     return height_above_hairline(p, style_.has_low_hairline, recession_);
   }

@@ -24,7 +24,9 @@ struct Strand {
   double end = 1;     ///< where the strand ends, as a fraction of the card's length
   double light = 1;   ///< brightness of the strand relative to the hair colour
   double bend = 0;    ///< amplitude of the strand's own bends, in units of a strip's width
-  double waves = 0, phase = 0;  ///< curly hair: number of half waves, and their phase
+  /// Curly hair: number of half waves along the whole strand, and the phase of the wave at the
+  /// root, in half waves.
+  double waves = 0, phase = 0;
 };
 
 /// Draws the strands of all strips at random. The strands of a clump have similar brightness and

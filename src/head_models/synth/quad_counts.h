@@ -11,8 +11,8 @@ namespace crowdface::synth {
 
 /// Number of quads in every lattice interval and ring span of a layout.
 struct QuadCounts {
-  /// \param density  quads per unit. In each interval, the number of quads is rounded, and is at
-  ///                 least one.
+  /// \param density  quads per lattice unit (see lattice.h). In each interval, the number of quads
+  ///                 is rounded, and is at least one.
   explicit QuadCounts(double density);
 
   /// Returns the number of quads from the midline to lattice column k; negative if k < 0.

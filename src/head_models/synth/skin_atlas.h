@@ -44,10 +44,13 @@ class SkinAtlas {
   std::size_t source_texel(std::size_t texel) const {
     return is_covered(texel) ? texel : texels_[texel] - kFirstCopy;
   }
-  /// Interpolates the point that the source of a texel shows.
+  /// Returns the point of the average head that a texel shows, interpolated in a triangle. For an
+  /// uncovered texel, returns the point that its source_texel shows.
   AtlasTexel operator[](std::size_t texel) const;
 
  private:
+  /// Values of `texels_` from kFirstCopy on belong to uncovered texels, smaller values to covered
+  /// texels.
   static constexpr std::uint32_t kFirstCopy = 0x80000000U;
   struct Triangle {
     std::array<Eigen::Vector2d, 3> corners;  ///< in texels

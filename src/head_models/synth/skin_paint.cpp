@@ -217,7 +217,8 @@ double SkinPaint::brow_coverage(const Vector& p) const {
 /// \param side   selects the hairs of the left or of the right brow.
 double SkinPaint::brow_hairs(const Vector2d& place, std::uint64_t side) const {
   constexpr double kLength = 4.3, kCell = 0.08, kHair = 0.5;  // cm
-  // Density of the hair roots at a place: thin at both ends and towards the upper and lower border.
+  // Density of the hair roots at a place of the brow. The density decreases towards both ends of
+  // the brow, and towards its upper and lower border.
   const auto density = [&](const Vector2d& root) {
     const double t = root.x() / kLength, half = complexion_.brow_width * (0.30 - 0.14 * t * t);
     const double ends = smooth_step(-0.08, 0.2, t) * smooth_step(1.06, 0.6, t);

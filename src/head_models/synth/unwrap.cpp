@@ -54,7 +54,7 @@ Eigen::RowVector2d scaled(double x, double y) {
 
 // Each eyeball's texture area is a disc in a free corner of the texture, beside the area of the cap
 // (the patch on top of the head).
-constexpr double kDisc = 4.9;  ///< radius of the disc
+constexpr double kDisc = 4.9;  ///< radius of each disc, in the unit of kWidths (about 1 cm)
 const Eigen::Vector2d& disc_centre() {
   static const Eigen::Vector2d centre((across(column_distance(kFrontColumn)) + half_width()) / 2,
                                       -kCapHeight / 2);
