@@ -13,8 +13,9 @@
 namespace crowdface {
 namespace {
 
-/// The skin within this distance of the attachment (the socket) determines the attachment's motion.
-/// The distance is doubled until the socket has at least kMinSocketVertices vertices.
+/// The socket of an attachment is the skin within this distance of the attachment. The motion of
+/// the socket determines the motion of the attachment. The distance is doubled until the socket has
+/// at least kMinSocketVertices vertices.
 constexpr double kSocketRadiusMm = 15;
 constexpr std::size_t kMinSocketVertices = 12;
 /// Maximum number of steps that move the attachment out of the skin.

@@ -22,7 +22,8 @@ class ShapeBend {
   /// \param skin       Must outlive this object.
   /// \param adjacency  Adjacency of the skin's mesh.
   /// \param topology   Topology of the attachment.
-  /// \param points     #P by 3, on the fitted mesh.
+  /// \param points     Positions of the attachment's vertices on the fitted mesh (the head to which
+  ///                   the attachment was fitted), #P by 3.
   ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
             const Positions& points);
 

@@ -47,7 +47,7 @@ class SkinGaps {
   std::size_t memory_bytes() const;
 
  private:
-  /// Returns the minimum distance of a point from the skin, see `violations`.
+  /// Returns the smallest distance from the skin that a point may have, see `violations`.
   double min_height(std::uint32_t point) const;
 
   const FittedSkin& skin_;

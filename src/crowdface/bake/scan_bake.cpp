@@ -115,9 +115,9 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
   ScanSurface::ClosestPoint place = surface_.nearest(skin_point.position, skin_point.normal,
                                                      kMinNormalCosine, kMaxDistanceMm, guess);
   if (place.triangle == kNoIndex) return seen;
-  // Approximate the point at which the normal hits the scan. If the closest point of the scan is
-  // farther than kCloseMm from the skin point, take one step of a fixed-point iteration that starts
-  // at the closest point.
+  // Approximate the point at which the skin point's normal hits the scan. Start with the scan's
+  // closest point to the skin point. If this point is farther away than kCloseMm, project it onto
+  // the normal, and take the scan's closest point to the projection.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
     const double height = (place.point - skin_point.position).dot(skin_point.normal);

@@ -78,10 +78,10 @@ class ScanBake {
                                            const Eigen::Vector2d& to_lower_texel) const;
   /// Measures the scan's optical density at each skin vertex.
   /// \param optical_densities  receives one row for each skin vertex.
-  /// \return  the confidence of each row, 0 to 1.
+  /// \return  one value for each row, 0 to 1: how well the scan shows the skin there (confidence).
   std::vector<double> measure_scan_optical_densities(OpticalDensities& optical_densities) const;
   /// Computes hole_fade_weights_, which fade the scan's colours out towards holes of the scan.
-  /// \param confidence  the result of measure_scan_optical_densities.
+  /// \param confidence  return value of measure_scan_optical_densities.
   void compute_hole_fade_weights(const std::vector<double>& confidence);
   /// Computes shading_densities_ from the scan's optical densities at the skin vertices.
   /// \param confidence  the result of measure_scan_optical_densities.

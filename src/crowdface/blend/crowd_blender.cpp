@@ -336,7 +336,8 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Writes the faces at the vertices of the patch: the positions of the target plus the sums.
+  /// Writes the positions of the patch's vertices in each face: the position in the target plus the
+  /// sum in `vertex_sums_`.
   void write() {
     for (std::size_t face = 0; face < crowd_.size(); ++face) {
       const Recipe& recipe = crowd_.recipe(face);

@@ -41,7 +41,7 @@ namespace crowdface {
 class CrowdBlender {
  public:
   /// \param heads           must outlive this object.
-  /// \param levels          the fitted smoothing S̃_L of each head, one entry per head.
+  /// \param levels          for each head: its fitted smoothing to all levels.
   /// \param patches         the compressed fields of all heads.
   /// \param regions         α, #V by #regions, where rows sum to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.

@@ -39,7 +39,8 @@ class BodyPainter {
   TextureCoordinates uvs_;                 ///< result of `uvs()`
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
   std::unique_ptr<const SurfaceTexels> texels_;  ///< for each texel: the triangle that covers it
-  /// the body's colours at the vertices of the neck's ring, one row of 3 channels for each vertex
+  /// optical densities of the body's own colours at the vertices of the neck's ring, one row of 3
+  /// channels for each vertex
   OpticalDensities body_optical_densities_;
   /// Spreads the difference between the face's and the body's colours from the neck's ring over the
   /// body, with the method that NeckBend uses for displacements. The change of the body's colours

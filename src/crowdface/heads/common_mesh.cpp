@@ -139,10 +139,11 @@ bool has_same_corner_uvs(const HeadMesh& first, const HeadMesh& found) {
   return true;
 }
 
-/// The vertices of a head, matched to the vertices of the first head.
+/// The vertices of a head ("this head"), matched to the vertices of the first head.
 struct VertexMatch {
-  Vertices vertices;         ///< for each vertex of the first head: the head's matching vertex
-  bool has_own_uvs = false;  ///< whether the two heads have different texture coordinates
+  Vertices vertices;  ///< for each vertex of the first head: the matching vertex of this head
+  /// whether the texture coordinates of this head differ from the first head's
+  bool has_own_uvs = false;
 };
 
 /// Matches the vertices of `head` to the vertices of the first head: by their polygons, by the
@@ -295,10 +296,11 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
   return made;
 }
 
-/// Finds a common mesh for heads from formats whose reader joins all vertices at the same position.
-/// In the common mesh, corners share a vertex if they have the same position in every head. If the
-/// common mesh has over 2 % more vertices than the head with most vertices, the meshes really
-/// differ; then the result is the first head.
+/// Finds the common mesh of heads from formats whose reader joins all vertices at the same
+/// position. If vertices touch in one head but are separate in another head, they are separate in
+/// the common mesh: two corners share a vertex of it only if they have the same position in every
+/// head. If the common mesh has over 2 % more vertices than the head with most vertices, the meshes
+/// really differ; then the result is the first head.
 /// \param heads  heads with the same polygons
 /// \param made   receives the common mesh if no head has this mesh. This happens if each head joins
 ///               some vertices that are separate in another head.

@@ -57,9 +57,10 @@ struct Movement {
   const char *positive_text, *negative_text;
 };
 
-/// Open mouth, raised and lowered corners of the mouth, pursed mouth, puffed cheeks. The windows
-/// and factors are chosen so that the values of the ICT model's expressions are large compared with
-/// the differences between neutral heads.
+/// The movements of the mouth and the cheeks: open mouth, raised and lowered corners of the mouth,
+/// pursed mouth, puffed cheeks. Each movement's windows and factors are chosen so that the
+/// movement's value is large in the matching expression of the ICT model, compared with its
+/// differences between neutral heads.
 const std::vector<Movement>& mouth_movements() {
   constexpr Window kUpperLip{0, 4, 6, 2.5}, kLowerLip{0, -5, 6, 2.5}, kUpperSide{18, 5},
       kLowerSide{18, -5}, kCorner{26, 0}, kOuterCorner{30, 0, 5, 4}, kCheek{32, 14},
@@ -294,9 +295,11 @@ class HeadDisplacements {
 
 /// The movement in which a head deviates most from the other heads.
 struct LargestDeviation {
-  double ratio = 0;         ///< deviation_mm / usual_mm
-  double deviation_mm = 0;  ///< distance of the movement's value from the median over all heads
-  double usual_mm = 0;      ///< root mean square of the other heads' deviations, see update_largest
+  double ratio = 0;  ///< deviation_mm / usual_mm
+  /// difference between the movement's value (see Movement) in this head and the median of its
+  /// values in all heads
+  double deviation_mm = 0;
+  double usual_mm = 0;  ///< root mean square of the other heads' deviations, see update_largest
   const char* text = nullptr;  ///< start of the warning about this deviation
 };
 

@@ -52,7 +52,8 @@ double max_node_residual(const Config& config) {
   return std::min(kSharePerMm * config.smoothing.tolerance_mm, kLargest);
 }
 
-/// Prepares heads that the cache lacks; makes the filter when the first head needs it.
+/// Prepares heads that the cache lacks. Makes the smoothing filter when the first of these heads
+/// needs it.
 class HeadPreparation {
  public:
   HeadPreparation(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,

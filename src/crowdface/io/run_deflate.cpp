@@ -193,7 +193,8 @@ struct LengthToken {
   std::uint8_t symbol, extra, extra_bits;
 };
 
-/// Encodes a list of code lengths; one token stands for up to 138 lengths 0 (RFC 1951, 3.2.7).
+/// Encodes a list of code lengths. One token can stand for a run of up to 138 lengths that are zero
+/// (RFC 1951, 3.2.7).
 std::vector<LengthToken> length_tokens(const std::vector<int>& lengths) {
   constexpr std::size_t kMinZeros = 3, kMaxFewZeros = 10, kMaxZeros = 138;
   std::vector<LengthToken> tokens;

@@ -412,8 +412,9 @@ class UsdaReader {
     return found == nullptr || found->texts.empty() ? std::string_view() : found->texts[0];
   }
 
-  /// The shader of the same material to which an input of `shader` is connected, by a path such as
-  /// </head/skin/colour.outputs:rgb>. Null if there is none.
+  /// The input `input` of `shader` may be connected to an output of another shader of the same
+  /// material, by a path such as "/head/skin/colour.outputs:rgb". Returns this other shader; null
+  /// if there is none.
   static const Prim* connected(const Prim& material, const Prim& shader, std::string_view input) {
     std::string_view path = text_of(shader, concat(input, ".connect"));
     path = path.substr(0, path.find('.'));

@@ -34,7 +34,7 @@ class UsdaTemplate {
   /// \param moves  for each blend shape, its displacements from `positions`.
   /// \param images  paths of the options' images, relative to the layer.
   /// \param points  #points by 3, in the positions' unit: child prims of the face's prim.
-  /// \param parts  additional meshes with the same targets.
+  /// \param parts  additional meshes, such as hair, which have the same blend shapes as the face.
   /// \param colours  #V, or no rows (see `UsdaMesh`).
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,

@@ -284,7 +284,7 @@ class Matcher {
   std::vector<std::uint32_t> to_b_, to_a_;
   CompressedRows<std::uint32_t> corners_at_b_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> with_colour_;
-  std::vector<bool> seen_;  ///< polygons of a that the traversal has visited
+  std::vector<bool> seen_;  ///< for each polygon of mesh `a`: whether the traversal has visited it
 };
 
 using Triangle = std::array<std::uint32_t, 3>;

@@ -207,9 +207,12 @@ struct MouthAndChin {
 /// Finds mouth and chin together. The mouth is a hollow of the profile between two convex lips. The
 /// chin is convex. The mouth divides the distance from the tip of the nose to the chin in about the
 /// same ratio in all faces.
-/// \param tip    height of the tip of the nose
-/// \param prior  weight of the mouth's height penalty, which is prior / 2 · (d / kMouthSpreadMm)².
-///               Here d is the mouth's distance from the mouth's height on the mean face.
+/// \param tip      height of the tip of the nose
+/// \param mm       length of a millimetre of the mean face, in the unit of the heights
+/// \param stretch  vertical scale of the face divided by its horizontal scale
+/// \param prior    weight of a penalty on unusual heights of the mouth. The penalty is
+///                 prior / 2 · (d / kMouthSpreadMm)². Here d is the distance of the mouth from the
+///                 mouth's height on the mean face.
 MouthAndChin mouth_and_chin(const Profile& outline, double tip, double mm, double stretch,
                             double prior) {
   constexpr double kChinFromMm = 115, kChinToMm = 50, kMouthFromMm = 65, kMouthToMm = 18;
@@ -315,8 +318,10 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   FaceMarks marks;
   marks.axes = match.axes;
   const double mm = match.scale, eyes = match.eye_midpoint.dot(match.fitted_axes.up);
-  // The middle of the skin gives the symmetry plane more accurately than the relief does, except
-  // if hair or a cap shifts this middle.
+  // Two estimates of the symmetry plane: through the middle between the left and the right half of
+  // the skin, and through the middle of the matched relief of the face. The first estimate is more
+  // accurate, except if hair or a cap shifts the middle of the skin. So use the second estimate if
+  // both differ much.
   marks.symmetry_offset = symmetry_offset(topology, head, marks.axes);
   const double of_relief = match.eye_midpoint.dot(match.axes.side());
   if (std::abs(marks.symmetry_offset - of_relief) > kMaxMiddleOffsetMm * mm)

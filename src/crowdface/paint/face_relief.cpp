@@ -79,8 +79,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   const DepthMap map(samples, axes, diagonal_of(samples) / kSquares);
   const Eigen::AlignedBox2d& box = map.box();
   const double breadth = box.sizes().x();
-  // Search with sizes in a geometric sequence, in parallel. `of_scale` holds the best candidate of
-  // each size.
+  // Search for the relief with scales in a geometric sequence, in parallel. `of_scale` holds the
+  // best candidate of each scale.
   std::vector<Candidate> of_scale;
   for (double scale = kMinShare * breadth / kReliefMm; scale < kMaxShare * breadth / kReliefMm;
        scale *= grow) {
@@ -224,7 +224,9 @@ class Refinement {
     return starts;
   }
 
-  /// Rotates the axes of the best match by the pitch that the vertical slope of the depths shows.
+  /// Rotates the axes of the best match so far (`best_`), so that the face is as upright as the
+  /// mean face. The angle comes from the fit of the relief: how much the face's depth grows with
+  /// height, compared with the mean face (`slope_up_`).
   /// \return the absolute angle of the rotation in degrees
   double make_upright() {
     refine_placement();
@@ -269,8 +271,9 @@ class Refinement {
     return differences;
   }
 
-  /// Turns the match about the up and front axes and moves it sideways until the face is symmetric.
-  /// Uses robust Gauss-Newton steps.
+  /// Finds the symmetry plane of the face: turns the axes of the match about the up axis and the
+  /// front axis, and moves its origin sideways, until the face is symmetric in these axes. Uses
+  /// robust Gauss-Newton steps.
   void make_symmetric() {
     constexpr int kSteps = 8;
     constexpr double kDegrees = 2, kMm = 2;  // step sizes for numerical derivatives

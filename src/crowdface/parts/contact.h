@@ -65,7 +65,8 @@ class PartContact {
   struct Pair {
     std::uint32_t vertex;  ///< vertex of the part
     Triangle corners;      ///< triangle of the skin
-    /// point of the triangle that is nearest to the vertex on the head where the pair was found
+    /// Barycentric coordinates of a point of the triangle. On the head where the pair was found, no
+    /// other point of the triangle is nearer to the vertex.
     std::array<double, 3> barycentric;
     /// Vertices of the skin from which the search for the skin point nearest to `vertex` starts.
     /// Near both lips, some start vertices lie on the upper lip and others on the lower lip.

@@ -46,10 +46,13 @@ constexpr double kMinOutsideGap = -0.003;
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
-/// Penalties for violated constraints, as multiples of the radius. kNewLidPenalty: a lid vertex is
-/// inside the eyeball or too close to it, but outside in all heads. kMeanGapPenalty: the mean gap
-/// of a lid differs too much from the target's. kDeepLidPenalty: a lid vertex that is inside the
-/// eyeball in some head is deeper inside than in any head.
+/// Penalties for violated constraints, as multiples of the radius.
+/// - kNewLidPenalty is for lid vertices that are outside the eyeball in all heads: such a vertex is
+///   now inside the eyeball or too close to it.
+/// - kMeanGapPenalty: the mean gap between a lid and the eyeball differs too much from the mean gap
+///   in the target.
+/// - kDeepLidPenalty is for lid vertices that are inside the eyeball in at least one head: such a
+///   vertex is now deeper inside than in every head.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
 /// Unknowns of an optimisation step of an eyeball. All unknowns are lengths.
@@ -212,7 +215,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
     program.add_lower_bound(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
   lids.resize(kept);  // Later steps skip the lid vertices that are too far from the eyeball.
-  // Keep the mean gap of each lid, within a tolerance.
+  // Keep the mean gap between each lid's rim and the eyeball, within a tolerance.
   for (auto& of : mean) {
     if (of.count == 0) continue;
     for (double& value : of.a) value /= of.count;

@@ -39,8 +39,8 @@ constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
 // largest difference between the bounding boxes of two matched components, as a fraction of the
 // skin's extent
 constexpr double kBoxReach = 0.03;
-/// Largest distance of a partner that is matched by nearness, as a fraction of the local edge
-/// length.
+/// Two vertices may be matched by nearness if the distance between one vertex and the mirror image
+/// of the other is at most this fraction of the local edge length.
 constexpr double kNearness = 0.05;
 
 /// The upper limit for a sum is multiplied by this factor, to allow for rounding errors of the sum.
@@ -50,10 +50,11 @@ using Vertices = std::vector<std::uint32_t>;
 
 using Box = Eigen::AlignedBox3d;
 
-/// Matches each component with the component at its mirror image; kNoIndex if there is none. First
-/// pairs components with equally many vertices, the nearest pairs first, so that each layer of
-/// lashes finds its counterpart. Then matches each remaining component with the component nearest
-/// to its mirror image.
+/// Returns, for each component, the component that matches its mirror image; kNoIndex if no
+/// component is within `reach` of the mirror image. First pairs components with equally many
+/// vertices, the nearest pairs first, so that each layer of lashes finds its counterpart. Then
+/// matches each remaining component with the component nearest to its mirror image.
+/// \param reach  largest difference between the bounding boxes of the mirror image and of its match
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;

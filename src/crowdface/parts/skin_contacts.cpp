@@ -48,8 +48,8 @@ double wendland_kernel(double distance) {
 /// The skin around a group of facing vertices, and the side of the gap on which each vertex lies.
 struct Sides {
   std::vector<std::uint32_t> vertices;  ///< vertex indices, ascending
-  /// for each vertex: ½ on the high side of the gap, −½ on the low side; linear along the surface
-  /// in between
+  /// For each vertex: ½ on the high side of the gap (the side to which GapSection::up points), −½
+  /// on the low side. Between the two sides, the value changes linearly along the surface.
   std::vector<double> side_weights;
 };
 

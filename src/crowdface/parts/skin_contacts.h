@@ -56,7 +56,8 @@ class SkinContacts {
   /// the kernels of all sections, each multiplied by an amplitude.
   struct KernelValue {
     std::uint32_t section;
-    /// value of the kernel: positive on the gap's high side, negative on its low side
+    /// value of the kernel: positive at vertices on the high side of the section's gap (see
+    /// GapSection), negative on the low side
     double weight;
   };
   /// How the amplitude of one section moves a group's profile points. The points have the same
@@ -87,8 +88,8 @@ class SkinContacts {
     /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposite_pairs;
 
-    /// Returns the smallest gap of a section.
-    /// \param section  Index of the section within the group.
+    /// Returns the smallest gap between the two profiles of a section, in the unit of the heights.
+    /// \param section  Index of the section within the SectionGroup.
     double gap(std::size_t section) const;
   };
 

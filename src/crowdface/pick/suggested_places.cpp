@@ -90,9 +90,11 @@ std::size_t farthest_outlier(const std::vector<double>& residuals, const std::ve
   return residuals[farthest] > most ? farthest : residuals.size();
 }
 
-/// Gaussian-weighted average of the fit's residual vectors near `place`. The average corrects for
-/// local differences between faces. A constant in the divisor (kHeld) lets the correction fade to
-/// zero far from all pairs.
+/// Returns a correction for the position on the scan to which `pose` maps `place`. A pair is a
+/// landmark of the template and the same landmark of the scan; the pair's residual is the scan's
+/// landmark minus the mapped landmark of the template. The correction is the mean of the residuals,
+/// with Gaussian weights around `place`. It corrects for local differences between faces. A
+/// constant in the divisor (kHeld) lets the correction fade to zero far from all landmarks.
 Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& pose,
                            const Eigen::Vector3d& place) {
   constexpr double kReachMm = 25, kHeld = 0.5;

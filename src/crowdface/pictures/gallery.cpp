@@ -34,7 +34,8 @@ constexpr std::size_t kMaxHidden = 2'000;
 /// Largest width and height of a face's textures, in texels. With more than two textures, the limit
 /// is half of this value.
 constexpr int kMaxTexels = 1024;
-constexpr double kMinMoveMm = 0.02;  ///< the gallery omits shorter displacements of shapes
+/// The gallery omits the displacement of a vertex in a blend shape if it is shorter than this.
+constexpr double kMinMoveMm = 0.02;
 constexpr float kMinLight = 0.004F;  ///< smallest value in `sky_visibility_` if there are shapes
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 

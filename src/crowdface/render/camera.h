@@ -19,8 +19,8 @@ struct Camera {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();  ///< `right`, `up` and `back` are orthonormal
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   Eigen::Vector3d back = Eigen::Vector3d::UnitZ();  ///< direction from the target to the camera
-  double distance = 1;                              ///< distance between target and camera
-  double tan_half_fov = 0.17632698070846498;        ///< tangent of half the field of view
+  double distance = 1;  ///< distance between target and camera, in the unit of the mesh files
+  double tan_half_fov = 0.17632698070846498;  ///< tangent of half the field of view
 
   /// Position of the camera, in the unit of the mesh files.
   Eigen::Vector3d position() const { return target + distance * back; }

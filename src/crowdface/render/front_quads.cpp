@@ -110,8 +110,9 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
 /// Margin around bounding boxes, in pixels: larger than the rounding errors of positions.
 constexpr float kBoxMargin = 1e-2F;
 
-/// Bounding boxes of kCount quads, in pixels. The origin is kRimWidth pixels above and left of the
-/// image, at the corner of the first square's rim.
+/// The bounding boxes of kCount quads on the image. Coordinates are pixels, relative to a point
+/// that lies kRimWidth pixels above and left of the image's upper left corner. This point is the
+/// upper left corner of the rim of the image's first square (see kSquareSide).
 struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];

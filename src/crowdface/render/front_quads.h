@@ -43,7 +43,8 @@ struct QuadOnPixels {
 /// pixel, and all other quads that overlap the square.
 using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
-/// Adds each quad to the lists of all squares that the quad may touch, including the squares' rims.
+/// Adds each quad to the lists of all squares of the image that the quad may touch. A quad that
+/// touches only the rim of a square is also added to the lists of this square.
 /// \param first, end  range of `quads`; `end` is exclusive
 /// \param placed  all vertices, projected to the image
 /// \param squares_per_row       number of squares in a row

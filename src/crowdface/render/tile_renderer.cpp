@@ -21,8 +21,8 @@ using Vector = Eigen::Vector3f;
 
 // Lengths are in camera space: half the side of the image is 1.
 constexpr float kSkyReach = 0.55F;  // reach of ambient occlusion
-// Distance along the normal from CameraHit::ray_origin to the origin of the rays towards the key
-// light. This distance softens the edges of shadows, as light that enters skin does.
+// Rays towards the key light start at this distance from CameraHit::ray_origin, along the normal of
+// the hit surface. The distance softens the edges of shadows, as light that enters skin does.
 constexpr float kShadowRayOffset = 0.012F;
 // Fraction of the sky's light that even occluded hair receives, because hair scatters light.
 constexpr float kScattered = 0.2F;
@@ -66,7 +66,9 @@ class PointLists {
   std::vector<float> numbers_;
 };
 
-/// Stores the visibility of a hit at index `at`. \param lists  a PointLists or a PixelVisibility
+/// Stores the position, the normal and the numbers of rays of a hit in `lists`.
+/// \param at     index at which to store the values
+/// \param lists  a PointLists or a PixelVisibility
 template <class Lists>
 void put(const CameraHit& hit, std::size_t at, Lists& lists) {
   for (int c = 0; c < 3; ++c) {
@@ -161,7 +163,7 @@ class Tile {
         return asks ? &sampling_.coarse_samples : nullptr;
       });
     }
-    // Trace shadow rays.
+    // Trace shadow rays towards the key light and towards the sky.
     trace_key_rays();
     if (scene_.ambient_occlusion) trace_sky_rays();
     // Compute the mean of each pixel's hits. Then shade the pixels, with shadow rays averaged over

@@ -54,7 +54,7 @@ class FrameField {
     Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
     std::vector<Sample> samples;  ///< the vertices to which the map of the node is fitted
-    /// the matrix W in the term R·W
+    /// the matrix W in the formula of the node's map, Σ d·wᵀ + R·W (see Node)
     Eigen::Matrix3d similarity_weight_matrix;
   };
   /// The weight of a node's map at a vertex.

@@ -368,9 +368,10 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
   const Positions unscaled_moves = moves;
   std::vector<double> gains(sections_.size(), 0.0);
   double sure = 0;
-  // Find each section's gain: the relative increase of the lids' vertical movement (see move_lids)
-  // that closes the gap there. Chord method (Newton with a fixed slope): a gain of one is assumed
-  // to narrow the gap as much as the shape does on the template.
+  // For each section, find the gain that closes the gap between the lids at this section. A gain is
+  // a relative increase of the lids' vertical movement (see move_lids). The iteration is the chord
+  // method (Newton's method with a fixed slope). The slope follows from an assumption: a gain of 1
+  // narrows the gap as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) move_lids(profile_vertex_count_, axes.up, unscaled_moves, gains, moves);
     keep_outside_eyeball(profile_vertex_count_, face, eye, face_motion.scale, targets, moves);

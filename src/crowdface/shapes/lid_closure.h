@@ -83,8 +83,9 @@ class LidClosure {
   /// \param moves  The mesh's displacements in the shape, one row for each vertex of the shape.
   LidTargets measure_targets(const Positions& mesh, const FaceEye& eye,
                              const RigidMotion& face_motion, const Positions& moves) const;
-  /// Returns the weighted mean of the targets measured for several sets of shapes: for the shapes
-  /// of several heads.
+  /// Returns the weighted mean of targets. Each head may have its own set of shapes; `targets` are
+  /// the targets that were measured for each set.
+  /// \param shares  the sets, and their weights.
   static LidTargets mean_targets(std::span<const LidTargets> targets,
                                  std::span<const ShapeSetShare> shares);
   /// Returns whether the shape closes the lids.
@@ -181,10 +182,10 @@ class LidClosure {
   /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
                            const LidTargets& targets) const;
-  /// Moves each of the first `count` lid vertices along the eyeball's normal, towards a wanted
-  /// distance from the eyeball. The vertex moves by the wanted distance minus the current distance,
-  /// times `eyeball_weight`. The wanted distance is the larger of two distances: the distance at
-  /// rest plus its target change, and min_ball_distance.
+  /// Moves each of the first `count` lid vertices along the eyeball's normal. The vertex's wanted
+  /// distance from the eyeball is the larger of two distances: min_ball_distance, and the vertex's
+  /// distance at rest plus its change in LidTargets::distance_changes. The vertex moves by
+  /// LidVertex::eyeball_weight times (wanted distance − current distance).
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
   /// Returns the axes of the eye on the face that `face_motion` belongs to.

@@ -167,7 +167,8 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
     if (facing < kMinFrontCosine || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
     taken.insert(at);
-    // Collect the rings of triangles that may be in front of this vertex on a face.
+    // On a face, another triangle of the skin may be in front of this vertex. Collect the
+    // candidates: `rings` rings of triangles around the triangle that was hit on the template.
     std::vector<std::uint32_t> near = {numbers[hit->triangle]};
     for (int ring = 0; ring < rings; ++ring) {
       std::vector<std::uint32_t> wider;

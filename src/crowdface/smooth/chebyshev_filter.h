@@ -69,8 +69,8 @@ class ChebyshevFilter {
   Tiling tiling_;  ///< the tiles of the mesh, which determine the order of the rows
 };
 
-/// Evaluates several polynomials of one vector field in one pass, in double precision:
-/// result[o] = Σ_k series[o][k] T_k(W) x.
+/// Evaluates several polynomials of the filter's matrix W (see ChebyshevFilter), applied to one
+/// vector field x, in one pass and in double precision: result[o] = Σ_k series[o][k] T_k(W) x.
 /// \param x  #V by 3.
 /// \throws BrokenPrecondition if x does not have one row per vertex of the filter.
 std::vector<Positions> filter_many(const ChebyshevFilter& filter, const Positions& x,

@@ -18,7 +18,7 @@ namespace crowdface {
 /// S̃_L x = x + Σ_p φ_p(L)·c_p. The vector fields c_p and the level functions φ_p come from a
 /// LevelBasis or the paper's CubicFit.
 struct HeadSmoothing {
-  LevelFields fields;  ///< the vector fields c_p: an offset for each vertex
+  LevelFields fields;  ///< the vector fields c_p, numbered by p; each has a vector at each vertex
   /// For a level (number of smoothing iterations), returns one factor for each of the fields: the
   /// values φ_0(L), φ_1(L), … of the level functions.
   std::function<std::vector<double>(std::uint64_t level)> functions;

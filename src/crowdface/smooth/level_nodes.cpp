@@ -137,8 +137,9 @@ std::vector<double> LevelNodes::interpolation_weights(std::uint64_t level) const
     result[static_cast<std::size_t>(node - levels_.begin())] = 1;
     return result;
   }
-  // Find the weights by least squares over the grid: project the level onto the orthonormal
-  // directions, then solve the triangular system for the weights of the nodes.
+  // Find the weights of the nodes by least squares over the grid of eigenvalues: project the
+  // displacement at this level onto the orthonormal basis of the nodes' displacements. Then solve
+  // the triangular system for the weights of the nodes.
   const Spectrum level_displacement = displacement(level);
   std::vector<double> share;
   share.reserve(orthonormal_basis_.size());

@@ -64,7 +64,8 @@ class TextureBlender {
       const FindStatistics& find_statistics = [](const auto& make) { return make(); });
 
   /// Blends one texture image of a face. Thread-safe.
-  /// \throws IoError if a map lies in a file that another process has truncated.
+  /// \throws IoError if a head's texture map is in a mapped cache file that another process has
+  ///         truncated.
   /// \param picture  index of an image (picture) of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 

@@ -25,8 +25,8 @@ struct WrapLandmark {
   Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();
   /// true: the program found the landmark by the shape of the surface; false: the user picked it
   bool is_found_by_program = false;
-  /// Uncertainty of `scan_position`: standard deviation along each axis. The squared distance of a
-  /// landmark has the weight 1/error_mm².
+  /// Uncertainty of `scan_position`: standard deviation along each axis. In the fit, the squared
+  /// distance between the landmark's vertex and `scan_position` has the weight 1/error_mm².
   double error_mm = kPickedErrorMm;
 
   /// The weight of this landmark relative to a picked landmark.

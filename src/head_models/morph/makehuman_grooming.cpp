@@ -67,9 +67,10 @@ struct RoundTheHead {
   Vector3d position() const { return origin() + radius * direction(); }
 };
 
-/// For each height, the range of angles in front of the face in which there is no hair. An element
-/// is a pair (height, angle in degrees); heights ascend.
+/// For each height, the range of angles in front of the face in which there is no hair.
 struct FreeRange {
+  /// The begin and the end of the range at each height. Each element of the two lists is a pair
+  /// (height, angle in degrees). The heights ascend and are the same in both lists.
   std::vector<Vector2d> begin, end;
 };
 

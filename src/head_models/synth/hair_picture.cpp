@@ -90,7 +90,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
         middle += kSwing * smooth_wave(phase);
         light *= 1 + 0.22 * smooth_wave(phase + 0.5);  // one half of each winding lies in shade
       }
-      // Strands become thinner towards their tips, and visible gradually at their roots.
+      // A strand becomes thinner towards its tip (`half`), and fades in at its root (`grown`).
       const double half = strand.half * (1 - 0.7 * smooth_step(0.5, 1, t / strand.end));
       const double grown = is_cap ? smooth_step(strand.end, strand.end - 0.15, t)
                                   : smooth_step(strand.start, strand.start + 0.025, t);

@@ -24,8 +24,8 @@ struct Fold {
   std::string_view name;
   Vector2d start, control, end;
   double width, depth;  ///< width and depth of the groove, cm; a ridge has a negative depth
-  /// The factor on the depth has the mean base + 1.25 · aged · Person::scaled_age() and the
-  /// standard deviation `spread`.
+  /// Each person's fold has the depth `depth` times a random factor. The mean of this factor is
+  /// `base` + 1.25 · `aged` · Person::scaled_age(); its standard deviation is `spread`.
   double base, aged, spread;
   double bulge;        ///< height of the ridge beside the groove, see Relief::Stroke::bulge
   bool paired = true;  ///< whether the fold is mirrored to x < 0

@@ -52,7 +52,7 @@ class Relief {
   double grain(const Eigen::Vector3d& position) const;
   /// Returns the contribution of one curve to fold_height at a point of the front view, cm.
   double stroke_height(const Stroke& stroke, const Eigen::Vector2d& place) const;
-  /// Returns the sum of the curves' contributions at a point, each multiplied by weight(curve).
+  /// Returns Σ weight(s) · stroke_height(s) at a point, over all curves s in `strokes_`.
   template <class Weight>
   double sum_of_strokes(const Eigen::Vector3d& position, const Weight& weight) const;
   /// Returns the depth of wrinkles at a point as a negative height, cm; positive on their borders.

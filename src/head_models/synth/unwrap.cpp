@@ -25,14 +25,17 @@ double piecewise(double unit, double (*knot)(int), const double* sizes, int inte
   return sum;
 }
 
-/// Returns the signed distance from the midline, in the unit of kWidths.
-double across(double unit) {
-  const double x = piecewise(std::abs(unit), column_distance, kWidths.data(), kColumns - 1);
-  return unit < 0 ? -x : x;
+/// Converts a signed distance from the midline of the face: from lattice units to the unit of
+/// kWidths.
+double across(double lattice_units) {
+  const double x =
+      piecewise(std::abs(lattice_units), column_distance, kWidths.data(), kColumns - 1);
+  return lattice_units < 0 ? -x : x;
 }
 
-double down(double unit) {
-  return piecewise(unit, row_distance, kHeights.data(), kRows - 1);
+/// Converts a distance down from the cap: from lattice units to the unit of kHeights.
+double down(double lattice_units) {
+  return piecewise(lattice_units, row_distance, kHeights.data(), kRows - 1);
 }
 
 /// Half the width of the texture, in the unit of kWidths.
