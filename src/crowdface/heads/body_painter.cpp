@@ -77,7 +77,8 @@ TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
   return layout;
 }
 
-/// The low frequencies of a map's optical densities, at the vertices of a rim, #rim by 3.
+/// The low frequencies of a map's optical densities at the vertices of a rim: one row of 3 channels
+/// for each vertex.
 OpticalDensities coarse_at(const Rim& rim, const Topology& topology, const Positions& positions,
                            const SurfaceTexels& texels,
                            const std::shared_ptr<const TextureMap>& map) {

@@ -228,7 +228,7 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
   return hasher.digest();
 }
 
-/// Returns the unit normals at the vertices of the neck's rim, #rim by 3.
+/// Returns the unit normals at the vertices of the neck's rim, one row for each vertex.
 /// \param areas       the sum of the heads' area vectors around each vertex of the rim
 /// \param body_areas  the sum of the body's area vectors around each vertex of the rim
 Positions normals_of(Positions areas, const Positions& body_areas) {

@@ -10,7 +10,7 @@ namespace crowdface {
 /// bending of the skin above the ring. Thread-safe.
 struct Seam {
   Rim rim;                       ///< the ring, as vertex indices of the heads
-  Positions positions, normals;  ///< #rim by 3: positions and unit normals of the ring
+  Positions positions, normals;  ///< positions and unit normals of the ring's vertices
   NeckBend neck_bend;            ///< bends the skin above the ring
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.

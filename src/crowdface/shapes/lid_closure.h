@@ -66,10 +66,10 @@ class LidClosure {
     /// vertical distance from the section's point on the upper rim down to the lower rim
     double vertical_gap;
   };
-  /// The lengths that the lids of a face should have in the shape: gaps between the lids, and
-  /// distances of the lids from the eyeball. measure_targets measures these lengths on a mesh for
-  /// which the shape was made (the template or a head), and divides them by the scale of this mesh
-  /// relative to the template.
+  /// The lengths that the lids of a face should have while the shape is applied: gaps between the
+  /// lids, and distances of the lids from the eyeball. measure_targets measures these lengths on a
+  /// mesh for which the shape was made (the template or a head), and divides them by the scale of
+  /// this mesh relative to the template.
   struct LidTargets {
     std::vector<Gap> gaps;  ///< the gap between the lids at each section
     /// One entry per lid vertex. `ball_distances`: distance from the eyeball with the shape
@@ -80,7 +80,8 @@ class LidClosure {
   ///
   /// \param mesh   The template or the head at rest, #V by 3.
   /// \param face_motion  Motion from the template to the mesh.
-  /// \param moves  The mesh's displacements in the shape, one row for each vertex of the shape.
+  /// \param moves  The displacements by which the shape moves the mesh, one row for each moved
+  ///               vertex.
   LidTargets measure_targets(const Positions& mesh, const FaceEye& eye,
                              const RigidMotion& face_motion, const Positions& moves) const;
   /// Returns the weighted mean of targets. Each head may have its own set of shapes; `targets` are

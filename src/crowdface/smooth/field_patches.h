@@ -15,8 +15,12 @@
 namespace crowdface {
 
 /// An approximation of one head's shape after any number L of smoothing iterations:
-/// S̃_L x = x + Σ_p φ_p(L)·c_p. The vector fields c_p and the level functions φ_p come from a
-/// LevelBasis or the paper's CubicFit.
+///
+///     S̃_L x = x + Σ_p φ_p(L)·c_p
+///
+/// Here, x are the head's positions, and S̃_L x approximates the positions after L iterations. The
+/// vector fields c_p and the level functions φ_p, both numbered by p, come from a LevelBasis or a
+/// CubicFit.
 struct HeadSmoothing {
   LevelFields fields;  ///< the vector fields c_p, numbered by p; each has a vector at each vertex
   /// For a level (number of smoothing iterations), returns one factor for each of the fields: the

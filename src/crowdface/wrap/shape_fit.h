@@ -42,7 +42,7 @@ Similarity pose_of_landmarks(const Positions& positions,
 /// Applies a similarity to a point.
 Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vector3d& point);
 
-/// The pose of a head in a scan, and its coefficients in the shape model.
+/// The pose of a head in a scan, and the head's coefficients in the shape model.
 struct ShapeFit {
   Similarity pose;                ///< similarity from the template's frame to the scan's frame
   Eigen::VectorXd coefficients;   ///< one coefficient per mode, in standard deviations
