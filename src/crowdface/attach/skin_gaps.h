@@ -25,13 +25,13 @@ class SkinGaps {
     double missing_height;
     Eigen::Vector3d outward_normal;  ///< unit normal of the skin at the point nearest to the vertex
   };
-  /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the
-  /// face's skin than their minimum distance. The minimum distance of a vertex is its original
-  /// distance or two millimetres, whichever is smaller.
+  /// Returns the vertices of the attachment that were outside the skin of the fitted mesh and are
+  /// now nearer to the face's skin than their minimum distance. The minimum distance of a vertex is
+  /// its original distance or two millimetres, whichever is smaller.
   ///
-  /// \param face     #V by 3.
+  /// \param face     Positions of the face, #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
-  /// \param points   #P by 3, on the face.
+  /// \param points   Present positions of the attachment's vertices, #P by 3.
   std::vector<Violation> violations(const Positions& face, const Positions& normals,
                                     const Positions& points) const;
 

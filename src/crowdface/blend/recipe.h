@@ -11,8 +11,9 @@
 
 namespace crowdface {
 
-/// A head and its weight in a blend. For heads that lend detail, the weights are the normalised
-/// weights ω̂.
+/// A head and its weight in a blend. Two kinds of heads have weights. Heads on which the face is
+/// built have the weights of a mixture (Recipe::mixture). Heads that lend detail (the sources) have
+/// the normalised weights of Eq. 3, which the docs call ω̂.
 struct SourceWeight {
   Index head = 0;  ///< index of the head in the HeadSet
   double weight = 0;

@@ -42,7 +42,7 @@ class GltfFile {
   /// \param width     numbers per element: 3 for "VEC3".
   /// \throws InvalidInput if a value is not finite.
   std::vector<double> read_values(std::size_t accessor, std::size_t width);
-  /// The values of an accessor as unsigned integers.
+  /// The values of an accessor as unsigned integers. The parameters are those of read_values.
   std::vector<std::uint32_t> read_unsigned_values(std::size_t accessor, std::size_t width);
   /// The data of a URI: embedded in the URI, or read from a file beside the glTF file.
   /// \param what  name of the data in messages, such as "its buffer 2"

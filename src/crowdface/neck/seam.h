@@ -11,7 +11,7 @@ namespace crowdface {
 struct Seam {
   Rim rim;                       ///< the ring, as vertex indices of the heads
   Positions positions, normals;  ///< positions and unit normals of the ring's vertices
-  NeckBend neck_bend;            ///< bends the skin above the ring
+  NeckBend neck_bend;            ///< bends the skin above `rim`
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.
   void bend_to_seam(Positions& mesh) const;

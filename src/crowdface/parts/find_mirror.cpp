@@ -235,8 +235,9 @@ double mean_square_distance(const MirrorMap& map, const Positions& mean,
   return squares / static_cast<double>(mean.rows());
 }
 
-/// Returns the plane that the pairs of partners determine, or the coordinate plane if the
-/// coordinate plane fits nearly as well.
+/// Returns the mirror plane that the pairs of partners determine. If the coordinate plane
+/// perpendicular to the side axis (such as x = 0) fits nearly as well, returns the coordinate
+/// plane.
 MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positions& mean,
                               const Eigen::Vector3d& side) {
   PlaneFit fit;

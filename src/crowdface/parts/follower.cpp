@@ -127,7 +127,8 @@ struct PartFollower::State {
   Anchors anchors;
   /// for each head: the result of Anchors::measure_offsets
   std::vector<std::vector<Eigen::Vector3d>> offsets;
-  PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
+  /// weights with which the vertices of bound parts (PartClass::kBound, such as gums) follow teeth
+  PartWeights tooth_weights;
 
   struct PartMotion {
     bool still = true;  ///< whether the skin around the part has kept its positions

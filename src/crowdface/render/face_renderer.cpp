@@ -30,8 +30,9 @@ namespace crowdface {
 
 namespace {
 
-/// Replaces kRayClearance if the occluding mesh is reduced, so that rays start outside the reduced
-/// surface.
+/// Distance of ray origins from the surface, in camera space (half the side of the image is 1).
+/// Used instead of kRayClearance if the mesh that occludes light is reduced, so that rays start
+/// outside the reduced surface.
 constexpr float kReducedClearance = 2e-3F;
 
 /// Memory for rendering one face. This memory can be large, so it is reused for the next face.

@@ -20,7 +20,8 @@ inline constexpr int kRimWidth = 2;                       ///< width of the rim,
 /// Side of a square with its rim, in pixels.
 inline constexpr int kRimmedSide = kSquareSide + 2 * kRimWidth;
 
-/// Padding at the end of lists: the largest number of floats that a SIMD vector holds.
+/// The largest number of floats that a SIMD vector holds. Lists that SIMD code reads are padded by
+/// this number of entries.
 inline constexpr std::size_t kMaxLanes = 16;
 
 /// A vertex projected to the image.

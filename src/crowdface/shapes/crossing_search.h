@@ -74,7 +74,8 @@ class CrossingSearch {
   /// vertex indices of the mesh, ascending: the vertices of the triangles
   std::vector<std::uint32_t> vertices_;
   TriangleTree tree_;  ///< tree over `triangles_`; its vertex indices are rows of `vertices_`
-  std::vector<LeafPair> leaf_pairs_;  ///< pairs of leaves with candidates, ascending
+  /// all pairs of leaves that have pairs of triangles to test; sorted by the indices of the leaves
+  std::vector<LeafPair> leaf_pairs_;
 };
 
 }  // namespace crowdface

@@ -57,7 +57,7 @@ class FrameField {
     /// the matrix W in the formula of the node's map, Σ d·wᵀ + R·W (see Node)
     Eigen::Matrix3d similarity_weight_matrix;
   };
-  /// The weight of a node's map at a vertex.
+  /// The weight of a node's linear map (see Node) in the linear map of a vertex.
   struct NodeWeight {
     std::uint32_t node;
     double weight;  ///< the weights of all nodes for one vertex sum to one

@@ -25,7 +25,7 @@ struct TemplateEye {
 /// it from the head to the face.
 struct FaceEye {
   const BallRadii* ball;  ///< radii of the head's eyeball
-  RigidMotion motion;     ///< motion of the eyeball from the head to the face
+  RigidMotion motion;     ///< moves the eyeball from its position in the head to that in the face
   /// distance of each of TemplateEye::skin_vertices from the eyeball on the face at rest
   std::vector<double> rest_gaps = {};
 
@@ -179,6 +179,7 @@ class LidClosure {
   /// is the smallest of three distances: the vertex's distance at rest, the vertex's target
   /// distance, and a small margin. A target distance deep inside the eyeball is replaced by the
   /// distance at the largest allowed depth.
+  /// \param lid            index of the vertex in lid_vertices_.
   /// \param rest_distance  the vertex's distance on the face at rest.
   /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,

@@ -331,7 +331,8 @@ SkinCrossings::SearchedSkin SkinCrossings::find_searched_skin(const Positions& n
     searched_skin.shaped_positions.row(static_cast<Index>(i)) =
         shaped.row(searched_skin.skin_displacements[i].vertex);
   }
-  // Search skin that may touch, and a few rings of triangles around this skin.
+  // The search for intersections covers the skin that may touch other skin, and kRings rings of
+  // triangles around this skin.
   std::vector<bool> meets = skin_that_may_touch(skin_, neutral, shaped, extent_);
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<bool> wider = meets;

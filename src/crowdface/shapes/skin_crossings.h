@@ -37,8 +37,8 @@ class SkinCrossings {
     /// or a head, already has in this shape. Intersections between two of these triangles are
     /// ignored on faces.
     std::vector<bool> may_intersect;
-    /// For each vertex: 1 for the upper lid and −1 for the lower lid if the shape closes this eye,
-    /// 0 for other skin. Empty if the shape closes no eye.
+    /// For each vertex: 1 on the upper lid and −1 on the lower lid of an eye that the shape closes;
+    /// 0 on all other skin. Empty if the shape closes no eye.
     std::vector<signed char> lid_sides;
     /// the rows of the shape's displacements whose vertices are skin
     std::vector<DisplacementRow> skin_displacements;

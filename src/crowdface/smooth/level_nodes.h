@@ -56,8 +56,9 @@ class LevelNodes {
   std::vector<Spectrum> orthonormal_basis_;
   /// indices into levels_, in the order in which choose_nodes chose the nodes
   std::vector<std::size_t> choice_order_;
-  /// Row p belongs to node choice_order_[p]: the displacement at this node is
-  /// Σ_q triangular_factor_[p][q] orthonormal_basis_[q].
+  /// Row p belongs to node choice_order_[p]. The displacement after the iterations of this node's
+  /// level is a linear combination of the basis: Σ_q triangular_factor_[p][q]
+  /// orthonormal_basis_[q].
   std::vector<std::vector<double>> triangular_factor_;
 };
 

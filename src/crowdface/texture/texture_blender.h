@@ -53,10 +53,11 @@ class TextureBlender {
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param texels             the mesh rasterized into the layout of `textures`.
-  /// \param filter             a smoothing filter of the mesh, with the umbrella or the lazy
-  ///                           operator.
+  /// \param filter             a smoothing filter of the mesh; its operator may be
+  ///                           OperatorKind::kUmbrella or OperatorKind::kLazy.
   /// \param regions, textures  these objects and the textures' maps must outlive the blender.
-  /// \param find_statistics    a function that may look up the statistics in a cache.
+  /// \param find_statistics    a function that returns the statistics of the heads' maps; it may
+  ///                           look them up in a cache.
   TextureBlender(
       const Topology& topology, std::shared_ptr<const LayoutTexels> texels,
       const ChebyshevFilter& filter, const RegionWeights& regions, const CrowdTextures& textures,
