@@ -177,7 +177,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     top = hn::Max(top, zero);
     right = hn::Min(right, most);
     bottom = hn::Min(bottom, most);
-    // Round the box to pixels. Find the last square that, with its rim, overlaps the box. Compute
+    // Round the box to pixels. Each square of the image has a rim around it (see kSquareSide). Find
+    // the last square in reading order that overlaps the box or whose rim overlaps the box. Compute
     // the box relative to the upper left corner of this square's rim.
     const auto l = pixel(left), t = pixel(top), r = pixel(right), b = pixel(bottom);
     const auto column = last_square(r), row = last_square(b);

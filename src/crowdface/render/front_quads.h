@@ -32,9 +32,9 @@ struct alignas(16) ProjectedVertex {
   float inverse_depth;
 };
 
-/// A quad that overlaps a square of the image or the square's rim, and the quad's bounding box in
-/// pixels. The box is relative to the upper left corner of the square with its rim. `right` and
-/// `bottom` are inclusive.
+/// A quad that overlaps a square of the image or the rim around this square (see kSquareSide), and
+/// the quad's bounding box in pixels. The coordinates of the box are relative to the upper left
+/// corner of the rim. `right` and `bottom` are inclusive.
 struct QuadOnPixels {
   std::uint32_t quad;  ///< index of the quad
   std::uint8_t left, top, right, bottom;
