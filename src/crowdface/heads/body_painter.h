@@ -18,9 +18,9 @@ namespace crowdface {
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
-  /// \param texture  an image in the body's texture coordinates. Empty: the body's colours come
-  ///                 only from the face's colours at the ring, and the body gets new texture
-  ///                 coordinates.
+  /// \param texture  path of an image in the body's texture coordinates. If the path is empty, the
+  ///                 body has no colours of its own: it gets the face's colours at the ring of the
+  ///                 neck, and new texture coordinates.
   BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
 
   /// The body's polygons. Their corners refer to rows of uvs().

@@ -126,8 +126,8 @@ std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size)
     const std::uint64_t one = word_at(bytes + i), two = word_at(bytes + i + 1);
     const std::uint64_t differences =
         (word_at(bytes + i - 1) ^ one) | (one ^ two) | (two ^ word_at(bytes + i + 2));
-    // The lowest bit of `zeros` is the high bit of the lowest byte of `differences` that is 0
-    // (Warren, Hacker's Delight, 6-1)
+    // Find the lowest byte of `differences` that is 0 (Warren, Hacker's Delight, 6-1). The lowest
+    // bit that is set in `zeros` lies in this byte.
     const std::uint64_t zeros =
         (differences - 0x0101010101010101U) & ~differences & 0x8080808080808080U;
     if (zeros != 0) return i + static_cast<std::size_t>(std::countr_zero(zeros)) / 8;

@@ -170,9 +170,10 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
                             std::vector<LidPoint>& lids) const {
   const BallRadii& map = ball_radii_[target];
   const double radius = motion.scale * map.radius();
-  // Lid vertices outside this radius are farther from the eyeball than `far`. The factor 1.5 allows
-  // for gaps, which are measured along the normal of the eyeball and are a little smaller than the
-  // distance along the ray from the centre.
+  // If a lid vertex is farther from the eyeball's centre than this radius, its gap (the distance
+  // from the eyeball's surface) is larger than `far` · `radius`. The gap is measured along the
+  // normal of the eyeball, so it is a little smaller than the distance along the ray from the
+  // centre. The factor 1.5 allows for this difference.
   const double outside = motion.scale * map.max_radius() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
   const Eigen::Vector3d shifted = centre - skin_motion.apply(map.centre());

@@ -48,7 +48,8 @@ std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double
 
 /// Cuts the two profiles of a section. One profile or both profiles may stay empty.
 ///
-/// \param vertices  Vertices around the group.
+/// \param vertices  Vertices of the skin around the group of facing pairs for which the section was
+///                  made (see distribute_gap_sections).
 /// \param side      One value per vertex of the mesh: positive on the high side, negative on the
 ///                  low side.
 /// \param reach     Largest distance of a profile's points from the section's middle.

@@ -16,7 +16,7 @@ namespace crowdface {
 /// rim of kRimWidth pixels, which overlaps the neighbouring squares.
 inline constexpr int kLog2SquareSide = 6;
 inline constexpr int kSquareSide = 1 << kLog2SquareSide;  ///< side of a square, in pixels
-inline constexpr int kRimWidth = 2;                       ///< width of the rim, in pixels
+inline constexpr int kRimWidth = 2;  ///< width of the rim around a square, in pixels
 /// Side of a square with its rim, in pixels.
 inline constexpr int kRimmedSide = kSquareSide + 2 * kRimWidth;
 

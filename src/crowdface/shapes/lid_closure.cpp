@@ -129,8 +129,8 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   }
 }
 
-/// Moves the lid vertices that belong to profiles to the front of lid_vertices_. The search
-/// for the gains in `fit_lids` moves only these vertices.
+/// Moves the lid vertices that belong to profiles to the front of lid_vertices_. While `fit_lids`
+/// searches for the sections' gains (see move_lids), it moves only these vertices.
 void LidClosure::move_profile_vertices_to_front() {
   std::set<std::uint32_t> rows;
   for (const LidSection& section : sections_) {

@@ -98,7 +98,7 @@ class TextureBlender {
 };
 
 /// For each region, the fraction of the face's area that the region covers.
-/// \param vertex_areas  #V: weight of each vertex.
+/// \param vertex_areas  #V: area of the surface around each vertex, in any unit.
 std::vector<double> region_area_fractions(const RegionWeights& regions,
                                           const std::vector<double>& vertex_areas);
 

@@ -22,8 +22,8 @@ constexpr double kArcWidth = 2.1, kArcDepth = 1.9;
 
 /// Maps a point (i, j) in [−1, 1]² on a side of a cube to the unit sphere.
 Vector3d point_on_ball(int side, double i, double j) {
-  // This distortion makes the quads in the middle of a side about as large as the quads at its
-  // corners.
+  // A grid of equal squares on a side of the cube would give larger quads on the sphere in the
+  // middle of the side than at its corners. This distortion makes the quads about equally large.
   const auto even = [](double x) { return x * (1.25 - 0.25 * x * x); };
   const double a = even(i), b = even(j);
   const std::array<Vector3d, 6> on_cube = {
