@@ -84,11 +84,11 @@ class ScanBake {
   /// \param confidence  return value of measure_scan_optical_densities.
   void compute_hole_fade_weights(const std::vector<double>& confidence);
   /// Computes shading_densities_ from the scan's optical densities at the skin vertices.
-  /// \param confidence  the result of measure_scan_optical_densities.
+  /// \param confidence  return value of measure_scan_optical_densities.
   void estimate_shading(const std::vector<double>& confidence, const OpticalDensities& densities);
   /// Computes tone_differences_: keeps the differences where the scan has colours, and continues
   /// them smoothly into the holes of the scan.
-  /// \param confidence   the result of measure_scan_optical_densities.
+  /// \param confidence   return value of measure_scan_optical_densities.
   /// \param differences  #skin by 3: optical density of the scan minus that of the template.
   void compute_tone_differences(const std::vector<double>& confidence,
                                 const OpticalDensities& differences);

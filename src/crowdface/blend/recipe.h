@@ -33,11 +33,13 @@ struct BandRecipe {
   double smoothness = 0;
   /// L_k: the level at which the band begins, as a number of smoothing iterations
   std::uint64_t iterations = 0;
-  /// e_k: the extrapolation factor of Fig. 6, which is the strength of the band's detail
+  /// e_k: the band's extrapolation factor (Fig. 6 of the paper, see docs/paper.md), which is the
+  /// strength of the detail that the heads lend
   double extrapolation = 1;
 };
 
-/// The recipe of one region. The base class is the region's coarsest band (the only band in Eq. 7).
+/// The recipe of one region. The base class is the region's coarsest band. The paper's blend (Eq.
+/// 7, docs/method.md) has only this band.
 struct RegionRecipe : BandRecipe {
   /// all further bands, from coarse to fine; the level of each band is at most the level of the
   /// next coarser band

@@ -17,7 +17,8 @@ namespace {
 
 /// Texture coordinates that give each polygon its own square of the image; the squares form rows.
 struct SquareLayout {
-  static constexpr int kTexels = 4;  ///< side of each polygon's square, in texels
+  /// side of the square that each polygon has in the texture, in texels
+  static constexpr int kTexels = 4;
   int per_row;
 
   explicit SquareLayout(Index polygons)

@@ -59,8 +59,9 @@ class UsdaTemplate {
   std::string axis_transform_;
   /// Materials of the face; a copy of `GlbOptions::materials`.
   std::vector<GlbMaterial> glb_materials_;
-  std::string shared_folder_;                  ///< see `GlbOptions::shared_folder`
-  std::vector<std::string> point_prim_names_;  ///< prim names of the points
+  std::string shared_folder_;  ///< see `GlbOptions::shared_folder`
+  /// for each of `GlbOptions::point_names`: the name of the point's prim
+  std::vector<std::string> point_prim_names_;
 };
 
 /// Reads the positions of a file that `UsdaTemplate` wrote.

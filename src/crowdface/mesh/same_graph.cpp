@@ -85,8 +85,9 @@ class Graph {
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::uint64_t> sums(colours_.size(), mixed(static_cast<std::uint64_t>(round)));
       for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
-        // Hash the graph colours (labels, not RGB) of the polygon's vertices in order, starting at
-        // this corner.
+        // Compute a hash of the polygon, seen from this corner. It starts with the number of
+        // corners and whether the edge is a border. Then it includes the graph colours (labels, not
+        // RGB) of the polygon's other vertices, in order.
         std::uint64_t seen = face_size(c) + (twins_[c] == kNoIndex ? 1000U : 0U);
         std::uint32_t at = c;
         for (std::uint32_t k = face_size(c); k > 1; --k) {

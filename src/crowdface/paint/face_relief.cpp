@@ -23,11 +23,13 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// A candidate position of the face on the surface, and the correlation there.
+/// A candidate for the face's position and size on the searched surface.
 struct Candidate {
+  /// Coordinates of the point between the eyes, along the side axis and up; and see
+  /// ReliefMatch::scale and ReliefMatch::stretch.
   double across = 0, height = 0, scale = 1, stretch = 1;
-  ReliefFit fit;
-  double score = -1;
+  ReliefFit fit;      ///< comparison of the surface at this position with the mean face
+  double score = -1;  ///< see ReliefMatch::score
 };
 
 double diagonal_of(const Positions& samples) {

@@ -42,8 +42,9 @@ constexpr double kMaxShrink = 0.06, kMaxGrowth = 0.01;
 constexpr double kOutsidePenalty = 1000, kInsidePenalty = 1;
 
 /// Index of the first unknown of each kind in an optimisation step of a part: translation (3
-/// unknowns), rotation (3), change of size, and the two violations with the penalties
-/// kOutsidePenalty and kInsidePenalty. All unknowns are lengths.
+/// unknowns), rotation (3), change of size, and two slack variables. The slack variables are the
+/// violations of constraints that kOutsidePenalty and kInsidePenalty penalise. All unknowns are
+/// lengths: rotation and change of size are multiplied by the part's radius.
 enum Unknown : std::size_t {
   kShift = 0,
   kTurn = 3,

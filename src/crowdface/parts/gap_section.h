@@ -25,7 +25,8 @@ struct EdgePoint {
 /// A cutting plane in which the gap between two facing sides of the skin is measured. On the mean
 /// head, the plane cuts a short curve (profile) out of each side.
 struct GapSection {
-  /// `middle`: position on the mean head. `up`: unit vector from the low side to the high side.
+  /// `middle`: position of the section's middle on the mean head. `up`: unit vector from one side
+  /// of the gap (the "low" side) to the other (the "high" side).
   Eigen::Vector3d middle, up;
   Eigen::Vector3d plane_normal;  ///< unit normal of the cutting plane
   /// The points of the profile on the low side of the gap, and of the profile on the high side.
@@ -108,7 +109,9 @@ class Clearance {
   std::vector<double> depths(const Positions& positions) const {
     return coordinates(inward_, positions);
   }
-  /// Returns the smallest gap of the given pairs of points; negative if the profiles intersect.
+  /// Returns the smallest gap (OppositePoints::gap) of pairs of opposite points of the two
+  /// profiles; negative if the profiles intersect.
+  /// \param heights  heights of all profile points, from heights().
   static double gap(std::span<const OppositePoints> opposite_pairs,
                     std::span<const double> heights);
   /// Returns the smallest gap between the section's low profile and its high profile on a head.

@@ -22,7 +22,7 @@ class ProximityJoiner {
   /// groups while this object exists.
   /// \param points      one point per row. Only the rows listed in `rows` are read; these must be
   ///                    finite.
-  /// \param rows        row indices of the points in the tree; may be empty.
+  /// \param rows        row indices of the points that take part; may be empty.
   /// \param components  the component of each point.
   ProximityJoiner(const Positions& points, std::vector<std::uint32_t> rows,
                   const std::vector<std::uint32_t>& components, DisjointSets& groups);

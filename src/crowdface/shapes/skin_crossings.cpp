@@ -36,8 +36,9 @@ constexpr double kArrangeFactor = 0.7;
 /// Averaging the displacements also changes the displacements of the lids. The vertical component
 /// of this change is multiplied by kLidHeightFactor, so that the eye stays closed.
 constexpr double kLidHeightFactor = 0.3;
-// Fractions of the skin's extent. kPushLength: length of the push in each round. kPushRadius: skin
-// is pushed up to this distance from intersections, measured at rest.
+// Fractions of the skin's extent. kPushLength: in each round, skin near intersections is pushed by
+// this length. kPushRadius: a round pushes the skin whose distance from an intersection, on the
+// face at rest, is at most this radius.
 constexpr double kPushLength = 0.00015, kPushRadius = 0.004;
 constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds without improvement after which the repair of lids ends

@@ -24,14 +24,14 @@ namespace {
 // the target.
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
-// Largest distance of a vertex behind the skin, as a fraction of the skin's extent. Vertices
-// farther behind the skin need no check.
+// Vertices of gums and teeth need a check only if their distance behind the skin is at most this
+// fraction of the skin's extent.
 constexpr double kNear = 0.008;
 constexpr double kPushedAround = 0.02;  // radius of the skin that a push moves
 // Only one vertex in each grid cell is checked. Size of a cell, as a fraction of the skin's extent.
 constexpr double kFrontCell = 0.0025;
-// skin is pushed only if its distance from the vertex is less than this fraction of the wanted
-// depth
+// A covered vertex should lie at CoveredVertex::depth below the skin. The skin in front of the
+// vertex is pushed only if the vertex lies at less than this fraction of that depth.
 constexpr double kTooNear = 0.25;
 // Only skin that faces the front covers vertices: smallest cosine between the skin's normal and the
 // head's front axis. Excludes the rims of the lips.

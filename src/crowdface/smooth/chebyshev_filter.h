@@ -29,7 +29,8 @@ struct FilterInput {
 /// further pass of the filter.
 struct RecordedTerms {
   std::vector<std::uint32_t> vertices;  ///< vertex indices of the probes
-  Columns terms;  ///< #terms by 3·#vertices: row k receives T_k(W) x at the vertices
+  /// #terms by 3·#vertices: the filter writes the Chebyshev term T_k(W) x at the probes to row k
+  Columns terms;
 };
 
 /// Evaluates polynomials of the matrix W (the mean over a vertex's edge-neighbours) of one topology

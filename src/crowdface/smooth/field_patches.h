@@ -48,7 +48,7 @@ struct FieldPatch {
   /// of `vertices`.
   const float* weights = nullptr;
 
-  /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
+  /// Whether the patch stores the fields at all its vertices, so that no interpolation is needed.
   bool stores_all_vertices() const { return stored_vertex_count == vertices.size(); }
   /// Number of 16-bit values stored for each field: 3 coordinates at each of the
   /// `stored_vertex_count` vertices, rounded up to a multiple of kPatchPadding.

@@ -202,7 +202,8 @@ class TileFitter {
   /// #levels by #directions: the level function φ_p of each direction p (see LevelBasis) at each of
   /// the levels in directions_.level_functions
   std::vector<float> functions_;
-  std::vector<double> max_magnitudes_;     ///< for each p: largest |φ_p| over these levels
+  /// for each direction: largest absolute value of its level function over the levels of functions_
+  std::vector<double> max_magnitudes_;
   std::vector<float> field_coefficients_;  ///< #nodes by #directions, see PrincipalDirections
 };
 

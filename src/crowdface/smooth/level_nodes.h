@@ -37,8 +37,9 @@ class LevelNodes {
 
  private:
   using Spectrum = std::vector<double>;  ///< values of a function of λ at the grid points
-  /// Returns the displacement after L = `level` iterations at all grid points: for each grid point,
-  /// (λ^L − 1) times the weight of the grid point.
+  /// Returns the displacement after L = `level` smoothing iterations as a function of the
+  /// eigenvalue λ of the smoothing operator: at each grid point (see eigenvalues_), (λ^L − 1) times
+  /// the weight of the grid point.
   Spectrum displacement(std::uint64_t level) const;
   /// Adds nodes until no residual exceeds `max_residual`. Sets levels_, orthonormal_basis_,
   /// choice_order_ and triangular_factor_.

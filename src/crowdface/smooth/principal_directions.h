@@ -19,8 +19,8 @@ struct TestedLevels {
 /// Makes the list of the tested levels for these nodes.
 TestedLevels make_tested_levels(const LevelNodes& nodes);
 
-/// Displacements of some vertices at the node levels (LevelNodes): coordinate c of vertex v at node
-/// n is displacements[(v·#nodes + n)·3 + c].
+/// Displacements of some vertices (the sample) at the levels of the nodes of LevelNodes. Coordinate
+/// c of vertex number v of the sample at node n is displacements[(v·#nodes + n)·3 + c].
 struct NodeDisplacements {
   Index node_count = 0;
   std::vector<double> displacements;  ///< the displacements in one list: #vertices by #nodes by 3

@@ -18,7 +18,8 @@ namespace crowdface {
 struct TextureBlendOptions {
   /// how far the statistics of the heads' maps are smoothed over the mesh
   StatisticsScale statistics_scale;
-  /// for each vertex: the vertex's weight in means over the face; not all weights may be zero
+  /// for each vertex: the area of the skin around it, in any unit; zero for vertices that do not
+  /// count in the regions' shares of the face's area. Not all areas may be zero.
   std::vector<double> vertex_areas;
   /// For each vertex, whether it gets only the target's colours, as eyes and teeth do; may be
   /// empty.
@@ -98,7 +99,7 @@ class TextureBlender {
 };
 
 /// For each region, the fraction of the face's area that the region covers.
-/// \param vertex_areas  #V: area of the surface around each vertex, in any unit.
+/// \param vertex_areas  see TextureBlendOptions::vertex_areas.
 std::vector<double> region_area_fractions(const RegionWeights& regions,
                                           const std::vector<double>& vertex_areas);
 

@@ -28,7 +28,7 @@ class ProtrudingPartsCheck {
   std::vector<Triangle> triangles_;
   std::uint32_t skin_count_ = 0;  ///< number of triangles of the skin
   TriangleTree tree_;             ///< tree of `triangles_`
-  ViewSetup view_setup_;          ///< viewers that may see the parts
+  ViewSetup view_setup_;  ///< the viewers for which the visible area of the parts is measured
 };
 
 }  // namespace crowdface

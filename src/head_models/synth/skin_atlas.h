@@ -61,15 +61,15 @@ class SkinAtlas {
   void copy_to_uncovered_texels();
 
   std::size_t side_;
-  std::vector<AtlasTexel> points_;  ///< points at the vertices of the triangles
+  std::vector<AtlasTexel> points_;  ///< the points of the skin at the corners of `triangles_`
   std::vector<Triangle> triangles_;
   /// For a covered texel: index of its triangle; for another texel: kFirstCopy + source_texel.
   std::vector<std::uint32_t> texels_;
 };
 
 /// Calls `body(left, top, right, bottom)` in parallel for squares of texels that together cover a
-/// side × side texture; `right` and `bottom` are one past the last column and row. SmoothNoise is
-/// fast for points that are close together.
+/// side × side texture; `right` and `bottom` are one past the last column and row. Squares are used
+/// instead of rows, because SmoothNoise is fast for points that are close together.
 template <class Body>
 void for_each_square(std::size_t side, const Body& body) {
   constexpr std::size_t kSquare = 64;

@@ -61,7 +61,7 @@ class SyntheticHeads {
  private:
   Topology topology_;
   TextureCoordinates uvs_;
-  double edge_cm_ = 0;
+  double edge_cm_ = 0;                  ///< typical edge length of the mesh, see edge_cm()
   std::vector<synth::SkinPoint> mean_;  ///< the average head: one point per vertex of the skin
   std::vector<std::uint32_t> rim_;  ///< vertices of the neck's rim, counter-clockwise from above
   Scalp scalp_;

@@ -20,8 +20,8 @@ void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
   for (Eigen::Index c = 0; c < 3; ++c) bytes[c] = synth::to_byte(colour[c]);
 }
 
-/// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface; each
-/// other texel copies the bytes of its source texel.
+/// Returns the bytes of a texture. `paint` fills the bytes of each texel that shows a surface. Each
+/// other texel gets the bytes of a nearby texel that shows a surface (SkinAtlas::source_texel).
 template <class Paint>
 std::vector<std::uint8_t> painted(const synth::SkinAtlas& atlas, std::size_t channels,
                                   const Paint& paint) {
