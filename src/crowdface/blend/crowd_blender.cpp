@@ -278,11 +278,12 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Interpolates sums from the skeleton vertices (from which all vertices of the patch are
-  /// interpolated) to all vertices. Multiplies the interpolated sums by α and adds the products to
-  /// the faces (Eq. 7).
+  /// Interpolates sums of fields (see skeleton_sums_) from the skeleton vertices to all vertices of
+  /// the patch. Multiplies the interpolated sums by the region's weights α (`alpha_`), and adds the
+  /// products to `vertex_sums_` of `count` faces (Eq. 7).
   ///
-  /// \param at_skeleton  `count` by values_per_field(): x of all skeleton vertices, then y, then z.
+  /// \param at_skeleton  the sums, `count` by values_per_field(): for each face, the x coordinates
+  ///                     at all skeleton vertices, then y, then z.
   void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
     float* added = vertex_sums_ + first_face * kPatchValues;
     // Returns a pointer to the sums of one coordinate of one face. i = 0, 1, 2 are x, y, z of the

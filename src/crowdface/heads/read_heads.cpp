@@ -169,7 +169,7 @@ struct HeadReading {
   fs::path unnamed_texture;  ///< see find_unnamed_texture; empty if there is none
 };
 
-/// Moves the data that was read to the head and to the head's mesh.
+/// Moves data from `read` into the head of `reading` and into the head's mesh.
 void store_mesh(HeadReading& reading, ObjFile read, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
   file =

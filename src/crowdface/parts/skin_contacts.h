@@ -26,9 +26,10 @@ class SkinContacts {
   /// Returns the number of sections.
   std::size_t size() const { return sections_.size(); }
   const GapSection& section(std::size_t i) const { return sections_[i]; }
-  /// Returns the gap at each section of a mesh with these positions, in the heads' unit.
+  /// Returns, for each section, the gap between its two sides of skin in a mesh with these
+  /// positions, in the heads' unit. See GapSection.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns the gap at each section of the head with this index, in the heads' unit.
+  /// Returns the result of gaps() for the head with this index.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }

@@ -192,9 +192,9 @@ void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& face
                                   std::span<const DisplacementRow> rows, Positions& mesh,
                                   Displacements& shape) const {
   shape.add_to(mesh);
-  // For each covered vertex: largest distance by which the vertex may still push skin out of the
-  // way. At the start, this is the smallest distance by which the shape moves the covering
-  // triangle.
+  // For each covered vertex: a limit for the sum of the distances by which the vertex pushes skin
+  // forward in all rounds. Each round subtracts its push. The limit at the start is the smallest
+  // displacement of the covering triangle's three corners in the shape.
   std::vector<double> max_push;
   for (const CoveredVertex& covered : covered_vertices_) {
     double least = HUGE_VAL;

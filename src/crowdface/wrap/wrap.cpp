@@ -26,8 +26,9 @@ namespace {
 
 /// A head counts as symmetric if at least this fraction of its vertices have a mirror vertex.
 constexpr double kMinMirroredFraction = 0.9;
-/// A landmark is an outlier if its final distance is larger than kMinOutlierMm, and larger than
-/// kOutlierFactor times the median of all landmarks' final distances.
+/// A landmark is an outlier if its LandmarkResidual::final_distance_mm is larger than
+/// kMinOutlierMm, and larger than kOutlierFactor times the median of the final distances of all
+/// landmarks.
 constexpr double kMinOutlierMm = 4, kOutlierFactor = 3.5;
 
 /// Converts the landmarks' vertex indices in the template to vertex indices in the skin. Drops

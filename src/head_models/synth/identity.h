@@ -11,7 +11,8 @@
 
 namespace crowdface::synth {
 
-/// Attributes of a person that determine the averages of the person's measures.
+/// Attributes of a person. The person's measures (see Measure) are random; their means depend on
+/// these attributes.
 struct Person {
   double maleness = 0;    ///< −1 (female) … 1 (male)
   double age_years = 40;  ///< years, 18 … 77

@@ -16,8 +16,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns the ray to a point on the edge of the eye's opening. \param c  unit direction (x away
-/// from the midline of the face, y up).
+/// Returns the ray, from inside the head, to a point on the edge of the eye's opening.
+/// \param c  direction from the eye's centre to the point: unit vector (x away from the midline of
+///           the face, y up).
 GuideRay eye_edge(const Vector2d& c) {
   // Almond shape: pointed corners, an upper lid that is highest towards the nose, and an outer
   // corner slightly above the inner corner.
