@@ -39,7 +39,7 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
 /// Reads the vertex positions of a mesh file.
 /// \param topology        the topology that the mesh must have
 /// \param name_of_meshes  noun in error messages for the meshes that have `topology`: "the heads"
-/// \throws Error, InvalidInput if the mesh has another topology.
+/// \throws InvalidInput if the mesh has another topology; Error if the file cannot be read.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view name_of_meshes);
 

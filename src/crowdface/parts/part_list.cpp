@@ -189,7 +189,8 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     eyeball[c] = is_eyeball(list.shapes[c], extent);
     if (!is_user_assigned[c]) rigid.push_back(c);
   }
-  // Join by position those rigid components that the user did not assign.
+  // Join rigid components with one another into parts: components inside eyeballs, and components
+  // that touch. Leave out components that the user assigned.
   join_inside(list, rigid, eyeball, grouping);
   join_touching(positions, components, members, rigid, eyeball, kTouchDistance * extent, grouping);
   split_jaws(positions, members, axes, rigid, eyeball, grouping);

@@ -27,7 +27,8 @@ class FrameField {
   FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
              std::span<const std::uint32_t> vertices);
 
-  /// The data of one face from which `map_at` interpolates the linear maps.
+  /// The motion and the linear maps that were fitted to one face (a head). `map_at` interpolates
+  /// the linear map at a vertex from these data.
   struct Frames {
     RigidMotion face_motion;                 ///< motion from the template to the face
     std::vector<Eigen::Matrix3d> node_maps;  ///< linear map at each node

@@ -21,9 +21,9 @@ struct Person {
   /// Returns the age in units of 20 years from 40: −1.1 … 1.85.
   double scaled_age() const { return (age_years - 40) / 20; }
 };
-/// Returns the random person of head `index` of a seed. Stratified: of two successive heads (2k, 2k
-/// + 1) one is female and one male; of five successive heads (5k to 5k + 4) each has an age in a
-/// different fifth of the range.
+/// Returns the random person of head `index` of a seed. Persons are stratified. Of two successive
+/// heads (2 · n and 2 · n + 1, for any n), one is female and one is male. Of five successive heads
+/// (5 · n to 5 · n + 4), each has an age in a different fifth of the range.
 Person random_person(std::uint64_t seed, std::uint64_t index);
 
 /// The identity of a head: the attributes of the person, and random values of the person's
