@@ -21,9 +21,9 @@ namespace {
 /// Minimum radius of the patch of skin around a root. Where the skin has few vertices, the radius
 /// is larger.
 constexpr double kMinPatchRadiusMm = 3;
-/// Largest distance between a point of the attachment and its anchor, which is the centre of the
-/// point's patch. If the root is farther away, the anchor lies off the skin and the patch is
-/// larger.
+/// The anchor of an attachment's point is the centre of the point's patch. The anchor lies at the
+/// point's root on the skin, but at most at this distance from the point. If the root is farther
+/// away from the point, the anchor lies off the skin and the patch is larger.
 constexpr double kMaxAnchorShiftMm = 10;
 /// A patch contains only vertices whose distance from the root along the surface is at most
 /// kMaxSurfaceRatio times the patch's radius.

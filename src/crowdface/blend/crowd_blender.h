@@ -58,8 +58,9 @@ class CrowdBlender {
   Positions blend(const Recipe& recipe) const;
 
   /// Changes a face that was blended from the recipe `before` into the face of the recipe `after`.
-  /// The result is bit-identical to `blend(after)`. If the target is the same in both recipes,
-  /// recomputes only the patches that a changed region covers; otherwise all patches.
+  /// The result is bit-identical to `blend(after)`. If both faces are built on the same target head
+  /// or mixture (Recipe::target, Recipe::mixture), recomputes only the patches that a changed
+  /// region covers; otherwise all patches.
   ///
   /// \param face  #V by 3, the result of `blend` for `before`.
   void update(const Recipe& before, const Recipe& after, Positions& face) const;

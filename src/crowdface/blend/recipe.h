@@ -119,8 +119,8 @@ enum class Extrapolation { kAsGiven, kNone };
 std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t region,
                                            Extrapolation extrapolation = Extrapolation::kAsGiven);
 
-/// Returns the weights τ_h of the heads in B: the weights of the mixture or, without a mixture,
-/// weight 1 for the target.
+/// Returns the weights τ_h of the heads on which the face is built: the weights of Recipe::mixture
+/// or, without a mixture, weight 1 for the head Recipe::target.
 std::vector<SourceWeight> target_head_weights(const Recipe& recipe);
 
 /// Sets the heads on which a recipe's face is built (B in Eq. 2): sets `mixture`, or leaves it

@@ -10,8 +10,9 @@
 namespace crowdface {
 namespace {
 
-/// Whether the fields are consistent: each tile uses the first n fields for some n, the tiles
-/// together use all quantization steps, and each step is zero or a power of two.
+/// Whether the data of vector fields are consistent. Each tile stores a number of leading fields,
+/// at most `rank`. There is one quantization step for each stored field of each tile. Each step is
+/// zero or a power of two.
 bool are_fields(const LevelFields& fields) {
   const auto& first = fields.first_field_of_tile;
   for (std::size_t t = 0; t + 1 < first.size(); ++t) {

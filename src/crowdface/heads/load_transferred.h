@@ -26,10 +26,10 @@ void load_shapes(const Config& config, const CacheFolder& cache, Inputs& inputs,
 void load_points(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the rig; the shapes must be loaded before. Matches the rig's vertices to the heads'
-/// vertices by the attribute `_VERTEX_ID`. Without this attribute, matches each vertex of the rig
-/// to the nearest vertex of the shapes' template or of a head. Reports as problems: a head vertex
-/// that has no match; a joint that is mirrored, sheared or scaled non-uniformly; and a mesh that is
-/// far from the heads or of another size.
+/// vertices by the attribute `_VERTEX_ID`. Without this attribute, matches them by
+/// position: the rig's mesh must have the vertices of the shapes' template or of one of the heads,
+/// at rest. Reports as problems: a head vertex that has no match; a joint that is mirrored, sheared
+/// or scaled non-uniformly; and a mesh that is far from the heads or of another size.
 void load_rig(const Config& config, Inputs& inputs, Problems& problems);
 
 /// Loads the attachments in parallel. These faults are problems: an attachment's mesh cannot be

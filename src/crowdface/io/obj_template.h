@@ -64,7 +64,8 @@ class ObjTemplate {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;            ///< offset in the text at which the block ends
     std::uint64_t output_offset = 0;  ///< offset in the output buffer at which the block starts
-    std::vector<NumberRange> ranges;  ///< the ranges, in the order of the text
+    /// the number ranges of the block, in the order of the text
+    std::vector<NumberRange> ranges;
   };
   /// The new values of the `v` and `vn` lines.
   struct NewValues {

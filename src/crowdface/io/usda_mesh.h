@@ -44,7 +44,8 @@ class UsdaMesh {
 
   /// Name of the Mesh prim in a layer, and paths of the prims that the Mesh prim refers to.
   struct PrimPaths {
-    std::string face_prim;  ///< path of the parent prim, which contains the skeleton
+    /// path of the face's prim, which is the parent of the Mesh prim and contains the skeleton
+    std::string face_prim;
     std::string name;       ///< name of the Mesh prim, the last component of its path
     std::string materials;  ///< path of the prim that contains the materials
   };

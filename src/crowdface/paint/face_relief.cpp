@@ -245,7 +245,8 @@ class Refinement {
     }
   }
 
-  /// Replaces the best match by `match` with other axes, even if the score decreases.
+  /// Replaces the best match (`best_`) by `match` with its axes changed to `axes`, even if the
+  /// score decreases.
   void restart(const ReliefMatch& match, const HeadAxes& axes) {
     ReliefMatch next = match;
     next.fitted_axes = axes;

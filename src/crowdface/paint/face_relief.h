@@ -45,7 +45,9 @@ struct ReliefMatch {
   /// is due to the posture of the head and the shape of the face.
   HeadAxes fitted_axes;
   Eigen::Vector3d eye_midpoint;  ///< point on the surface between the eyes
-  double scale = 1;    ///< horizontal scale: units of the positions per millimetre of the mean face
+  /// size of the face along its side axis: length, in the unit of the samples' positions, that
+  /// corresponds to 1 mm on the mean face
+  double scale = 1;
   double stretch = 1;  ///< vertical scale divided by the horizontal scale
 };
 

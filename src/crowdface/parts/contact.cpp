@@ -36,9 +36,9 @@ constexpr double kRotationCost = 1, kSizeCost = 2;
 /// Largest decrease (kMaxShrink) and increase (kMaxGrowth) of a part's size, as fractions of the
 /// size.
 constexpr double kMaxShrink = 0.06, kMaxGrowth = 0.01;
-/// Penalties for violated constraints, as multiples of the reach. kOutsidePenalty: for vertices
-/// that are outside the skin in all heads; these vertices have priority. kInsidePenalty: for all
-/// other vertices.
+/// Penalties for violated constraints, as multiples of the reach of PartContact (violations are
+/// lengths, and a penalty is a cost per violation). kOutsidePenalty: for vertices that are outside
+/// the skin in all heads; these vertices have priority. kInsidePenalty: for all other vertices.
 constexpr double kOutsidePenalty = 1000, kInsidePenalty = 1;
 
 /// Index of the first unknown of each kind in an optimisation step of a part: translation (3

@@ -41,12 +41,14 @@ class PartContact {
   /// \param skin   Positions of the head or face whose skin is used, #V by 3.
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// Returns the motion that keeps the part out of the skin and is nearest to `motion`. After this
-  /// motion, no vertex is deeper inside the skin than in the head where this vertex is deepest. A
-  /// vertex that is outside the skin in all heads stays outside. The correction is a small
-  /// translation, rotation and scaling.
+  /// Returns the motion that keeps the part out of the skin and is nearest to `motion`. Each vertex
+  /// of the part has a largest depth inside the skin: its maximum over all input heads. After the
+  /// returned motion, no vertex is deeper inside the skin than its largest depth. A vertex that is
+  /// outside the skin in all heads stays outside. The returned motion differs from `motion` by a
+  /// small translation, rotation and scaling.
   ///
-  /// \param target  The head with the part before the motion.
+  /// \param target  The head from which the face takes the part: the part's positions before the
+  ///                motion.
   /// \param motion  Motion of the surrounding skin.
   /// \param moved_face  The face with the moved skin.
   /// \param margin  Distance that the part keeps from the skin, where the part is outside the skin

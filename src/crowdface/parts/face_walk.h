@@ -55,7 +55,8 @@ class MirroredWalk {
     FaceEdge here, there;  ///< on the first side, and on the second side
   };
 
-  /// Returns the polygon that contains the directed edge, if there is one.
+  /// Returns the polygon that contains the directed edge, and the corner where the edge begins;
+  /// nothing if no polygon contains the edge.
   std::optional<FaceEdge> face_along(DirectedEdge edge) const;
   /// Visits two mirrored polygons: the polygon with the directed edge `here`, and the polygon with
   /// the corresponding edge `there`.

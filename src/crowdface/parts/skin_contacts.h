@@ -141,7 +141,8 @@ class SkinContacts {
 
   double tolerance_ = 0;  ///< a gap may be outside its range by this length, in the heads' unit
   std::vector<GapSection> sections_;
-  std::vector<Clearance> clearances_;  ///< for each of `sections_`: measures its gap
+  /// for each of `sections_`: measures the gap between the section's two sides of skin
+  std::vector<Clearance> clearances_;
   std::vector<SectionGroup> section_groups_;
   std::vector<std::vector<double>> head_gaps_;  ///< for each head: its gap at each section
 };

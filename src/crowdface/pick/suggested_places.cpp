@@ -69,9 +69,10 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   return residuals;
 }
 
-/// Returns the index of the pair whose residual is far larger than the residuals of the other used
-/// pairs. Returns residuals.size() if there is no such pair, or if there are fewer than five used
-/// pairs.
+/// Returns the index of the landmark pair (see LandmarkPose::Residual) whose residual is far larger
+/// than the residuals of the other used pairs. Returns residuals.size() if there is no such pair,
+/// or if there are fewer than five used pairs.
+/// \param used  for each pair: whether it counts
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
   // An outlier has a residual above both kMinMm and kTimes times the median residual. Without
   // errors, corresponding points of two faces differ by about 5 mm after a fit.

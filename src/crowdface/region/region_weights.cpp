@@ -244,9 +244,10 @@ bool is_colour_name(const std::string& name) {
   return colours.contains(lower_case(name));
 }
 
-/// Returns for each region the channel with the region's name, if there is such a channel. Returns
-/// nothing if no channel has the name of a region.
-/// \throws InvalidInput if a mask's channels have names and no name is the name of a region.
+/// Returns, for each region, the channel with the region's name, if there is such a channel. If no
+/// channel of any mask has the name of a region, returns nothing.
+/// \throws InvalidInput if the channels of a mask have names of their own (other than red, green,
+///         blue, …), but none of these is the name of a region.
 std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
     const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
     const std::vector<std::string>& regions) {

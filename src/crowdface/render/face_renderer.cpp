@@ -110,7 +110,9 @@ struct FaceRenderer::PreparedMesh {
   Sampling sampling;
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
-  std::vector<std::optional<LinearRgb>> quad_colours;  ///< linear colour of each quad; or empty
+  /// for each quad: its linear colour, or nothing if the quad has the default colour of its kind;
+  /// the list is empty if all quads have default colours
+  std::vector<std::optional<LinearRgb>> quad_colours;
   /// texture coordinates of each quad; empty if the mesh has none
   std::vector<TexturedQuad> quad_uvs;
   Eyeballs eyeballs;

@@ -437,10 +437,11 @@ class Tile {
     }
   }
 
-  /// Computes the visible fractions of the key light and of the sky at `count` points with
-  /// filter_visibility.
-  /// \param x, y         pixel that all points share; with `consecutive`, pixel of the first point
-  /// \param consecutive  whether the points lie in consecutive pixels of a row
+  /// Calls filter_visibility to compute the visible fractions of the key light and of the sky at
+  /// `count` points.
+  /// \param x, y         if `consecutive`: pixel of the first point; otherwise: pixel that contains
+  ///                     all points
+  /// \param consecutive  true: the points lie in consecutive pixels of a row, one point per pixel
   void share(const PointLists& points, std::size_t count, int x, int y, bool consecutive,
              VisibleFractions& shares) {
     shares.key.resize(count + kMaxLanes);

@@ -21,7 +21,8 @@ class CrossingSearch {
   CrossingSearch() = default;
   /// \param triangles  The triangles to search.
   /// \param mesh       #V by 3: the mesh on which the constructor finds candidate pairs.
-  /// \param max_distance  Largest distance on `mesh` between the two triangles of a candidate pair.
+  /// \param max_distance  Largest straight-line distance between the two triangles of a candidate
+  ///                     pair, with the positions of `mesh`.
   /// \param max_facing_distance  The largest distance if the two triangles face each other; at
   ///                   least `max_distance`.
   ///

@@ -160,8 +160,8 @@ class LidClosure {
                     const Displacements& shape, const HeadAxes& axes);
   /// Reorders lid_vertices_: the vertices of the sections' profiles come first.
   void move_profile_vertices_to_front();
-  /// Returns, for each section, the weight with which the vertical movement of `lid_vertices_[lid]`
-  /// follows the section's gain.
+  /// Returns the weights of `lid_vertices_[lid]`, one for each of `sections_`: how much the gain of
+  /// the lids at this section changes the vertical movement of the vertex (see move_lids).
   std::span<const double> section_weights(std::size_t lid) const {
     return {section_weights_.data() + lid * sections_.size(), sections_.size()};
   }

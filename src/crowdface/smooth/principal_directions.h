@@ -8,9 +8,10 @@
 
 namespace crowdface {
 
-/// The levels at which a basis is tested, and the weights of the nodes at these levels. The levels
-/// are: 129 levels evenly spaced in √L, the successor of each of these levels (so that even and odd
-/// levels occur), and the nodes.
+/// The smoothing levels at which a basis is tested, and the interpolation weights of the nodes of
+/// LevelNodes at these levels. The tested levels are: 129 levels evenly spaced in √level, the
+/// successor of each of these levels (so that even and odd levels occur), and the levels of the
+/// nodes.
 struct TestedLevels {
   std::vector<std::uint64_t> levels;  ///< the tested levels, ascending
   /// #levels by #nodes: LevelNodes::interpolation_weights of each tested level

@@ -46,7 +46,8 @@ void blend_row(const SurfaceTexels& texels, int y, const VertexFactorsOfImage& f
       buffer.heads[h][c] = maps[fields.heads[h]]->row(static_cast<int>(c), y);
     }
   }
-  // Kernels may read texels of the next row, which the last row does not have.
+  // The SIMD kernels may read up to kRowSlack texels beyond the end of a row, which belong to the
+  // next row. After the last row of the image, there are no such texels.
   const auto width = static_cast<std::size_t>(texels.width());
   const std::size_t readable = y + 1 < texels.height() ? width + kRowSlack : width;
   const auto row = static_cast<float>(y);

@@ -71,7 +71,8 @@ class TextureBlender {
   /// \param picture  index of an image (picture) of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// The low-frequency statistics of the heads' maps: C_h and the covariances c.
+  /// The low-frequency statistics of the heads' maps: the coarse parts and the covariances of the
+  /// details.
   const SurfaceStatistics& statistics() const { return statistics_; }
 
   const TextureLayout& layout() const { return textures_.layout; }

@@ -150,7 +150,8 @@ void LooseParts::add_teeth(double up, int along, int around) {
     const double tooth = 7 * (t + 1) - std::floor(7 * (t + 1));
     const double proud = 0.035 * (4 * tooth * (1 - tooth) - 0.5);
     for (int k = 0; k < around; ++k) {
-      // q is a point on the outline of the band's cross-section, in [−1, 1]².
+      // The row of teeth is a band with a square cross-section. Point k of the cross-section's
+      // outline is `q`, a point on the border of the square [−1, 1]²; `side` is its side.
       const int side = k / quarter;
       const double s = 2.0 * (k % quarter) / quarter - 1;
       const Vector2d q = side == 0   ? Vector2d(1, s)

@@ -239,8 +239,8 @@ double SkinPaint::brow_hairs(const Vector2d& place, std::uint64_t side) const {
       const Vector2d root = kCell * Vector2d(i + unit(0), j + unit(1));
       const double grown = density(root);
       if (unit(3) >= grown) continue;
-      // Hairs point up near the nose and away from the nose farther out, and converge towards the
-      // middle line.
+      // At the inner end of a brow, near the nose, hairs point up. Towards the outer end, they
+      // point away from the nose. All hairs lean towards the brow's middle line.
       const double t = std::clamp(root.x() / kLength, 0.0, 1.0);
       const Vector2d direction =
           Vector2d(0.35 + t, 0.9 * (1 - t) * (1 - t) + 0.15 - 1.1 * root.y()).normalized();
