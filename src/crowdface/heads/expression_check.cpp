@@ -187,7 +187,8 @@ class FaceSkin {
   }
 
   /// Returns the linear form that computes a movement's value, in millimetres, from displacements
-  /// in the unit of the positions. Returns nothing if a window contains too few vertices.
+  /// in the unit of the positions. Returns nothing if a window of the movement (Term::window)
+  /// contains too few vertices.
   /// \param side  half of the face: 1 left, −1 right.
   std::optional<LinearForm> linear_form_of(const Movement& movement, int side) const {
     LinearForm form;

@@ -26,8 +26,8 @@ class ObjTemplate {
   ///                files.
   /// \param topology  the polygons, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  normals that replace the computed normals of some vertices, in `vn` lines that
-  ///               only one vertex uses.
+  /// \param fixed  normals that replace the computed normals of some vertices. A `vn` line gets
+  ///               such a normal only if no other vertex uses the same line.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const GivenNormals& fixed = {});
 

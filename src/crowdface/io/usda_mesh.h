@@ -26,7 +26,8 @@ inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 /// each file, and everything else once.
 class UsdaMesh {
  public:
-  /// What the prim contains in addition to the polygons. These contents are the same in all files.
+  /// What the Mesh prim contains in addition to the polygons. This content is the same in the files
+  /// of all faces.
   struct Options {
     Subdivision subdivision = Subdivision::kNone;  ///< how viewers subdivide the mesh
     std::vector<std::string> materials = {};       ///< names of the materials; may be empty

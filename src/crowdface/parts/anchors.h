@@ -42,7 +42,8 @@ class Anchors {
 
  private:
   using Frame = std::array<Eigen::Vector3d, 3>;  ///< a coordinate frame: three orthonormal axes
-  /// A vertex of the skin around a triangle.
+  /// A vertex of the ring of skin vertices around a triangle, from which the triangle's coordinate
+  /// frame is computed.
   struct RingVertex {
     std::uint32_t vertex;
     /// weights of the vertex in the sums for the frame's first and second axis

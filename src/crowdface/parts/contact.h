@@ -97,8 +97,11 @@ class PartContact {
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   /// Improves `motion` by one step of the optimisation.
   ///
-  /// \param near  Indices of pairs to check; the function removes pairs that are far from the skin.
-  /// \return      false if no pair violates a limit.
+  /// \param target, moved_face, margin  see keep_out_of_skin.
+  /// \param start  The parameter `motion` of keep_out_of_skin, from which the result differs least.
+  /// \param near   Indices of `pairs_` to check; the function removes pairs that are far from the
+  ///               skin.
+  /// \return       false if every vertex is high enough above the skin, so that no step was needed.
   bool step(const Positions& target, const RigidMotion& start, const Positions& moved_face,
             double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
@@ -107,7 +110,7 @@ class PartContact {
   double reach_ = 0;        ///< the constructor's parameter `reach`
   double normal_sign_ = 1;  ///< −1 if the skin's normals point away from the part, else 1
   double radius_ = 0;       ///< root mean square distance of the part's vertices from `middle_`
-  /// middle of the part on the head where the pairs were found
+  /// middle of the part, in the head that the constructor got as `positions`
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::vector<Pair> pairs_;  ///< all pairs, ordered by cluster
   std::vector<Cluster> clusters_;

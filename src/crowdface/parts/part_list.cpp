@@ -120,7 +120,8 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
   }
 }
 
-/// Joins rigid components, except eyeballs, whose vertices are at most `reach` apart.
+/// Joins two rigid components if a vertex of one is at most `reach` away from a vertex of the
+/// other. Leaves out eyeballs.
 void join_touching(const Positions& positions, const Components& components,
                    const std::vector<std::vector<std::uint32_t>>& members,
                    const std::vector<std::uint32_t>& rigid, const std::vector<bool>& eyeball,

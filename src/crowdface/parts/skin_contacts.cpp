@@ -330,7 +330,8 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
       if (largest_deviation <= tolerance_) break;
       // The first round sets the largest allowed amplitude of a correction for all rounds.
       if (round == 0) max_amplitude = kMaxAmplitudeFactor * largest_deviation;
-      // Determine the amplitudes of the sections' corrections with these opposite points.
+      // Each section has a correction of the skin. Determine the amplitudes of the corrections,
+      // with the gaps measured at the current opposite points (Profiles::opposite_pairs).
       changes = find_kernel_amplitudes(section_group, ranges, max_amplitude, profiles, amplitudes);
     }
     if (max_amplitude > 0) move(section_group, amplitudes, positions);

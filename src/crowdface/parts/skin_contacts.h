@@ -61,11 +61,11 @@ class SkinContacts {
     /// GapSection), negative on the low side
     double weight;
   };
-  /// How the amplitude of one section moves a group's profile points. The points have the same
-  /// order as in Profiles.
+  /// How the correction of one section moves the profile points of a group, per unit of the
+  /// correction's amplitude. The points have the same order as in Profiles.
   struct PointMotions {
-    /// for each profile point: the derivatives of its height and its depth with respect to the
-    /// amplitude
+    /// for each profile point: the change of its height and the change of its depth if the
+    /// amplitude increases by 1
     std::vector<double> heights, depths;
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.

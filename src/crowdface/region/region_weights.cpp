@@ -309,8 +309,8 @@ std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& source
   return by_order;
 }
 
-/// The channel of each region. A region without a channel gets 1 minus the sum of all other
-/// regions.
+/// The mask channel that holds the weights of each region. At most one region has no channel; its
+/// weight at each vertex is 1 minus the sum of the weights of all other regions.
 std::vector<std::optional<RegionChannel>> channels_of_regions(
     const std::vector<MaskSource>& sources, std::vector<LoadedMask>& masks, Index regions,
     const std::vector<std::string>& names) {

@@ -41,7 +41,8 @@ class CrossingSearch {
     std::vector<Box> leaf_boxes;            ///< for each leaf: the box of all its triangles
     std::vector<std::uint8_t> is_changed;   ///< whether each leaf changed since the last search
   };
-  /// Returns the boxes of a mesh, #V by 3. All leaves count as changed.
+  /// Returns the boxes of a mesh. All leaves count as changed.
+  /// \param mesh  Positions, #V by 3.
   Boxes make_boxes(const Positions& mesh) const;
   /// Updates the boxes after vertices moved.
   ///

@@ -71,7 +71,7 @@ class SkinOverParts {
                     Displacements& shape) const;
 
   HeadAxes axes_;
-  double extent_ = 0;
+  double extent_ = 0;  ///< diagonal of the bounding box of the template's skin
   /// the vertices of gums and teeth that the skin covers in this shape
   std::vector<CoveredVertex> covered_vertices_;
 };

@@ -10,11 +10,13 @@
 
 namespace crowdface {
 
-/// Distances between vertex positions from a basis and from the exact filter, in the unit of the
-/// positions.
+/// The error of a basis: distances between smoothed vertex positions from the basis and from the
+/// exact filter, in the unit of the positions.
 struct BasisError {
-  /// Largest distance: the largest error of the fields at any vertex and tested level, plus the
-  /// largest error of the interpolation between nodes, measured at the probes.
+  /// Upper bound for the distance at any vertex and any tested level. It is the sum of two errors.
+  /// The first is the largest error, at any vertex, from keeping only a few vector fields. The
+  /// second is the largest error of the interpolation between the nodes of LevelNodes; it is
+  /// measured only at a few vertices (the probes).
   double max = 0;
   double rms = 0;  ///< root mean square of the distances, over the probes and the tested levels
   std::uint64_t level = 0;  ///< the level at which `max` occurs

@@ -8,14 +8,20 @@
 
 namespace crowdface {
 
-/// A few levels, the nodes N_p, from which all other levels are interpolated: S_L x − x ≈ Σ_p
-/// w_p(L) (S_{N_p} x − x) for every x. The nodes and weights depend only on the operator kind and
-/// L_max, not on the mesh: L iterations displace an eigenvector v of the operator, with eigenvalue
-/// λ, by (λ^L − 1)·v. A greedy algorithm chooses the nodes. The weights w_p(L) are computed by
-/// least squares over a grid of λ in the operator's spectrum. The spectrum is [−1, 1] for the
-/// umbrella operator and [0, 1] for the lazy operator. Eigenvalues near −1 belong to checkerboard
-/// modes, which make even and odd levels differ. The grid is dense towards ±1, and the weight of
-/// each λ is the typical amplitude, in a head, of the modes with this eigenvalue (docs/method.md).
+/// S_L x are the positions x after L smoothing iterations; L is called the level, and L_max is the
+/// highest level in use. This class chooses a few levels, the nodes N_p, from which all other
+/// levels are interpolated:
+///
+///     S_L x − x ≈ Σ_p w_p(L) (S_{N_p} x − x)    for every x
+///
+/// The nodes and weights depend only on the operator kind and L_max, not on the mesh, for the
+/// following reason: L iterations displace an eigenvector v of the smoothing operator, with
+/// eigenvalue λ, by (λ^L − 1)·v. A greedy algorithm chooses the nodes. The weights w_p(L) are
+/// computed by least squares over a grid of λ in the operator's spectrum. The spectrum is [−1, 1]
+/// for the umbrella operator and [0, 1] for the lazy operator. Eigenvalues near −1 belong to
+/// checkerboard modes, which make even and odd levels differ. The grid is dense towards ±1, and the
+/// weight of each λ is the typical amplitude, in a head, of the modes with this eigenvalue
+/// (docs/method.md).
 class LevelNodes {
  public:
   /// \param max_level  L_max, at least 1.
