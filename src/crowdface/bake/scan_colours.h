@@ -58,7 +58,8 @@ class ScanColours {
 
   /// Returns the mean colour of an area in linear light; nothing if the polygon that contains
   /// the area has no colour.
-  /// \param scan  the scan that was made from the file, in any frame.
+  /// \param scan  the geometry that was read from the same mesh file as these colours, in any
+  /// frame.
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:

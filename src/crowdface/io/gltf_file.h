@@ -31,7 +31,7 @@ class GltfFile {
   /// \throws InvalidInput
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
-  /// The JSON of the file.
+  /// The whole JSON of the glTF file.
   const Json& scene() const { return scene_; }
   /// Throws InvalidInput with the name of the file and `what`.
   [[noreturn]] void fail(const std::string& what) const;

@@ -326,8 +326,8 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   const double of_relief = match.eye_midpoint.dot(match.axes.side());
   if (std::abs(marks.symmetry_offset - of_relief) > kMaxMiddleOffsetMm * mm)
     marks.symmetry_offset = of_relief;
-  // Heights in the profile are along the upright axis of the face, so that the orientation of the
-  // head has no effect.
+  // The profile is the outline of the face in its symmetry plane. Its axes are `fitted_axes`, in
+  // which the face is upright, so that the posture of the head has no effect.
   const double across = match.eye_midpoint.dot(match.fitted_axes.side());
   const Profile outline(topology, head.positions, head.is_skin, match.fitted_axes, across, mm);
   const Profile closed = outline.without_slits(kMaxSlitMm * mm);

@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// How a connected component of a mesh moves when a face is blended.
 enum class PartClass : std::uint8_t {
-  kSkin,   ///< the positions of its vertices are blended (Eq. 7)
+  kSkin,   ///< the positions of its vertices are blended (see blend_exact)
   kRigid,  ///< moves as a whole with the skin around it: eyeballs, teeth
   kBound,  ///< each vertex moves with the nearest skin: lashes, tear lines
 };

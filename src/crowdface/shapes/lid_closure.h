@@ -76,7 +76,8 @@ class LidClosure {
     /// applied. `distance_changes`: the distance with the shape applied minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;
   };
-  /// Measures the targets on a mesh for which the shape was made: on the template or on a head.
+  /// Measures LidTargets on a mesh for which the blend shape was made: on the template or on a
+  /// head.
   ///
   /// \param mesh   The template or the head at rest, #V by 3.
   /// \param face_motion  Motion from the template to the mesh.

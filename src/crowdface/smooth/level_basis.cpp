@@ -197,7 +197,8 @@ class TileFitter {
   const ChebyshevFilter& filter_;
   const std::vector<FieldRows>& displacements_;
   const PrincipalDirections& directions_;
-  std::size_t count_;  ///< number of directions, equal to the number of nodes
+  /// number of principal directions, which is the number of nodes of LevelNodes
+  std::size_t count_;
   double tolerance_;
   /// #levels by #directions: the level function φ_p of each direction p (see LevelBasis) at each of
   /// the levels in directions_.level_functions

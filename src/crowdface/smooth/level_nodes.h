@@ -56,7 +56,7 @@ class LevelNodes {
   /// The grid of eigenvalues of the smoothing operator, over which the least-squares fit runs: λ at
   /// each grid point, and the weight of the grid point.
   std::vector<double> eigenvalues_, grid_weights_;
-  std::vector<std::uint64_t> levels_;  ///< levels N_p of the nodes, ascending
+  std::vector<std::uint64_t> levels_;  ///< the levels that are nodes, ascending
   /// Gram-Schmidt basis of the nodes' displacements. Element q belongs to the node that was chosen
   /// as number q. Element q is the component of this node's displacement that is orthogonal to
   /// elements 0 … q − 1, normalized.

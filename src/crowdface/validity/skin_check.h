@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The viewers for which visible areas of a face are measured, and the length of one unit of the
-/// positions.
+/// From where visible areas of a face are measured (as for viewers who look at the face), and the
+/// length of one unit of the positions.
 struct ViewSetup {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;

@@ -58,7 +58,7 @@ class SkinAtlas {
   };
   Eigen::Vector3d barycentric(const Triangle& triangle, std::size_t texel) const;
   void rasterise(std::uint32_t triangle);
-  void copy_to_uncovered_texels();
+  void find_sources_of_uncovered_texels();
 
   std::size_t side_;
   std::vector<AtlasTexel> points_;  ///< the points of the skin at the corners of `triangles_`
