@@ -39,7 +39,8 @@ struct BodyBelowNeck {
 /// (`neck.body_rim`), removes the polygons above this rim, such as the body's own head.
 /// \param rim   the heads' rim
 /// \param ring  mean positions, over the heads, of the vertices of the heads' rim; one row for each
-/// \throws InvalidInput if no rim fits, or if the config needs a body and the file has a head.
+/// \throws InvalidInput if no rim fits. Also throws InvalidInput if the config needs a body, but
+///         the body's file (`neck.body`) contains a head with the heads' topology instead.
 BodyBelowNeck read_body_below_neck(const Config& config, const Inputs& inputs, const Rim& rim,
                                    const Positions& ring);
 

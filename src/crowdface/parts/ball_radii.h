@@ -27,7 +27,9 @@ class BallRadii {
     /// signed distance of the point from the eyeball's surface, in the unit of the head's
     /// positions; negative: the point is inside the eyeball
     double gap = 0;
-    Eigen::Vector3d normal;  ///< outward unit normal of the eyeball, in the direction of the point
+    /// outward unit normal of the eyeball's surface, where the line from the eyeball's centre to
+    /// the point meets the surface
+    Eigen::Vector3d normal;
   };
   /// Returns the approximate gap between the surface and a point (exact to first order).
   ///

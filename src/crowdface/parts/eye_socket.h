@@ -51,7 +51,7 @@ class EyeSocket {
   /// \param target       Index of the head.
   /// \param skin_motion  Motion of the skin around the eye, from the head to the face.
   /// \param face         The face, with the moved skin.
-  /// \return             Motion of the eyeball from the head to the face.
+  /// \return             Motion of the eyeball from the head to the face, including its scaling.
   RigidMotion fit(std::size_t target, const RigidMotion& skin_motion, const Positions& face) const;
   /// Improves only the translation of an eyeball's motion and keeps its scale, because the caller
   /// gives the size of the eyeball.

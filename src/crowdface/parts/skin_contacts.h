@@ -144,7 +144,7 @@ class SkinContacts {
   /// for each of `sections_`: measures the gap between the section's two sides of skin
   std::vector<Clearance> clearances_;
   std::vector<SectionGroup> section_groups_;
-  std::vector<std::vector<double>> head_gaps_;  ///< for each head: its gap at each section
+  std::vector<std::vector<double>> head_gaps_;  ///< for each head: the result of gaps()
 };
 
 }  // namespace crowdface

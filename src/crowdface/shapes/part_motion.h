@@ -44,7 +44,7 @@ struct PlacedPart {
              const RigidMotion& face_motion, const Eigen::Matrix3d& map);
 
   Eigen::Vector3d centre;          ///< RigidPart::centre, moved to the face
-  const Positions& mesh;           ///< the face at rest, #V by 3
+  const Positions& mesh;           ///< positions of the whole face at rest, #V by 3
   const RigidMotion& face_motion;  ///< motion from the template to the face
   /// The local linear map from the template to the face: its mean over some vertices of the part.
   /// These are the vertices that the shape moves.

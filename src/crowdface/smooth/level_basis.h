@@ -26,9 +26,10 @@ struct BasisError {
 /// Level L is the head after L smoothing iterations; level 0 is the head itself.
 struct LevelBasis {
   std::uint64_t max_level = 1;  ///< L_max, the highest level that the basis represents
-  /// #nodes by rank, coefficients of the level functions:
-  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the interpolation weights of
-  /// LevelNodes
+  /// #nodes by rank: row n belongs to node n of LevelNodes, column p to the vector field c_p.
+  /// Column p gives the level function by which c_p is multiplied at level L:
+  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p). Here, w_n(L) are the interpolation weights of
+  /// LevelNodes.
   Eigen::MatrixXd function_coefficients;
   /// the vector fields c_p (p = 0 … rank() − 1), each with a vector at each vertex of the mesh
   LevelFields fields;

@@ -77,10 +77,11 @@ Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
 PrincipalDirections weighted_directions(const TestedLevels& tested,
                                         const Eigen::VectorXd& importance,
                                         const Eigen::MatrixXd& moments) {
-  // Let Q·T be the QR factorization of the node weights at the tested levels, scaled by
-  // `importance`. Let C be the displacements at the nodes. With Z = T·C the trajectories are Q·Z.
-  // Their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and
-  // Q·Z = (Q·U)·(Uᵀ·T·C).
+  // A trajectory is the displacement of a sampled vertex at all tested levels. C are the
+  // displacements at the nodes. With the node weights N (tested.node_weights), the trajectories are
+  // the columns of N·C. Multiply row l of N by importance(l), and let Q·T be the QR factorization
+  // of this product. With Z = T·C, the weighted trajectories are Q·Z. Their principal directions
+  // are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and Q·Z = (Q·U)·(Uᵀ·T·C).
   const Eigen::MatrixXd t = triangular_factor(importance.asDiagonal() * tested.node_weights);
   const Eigen::MatrixXd u =
       symmetric_eigen(product(product(t, moments), t.transpose())).eigenvectors;

@@ -20,7 +20,8 @@ class ProtrudingPartsCheck {
                        std::span<const std::uint32_t> parts, const Positions& mean,
                        ViewSetup view_setup);
 
-  /// Returns the visible area, in mm², of those triangles of the parts that pass through the skin.
+  /// Considers the triangles of teeth and other parts. Returns the visible area, in mm², of those
+  /// triangles that intersect the skin.
   double exposed_mm2(const Positions& positions) const;
 
  private:

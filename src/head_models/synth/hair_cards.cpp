@@ -192,8 +192,8 @@ class HairCardBuilder {
   /// length.
   static double along(double t) { return t * (0.3 + 0.7 * t); }
 
-  /// Moves a point in front of the face sideways, to the edge of the face. Does not move the points
-  /// of a fringe.
+  /// If a point of a lock lies in front of the face, moves the point sideways to the edge of the
+  /// face. Does not move the points of a fringe.
   static Vector3d beside_face(Vector3d p, double fringe) {
     const double wide = 5.5 * smooth_step(0.5, 4, p.z()) * smooth_step(6.2, 1.5, p.y());
     if (fringe < HairCut::kNoFringe && p.y() > fringe) return p;

@@ -46,7 +46,8 @@ class Identity {
 
   std::uint64_t seed_ = 0, index_ = 0;
   Person person_;
-  /// displacements of the measures times their values, and the random asymmetry of nose and jaw
+  /// For each measure: Measure::displacement, multiplied by the person's value of the measure. And
+  /// the displacements that make nose and jaw randomly asymmetric.
   std::vector<LocalDisplacement> displacements_;
   Eigen::Vector3d scale_{1, 1, 1};  ///< factors on width, height and depth of the head
   double face_length_ = 0;          ///< relative change of the length of the face below the eyes
