@@ -23,14 +23,15 @@ class AttachmentCarrier {
   AttachmentCarrier(const FittedSkin& skin, const Topology& topology, const Positions& points,
                     AttachmentMove move);
 
-  /// Returns the attachment's vertices on a face. Vertices that were outside the skin of the fitted
-  /// mesh stay outside. On a bending attachment, narrow gaps to the skin get their original width
-  /// again; wider gaps stay at least two millimetres wide. A rigid attachment moves as a whole, so
-  /// it keeps its gaps only approximately.
+  /// Returns the positions of the attachment's vertices on a face. Vertices that were outside the
+  /// skin of the fitted mesh stay outside. A vertex's gap is its distance from the skin. On a
+  /// bending attachment, a gap of at most 2 mm on the fitted mesh gets the same width on the face;
+  /// a wider gap stays at least 2 mm wide. A rigid attachment moves as a whole, so it keeps its
+  /// gaps only approximately.
   ///
   /// \param face     #V by 3, in the topology of the fitted mesh.
   /// \param normals  Normals of the face, from FittedSkin::normals.
-  /// \return         #P by 3.
+  /// \return         #P by 3, where #P is the number of the attachment's vertices.
   Positions move_to_face(const Positions& face, const Positions& normals) const;
 
   std::size_t memory_bytes() const;

@@ -25,10 +25,12 @@ constexpr double kMinRadiusMm = 6, kMinRadiusSpacings = 3, kRadiusGrowth = 1.5;
 /// the kMinVertices-th nearest vertex of the skin.
 constexpr std::size_t kMinVertices = 12;
 constexpr double kRadiusFactor = 1.4;
-/// A patch uses one or two levels of detail of the skin. The choice depends on the ratio of the
-/// patch's radius to the vertex spacing of a level. Ratio up to kMaxRadiusSpacings: the patch uses
-/// only this level. Ratio between kMaxRadiusSpacings and 2 · kMaxRadiusSpacings: the patch mixes
-/// this level and the next coarser level.
+/// A patch uses one or two levels of detail of the skin. The choice begins with the finest level.
+/// Let q be the patch's radius divided by the vertex spacing of the level.
+/// - q ≤ kMaxRadiusSpacings: the patch uses only this level.
+/// - kMaxRadiusSpacings < q < 2 · kMaxRadiusSpacings: the patch mixes this level and the next
+///   coarser level.
+/// - Otherwise, the choice continues with the next coarser level.
 constexpr double kMaxRadiusSpacings = 3;
 /// A level with at most this number of vertices gets no coarser level.
 constexpr std::size_t kMaxCoarsestVertices = 150;

@@ -13,8 +13,9 @@
 namespace crowdface {
 namespace {
 
-/// The skin within this distance of the attachment (the socket) determines the attachment's motion.
-/// The distance is doubled until the socket has at least kMinSocketVertices vertices.
+/// The socket of an attachment is the skin within this distance of the attachment. The motion of
+/// the socket determines the motion of the attachment. The distance is doubled until the socket has
+/// at least kMinSocketVertices vertices.
 constexpr double kSocketRadiusMm = 15;
 constexpr std::size_t kMinSocketVertices = 12;
 /// Maximum number of steps that move the attachment out of the skin.
@@ -65,7 +66,7 @@ RigidMotion RigidPlacement::push_out_of_skin(
     const Eigen::Vector3d turned = arm.cross(one.outward_normal);
     const Eigen::Vector3d& n = one.outward_normal;
     program.add_target({n.x(), n.y(), n.z(), turned.x(), turned.y(), turned.z(), arm.dot(n)},
-                       one.height, weight);
+                       one.missing_height, weight);
   }
   for (std::size_t u = 0; u < kUnknowns; ++u) program.add_target(u, 0, kMotionWeight);
   const QuadraticProgram::Vector x = program.solve(0);

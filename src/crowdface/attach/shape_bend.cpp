@@ -21,9 +21,9 @@ namespace {
 /// Minimum radius of the patch of skin around a root. Where the skin has few vertices, the radius
 /// is larger.
 constexpr double kMinPatchRadiusMm = 3;
-/// Largest distance between a point of the attachment and its anchor, which is the centre of the
-/// point's patch. If the root is farther away, the anchor lies off the skin and the patch is
-/// larger.
+/// The anchor of an attachment's point is the centre of the point's patch. The anchor lies at the
+/// point's root on the skin, but at most at this distance from the point. If the root is farther
+/// away from the point, the anchor lies off the skin and the patch is larger.
 constexpr double kMaxAnchorShiftMm = 10;
 /// A patch contains only vertices whose distance from the root along the surface is at most
 /// kMaxSurfaceRatio times the patch's radius.
@@ -32,15 +32,16 @@ constexpr double kMaxSurfaceRatio = 1.5;
 /// patch keeps all its vertices, because a few vertices do not determine a rotation reliably.
 constexpr std::size_t kMinPatchVertices = 6;
 
-/// The root of a point is ambiguous if two parts of the skin are about equally near to the point,
-/// for example both lips. The test uses a sphere around the point, whose radius is the distance to
-/// the nearest skin vertex plus kAmbiguousMm. The root is ambiguous if the sphere contains a skin
-/// vertex whose distance from the nearest vertex along the surface is more than kFarRatio times the
-/// sphere's radius.
+/// The root of an attachment's point is the point of the skin that it follows. The root is
+/// ambiguous if two parts of the skin, for example both lips, are about equally near to the
+/// attachment's point. The test uses a sphere around the attachment's point. The radius of the
+/// sphere is the distance to the nearest skin vertex N plus kAmbiguousMm. The root is ambiguous if
+/// the sphere contains a skin vertex that is far from N along the surface: farther than kFarRatio
+/// times the radius.
 constexpr double kAmbiguousMm = 2, kFarRatio = 4;
 
-/// Finds the root of each point of an attachment on the skin, starting the search at the root of a
-/// neighbouring point.
+/// Finds the root of each point of an attachment: the point of the skin that is nearest to this
+/// point. Starts each search at the root of a neighbouring point of the attachment.
 class RootSearch {
  public:
   RootSearch(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
@@ -68,10 +69,11 @@ class RootSearch {
 
  private:
   struct QueueEntry {
-    /// Whether the root is ambiguous (see kAmbiguousMm). Points with ambiguous roots come last, so
-    /// that their search starts at the root of an adjacent point.
+    /// Whether the root of `point` is ambiguous (see kAmbiguousMm). In the queue, points with
+    /// ambiguous roots come after all other points. So the roots of adjacent points are mostly
+    /// known, and the search can start at one of these.
     bool is_ambiguous;
-    double distance;  ///< distance of the point from the nearest skin vertex
+    double distance;  ///< distance of `point` from the nearest skin vertex
     /// `point`: a point of the attachment. `vertex`: the skin vertex at which the search for the
     /// point's root starts.
     std::uint32_t point, vertex;
@@ -89,8 +91,8 @@ class RootSearch {
     });
   }
 
-  /// Finds the roots of all points that are connected with the start point in the attachment's
-  /// mesh, in order of their distance from the skin.
+  /// Finds the root of the start point and the roots of all points that edges of the attachment's
+  /// mesh connect with the start point. Points near the skin come first.
   void find_connected_roots(const QueueEntry& start, const std::vector<QueueEntry>& nearest,
                             const Adjacency& neighbours) {
     std::priority_queue<QueueEntry, std::vector<QueueEntry>, std::greater<>> open;

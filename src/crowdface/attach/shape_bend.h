@@ -22,7 +22,8 @@ class ShapeBend {
   /// \param skin       Must outlive this object.
   /// \param adjacency  Adjacency of the skin's mesh.
   /// \param topology   Topology of the attachment.
-  /// \param points     #P by 3, on the fitted mesh.
+  /// \param points     Positions of the attachment's vertices on the fitted mesh (the head to which
+  ///                   the attachment was fitted), #P by 3.
   ShapeBend(const FittedSkin& skin, const Adjacency& adjacency, const Topology& topology,
             const Positions& points);
 
@@ -38,9 +39,10 @@ class ShapeBend {
   std::size_t memory_bytes() const { return nodes_.memory_bytes(); }
 
  private:
-  /// Removes from `patch` the vertices whose distance from a root (the skin point that the patch's
-  /// node follows) along the surface exceeds `limit`, unless too few vertices would remain.
-  /// \param along  distances along the surface from the root
+  /// The root of a patch is the skin point that the patch's node follows. Removes from `patch` the
+  /// vertices that are farther from this root than `limit`, measured along the surface. Removes no
+  /// vertices if too few would remain.
+  /// \param along  distances of vertices from the root, along the surface
   static void remove_distant_vertices(const EdgeDistances& along, double limit,
                                       FittedSkin::Patch& patch);
 

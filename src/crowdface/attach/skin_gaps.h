@@ -21,16 +21,17 @@ class SkinGaps {
   /// A vertex that is too near to the skin or inside the skin.
   struct Violation {
     std::uint32_t vertex;  ///< index of the attachment's vertex
-    double height;         ///< distance by which the vertex must move along `outward_normal`
+    /// minimum distance of the vertex from the skin, minus its present distance
+    double missing_height;
     Eigen::Vector3d outward_normal;  ///< unit normal of the skin at the point nearest to the vertex
   };
-  /// Returns the vertices that were outside the skin of the fitted mesh and are now nearer to the
-  /// face's skin than their minimum distance. The minimum distance of a vertex is its original
-  /// distance or two millimetres, whichever is smaller.
+  /// Returns the vertices of the attachment that were outside the skin of the fitted mesh and are
+  /// now nearer to the face's skin than their minimum distance. The minimum distance of a vertex is
+  /// its original distance or two millimetres, whichever is smaller.
   ///
-  /// \param face     #V by 3.
+  /// \param face     Positions of the face, #V by 3.
   /// \param normals  Normals of the face, from FittedSkin::normals.
-  /// \param points   #P by 3, on the face.
+  /// \param points   Present positions of the attachment's vertices, #P by 3.
   std::vector<Violation> violations(const Positions& face, const Positions& normals,
                                     const Positions& points) const;
 
@@ -46,7 +47,7 @@ class SkinGaps {
   std::size_t memory_bytes() const;
 
  private:
-  /// Returns the minimum distance of a point from the skin, see `violations`.
+  /// Returns the smallest distance from the skin that a point may have, see `violations`.
   double min_height(std::uint32_t point) const;
 
   const FittedSkin& skin_;

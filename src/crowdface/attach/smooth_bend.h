@@ -27,8 +27,9 @@ class SmoothBend {
 
  private:
   const FittedSkin& skin_;
-  const Positions& points_;  ///< #P by 3: the attachment's vertices on the fitted mesh
-  BendNodes nodes_;          ///< the nodes, and their weights in the motion of each point
+  /// #P by 3: positions of the attachment's vertices on the head to which the attachment was fitted
+  const Positions& points_;
+  BendNodes nodes_;  ///< the nodes, and their weights in the motion of each point
 };
 
 }  // namespace crowdface

@@ -56,7 +56,8 @@ class BakeTemplate {
   const std::vector<PictureVertex>& picture_vertices() const { return picture_vertices_; }
 
  private:
-  /// Finds the picture of each skin vertex: fills picture_vertices_.
+  /// Finds, for each skin vertex, a picture (texture image) that shows the vertex, and the vertex's
+  /// position in this picture: fills picture_vertices_.
   void find_picture_vertices(const ObjFile& file, const TextureLayout& layout);
 
   const WrapTemplate& wrap_template_;

@@ -37,7 +37,7 @@ class FilteredTexture {
     std::vector<Eigen::Array4f> texels;  ///< the texels of the level, row by row: height by width
   };
 
-  /// The value of a texel of the texture, covered or not.
+  /// The value of a texel of the texture, even if the surface does not cover the texel.
   Eigen::Array3f stored_value(int x, int y) const;
   /// Whether the surface covers the centre of a texel.
   bool is_covered(int x, int y) const {

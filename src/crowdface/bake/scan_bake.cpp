@@ -87,7 +87,7 @@ ScanBake::ScanBake(const BakeTemplate& bake_template, const Positions& wrapped,
       scan_spacing_mm_(spacing_of(surface.scan())) {
   OpticalDensities densities = OpticalDensities::Zero(positions_.rows(), 3);
   const std::vector<double> confidence = measure_scan_optical_densities(densities);
-  compute_edge_weights(confidence);
+  compute_hole_fade_weights(confidence);
   if (options.removes_shading) {
     estimate_shading(confidence, densities);
     densities -= shading_densities_;
@@ -115,9 +115,9 @@ ScanBake::ScanPoint ScanBake::find_scan_point(const SkinPoint& skin_point,
   ScanSurface::ClosestPoint place = surface_.nearest(skin_point.position, skin_point.normal,
                                                      kMinNormalCosine, kMaxDistanceMm, guess);
   if (place.triangle == kNoIndex) return seen;
-  // Approximate the point at which the normal hits the scan. If the closest point of the scan is
-  // farther than kCloseMm from the skin point, take one step of a fixed-point iteration that starts
-  // at the closest point.
+  // Approximate the point at which the skin point's normal hits the scan. Start with the scan's
+  // closest point to the skin point. If this point is farther away than kCloseMm, project it onto
+  // the normal, and take the scan's closest point to the projection.
   constexpr double kCloseMm = 0.01;
   if (place.distance > kCloseMm) {
     const double height = (place.point - skin_point.position).dot(skin_point.normal);
@@ -181,9 +181,9 @@ std::vector<double> ScanBake::measure_scan_optical_densities(
   return confidence;
 }
 
-/// The weight of a vertex depends on its distance to the nearest visible vertex that the scan does
-/// not cover.
-void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
+/// The weight of a skin vertex is 0 at visible vertices that the scan does not cover. With the
+/// distance to the nearest such vertex, the weight rises to 1 at kFeatherMm.
+void ScanBake::compute_hole_fade_weights(const std::vector<double>& confidence) {
   constexpr double kNone = 0.5;
   const SkinMesh& skin = template_.wrap_template().skin;
   std::vector<std::uint32_t> without;
@@ -193,9 +193,9 @@ void ScanBake::compute_edge_weights(const std::vector<double>& confidence) {
   }
   EdgeDistances distances(skin.adjacency, positions_);
   distances.search(without, kFeatherMm);
-  edge_weights_.assign(confidence.size(), 1.0);
+  hole_fade_weights_.assign(confidence.size(), 1.0);
   for (const std::uint32_t v : distances.reached()) {
-    edge_weights_[v] = smooth_step(0, kFeatherMm, distances.distance(v));
+    hole_fade_weights_[v] = smooth_step(0, kFeatherMm, distances.distance(v));
   }
 }
 
@@ -214,7 +214,7 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence,
     const auto row = static_cast<std::size_t>(v);
     basis.push_back(harmonics_of(row3(normals_, v)));
     given.push_back(skin.ambient_visibility[row] > kUnfoldedSkinThreshold
-                        ? areas(v) * confidence[row] * edge_weights_[row]
+                        ? areas(v) * confidence[row] * hole_fade_weights_[row]
                         : 0);
   }
   Harmonics fit = Harmonics::Zero(), middle = Harmonics::Zero();
@@ -253,8 +253,8 @@ void ScanBake::estimate_shading(const std::vector<double>& confidence,
 void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
                                         const OpticalDensities& differences) {
   const WrapTemplate& wrap_template = template_.wrap_template();
-  // If the template has a reduced skin (few vertices), compute the tone differences on the reduced
-  // skin.
+  // If the template has a reduced skin (few vertices), compute the tone differences between scan
+  // and template on the reduced skin.
   std::vector<std::uint32_t> rows(wrap_template.skin.vertices.size());
   for (std::uint32_t v = 0; v < rows.size(); ++v) rows[v] = v;
   const std::vector<std::uint32_t>& used =
@@ -272,7 +272,7 @@ void ScanBake::compute_tone_differences(const std::vector<double>& confidence,
   double total = 0;
   for (std::uint32_t v = 0; v < used.size(); ++v) {
     const std::uint32_t row = used[v];
-    const double weight = areas(v) * confidence[row] * edge_weights_[row];
+    const double weight = areas(v) * confidence[row] * hole_fade_weights_[row];
     if (weight == 0) continue;
     data.add(v, Eigen::Vector3d::UnitZ(), 0, weight, row3(differences, row));
     sum += weight * differences.row(row);
@@ -307,7 +307,7 @@ ScanBake::Colour ScanBake::colour_of(const Texel& texel, std::size_t picture, in
   Eigen::Vector3d scan = Eigen::Vector3d::Zero();
   double trust = 0, open = 0, found = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    trust += middle[k] * edge_weights_[texel.rows[k]];
+    trust += middle[k] * hole_fade_weights_[texel.rows[k]];
     open += middle[k] * ambient_visibility[texel.rows[k]];
   }
   // Textures are filtered over the area of the texel; vertex colours are sampled at several points

@@ -78,17 +78,17 @@ class ScanBake {
                                            const Eigen::Vector2d& to_lower_texel) const;
   /// Measures the scan's optical density at each skin vertex.
   /// \param optical_densities  receives one row for each skin vertex.
-  /// \return  the confidence of each row, 0 to 1.
+  /// \return  one value for each row, 0 to 1: how well the scan shows the skin there (confidence).
   std::vector<double> measure_scan_optical_densities(OpticalDensities& optical_densities) const;
-  /// Computes edge_weights_, which fade the scan's colours out towards holes of the scan.
-  /// \param confidence  the result of measure_scan_optical_densities.
-  void compute_edge_weights(const std::vector<double>& confidence);
+  /// Computes hole_fade_weights_, which fade the scan's colours out towards holes of the scan.
+  /// \param confidence  return value of measure_scan_optical_densities.
+  void compute_hole_fade_weights(const std::vector<double>& confidence);
   /// Computes shading_densities_ from the scan's optical densities at the skin vertices.
-  /// \param confidence  the result of measure_scan_optical_densities.
+  /// \param confidence  return value of measure_scan_optical_densities.
   void estimate_shading(const std::vector<double>& confidence, const OpticalDensities& densities);
   /// Computes tone_differences_: keeps the differences where the scan has colours, and continues
   /// them smoothly into the holes of the scan.
-  /// \param confidence   the result of measure_scan_optical_densities.
+  /// \param confidence   return value of measure_scan_optical_densities.
   /// \param differences  #skin by 3: optical density of the scan minus that of the template.
   void compute_tone_differences(const std::vector<double>& confidence,
                                 const OpticalDensities& differences);
@@ -122,8 +122,8 @@ class ScanBake {
   /// #skin by 3: positions and normals of the vertices of the wrapped skin
   Positions positions_, normals_;
   double scan_spacing_mm_;  ///< mean distance between neighbouring vertices of the scan
-  /// one per skin vertex: 0 at the edge of the scan's data, 1 far from this edge
-  std::vector<double> edge_weights_;
+  /// one per skin vertex: 0 at the holes of the scan, 1 far from all holes
+  std::vector<double> hole_fade_weights_;
   /// #skin by 3: smooth difference of optical densities, scan minus template
   OpticalDensities tone_differences_;
   /// #skin by 3: density that the scan's baked-in shading adds; no rows if the shading is kept

@@ -58,7 +58,8 @@ class ScanColours {
 
   /// Returns the mean colour of an area in linear light; nothing if the polygon that contains
   /// the area has no colour.
-  /// \param scan  the scan that was made from the file, in any frame.
+  /// \param scan  the geometry that was read from the same mesh file as these colours, in any
+  /// frame.
   std::optional<Eigen::Array3f> mean_at(const Scan& scan, const ScanArea& area) const;
 
  private:
@@ -68,7 +69,8 @@ class ScanColours {
     std::uint32_t first = 0, second = 0, third = 0;
   };
 
-  HeadSet mesh_;                                   ///< topology and texture coordinates of the file
+  /// a set without heads that holds the topology and the texture coordinates of the scan's file
+  HeadSet mesh_;
   std::vector<TriangleCorners> triangle_corners_;  ///< all triangles of the file
   MeshMaps colours_;                               ///< the file's colour textures
   /// #V by 3: colours of vertices in linear light; or no rows

@@ -28,9 +28,10 @@ std::vector<SmoothedBand> bands_of(const Recipe& recipe) {
   return bands;
 }
 
-/// Returns the differences G_kb of all bands b of all regions k (see weights_by_level) as a matrix
-/// of #V by 3·#bands with three adjacent columns for each band. If each region has one band, the
-/// differences are D_k = B − e_k Σ_i ω̂_ki C_i (see blend_exact).
+/// Returns the weighted sums of heads that the blend smooths, one for each band of each region:
+/// G_b in the comment of weights_by_level (recipe.h), for each region k. The result is a matrix
+/// of #V by 3·#bands with three adjacent columns for each band. If each region has one band, these
+/// sums are the differences D_k of blend_exact.
 Columns band_differences(const HeadSet& heads, const std::vector<SmoothedBand>& bands,
                          const Positions& target) {
   Columns difference(target.rows(), 3 * static_cast<Index>(bands.size()));
@@ -75,7 +76,8 @@ void blend_exact(const HeadSet& heads, const ChebyshevFilter& filter, const Regi
                         {power_series(filter.kind(), bands[f][b].band->iterations)}});
     }
   }
-  // Smooth the band differences of all faces together, in one pass of the filter.
+  // Smooth the differences of all bands of all faces together, in one pass of the filter. See
+  // band_differences.
   const auto smoothed = filter.run<double>(inputs);
   const auto* of_face = smoothed.data();
   for (std::size_t f = 0; f < recipes.size(); of_face += bands[f].size(), ++f) {

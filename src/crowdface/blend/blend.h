@@ -15,17 +15,25 @@ namespace crowdface {
 Positions target_positions(const HeadSet& heads, const Recipe& recipe);
 
 /// Blends the face of a recipe, without mirroring. Unlike CrowdBlender, smooths exactly: applies
-/// the filter once for each band of each region. Computes Eq. 7 in the second form below:
+/// the filter once for each band of each region. If each region has one band, the blended face A is
+/// given by Eq. 7, which has two equal forms:
 ///
 ///     A = Σ_k α_k [ e_k C̄_k + S_{L_k} D_k ]
-///       = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
+///     A = B + Σ_k α_k [ S_{L_k} D_k − D_k ]
 ///
-/// B is the target. Region k has the vertex weights α_k, the smoothing S_{L_k} to level L_k, the
-/// extrapolation factor e_k, the weighted mean of the source heads C̄_k = Σ_i ω̂_ki C_i, and the
-/// difference D_k = B − e_k C̄_k. weights_by_level generalises Eq. 7 to several bands.
+/// The function computes the second form. Its symbols have these meanings:
 ///
-/// The second form keeps a vertex bit-identical to B if the vertex is fixed or if D_k = 0 there
-/// (when the target is blended with itself). For a mixture, B is the weighted mean of its heads.
+/// - B is the target; for a mixture, B is the weighted mean of its heads.
+/// - α_k are the vertex weights of region k.
+/// - S_{L_k} is the smoothing to the level L_k of region k.
+/// - e_k is the extrapolation factor of region k.
+/// - C̄_k = Σ_i ω̂_ki C_i is the weighted mean of the source heads C_i, with the normalised weights
+///   ω̂_ki of region k.
+/// - D_k = B − e_k C̄_k.
+///
+/// weights_by_level generalises Eq. 7 to several bands. The second form keeps a vertex
+/// bit-identical to B if the vertex is fixed, or if D_k = 0 at this vertex (because the target is
+/// blended with itself).
 ///
 /// \param regions  α of the recipe's regions, #V by #regions; rows sum to one.
 /// \return         #V by 3, in the unit of the heads.

@@ -57,16 +57,20 @@ class AlignedFloats {
 
 CrowdBlender::CrowdBlender(const HeadSet& heads, std::vector<HeadSmoothing> levels,
                            FieldPatches patches, const RegionWeights& regions)
-    : heads_(heads), levels_(std::move(levels)), patches_(std::move(patches)), regions_(regions) {
+    : heads_(heads),
+      head_smoothings_(std::move(levels)),
+      patches_(std::move(patches)),
+      regions_(regions) {
   const Index vertices = heads.topology.vertex_count;
-  require(levels_.size() == heads.heads.size() && patches_.head_count() == levels_.size(),
-          "blend: fitted levels of ", levels_.size(), " heads, patches of ", patches_.head_count(),
-          ", for ", heads.heads.size());
+  require(head_smoothings_.size() == heads.heads.size() &&
+              patches_.head_count() == head_smoothings_.size(),
+          "blend: fitted levels of ", head_smoothings_.size(), " heads, patches of ",
+          patches_.head_count(), ", for ", heads.heads.size());
   require(patches_.vertex_count() == vertices && regions.alpha.rows() == vertices,
           "blend: patches of ", patches_.vertex_count(), " vertices and masks of ",
           regions.alpha.rows(), " for ", vertices);
   field_offsets_.push_back(0);
-  for (const HeadSmoothing& head : levels_) {
+  for (const HeadSmoothing& head : head_smoothings_) {
     field_offsets_.push_back(field_offsets_.back() + static_cast<std::size_t>(head.fields.rank));
   }
   find_regions();
@@ -91,14 +95,14 @@ std::vector<float> CrowdBlender::coefficients(const Recipe& recipe, std::size_t 
     // A head may occur twice, as the target and as a source, or as a source of adjacent bands. Add
     // up the head's weights before multiplying by the functions φ. Then weights that cancel give
     // exactly zero, and a target that is blended with itself does not change.
-    std::vector<double> shares(levels_.size(), 0.0);
+    std::vector<double> shares(head_smoothings_.size(), 0.0);
     for (const SourceWeight& part : at.weights) {
       shares[static_cast<std::size_t>(part.head)] += part.weight;
     }
     for (std::size_t h = 0; h < shares.size(); ++h) {
       if (shares[h] == 0) continue;
       std::size_t f = field_offsets_[h];
-      for (const double function : levels_[h].functions(at.level)) {
+      for (const double function : head_smoothings_[h].functions(at.level)) {
         sums[f++] += shares[h] * function;  // Eq. 5
       }
     }
@@ -267,18 +271,19 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Copies α of a region to `alpha_`, at the vertices of the patch.
+  /// Copies the weights α of a region at the vertices of the patch to `alpha_`.
   void copy_alpha(std::uint32_t region) {
     for (std::size_t i = 0; i < patch_.vertices.size(); ++i) {
       alpha_[i] = static_cast<float>(blender_.regions_.alpha(patch_.vertices[i], region));
     }
   }
 
-  /// Interpolates sums from the skeleton vertices (from which all vertices of the patch are
-  /// interpolated) to all vertices. Multiplies the interpolated sums by α and adds the products to
-  /// the faces (Eq. 7).
+  /// Interpolates sums of fields (see skeleton_sums_) from the skeleton vertices to all vertices of
+  /// the patch. Multiplies the interpolated sums by the region's weights α (`alpha_`), and adds the
+  /// products to `vertex_sums_` of `count` faces (Eq. 7).
   ///
-  /// \param at_skeleton  `count` by values_per_field(): x of all skeleton vertices, then y, then z.
+  /// \param at_skeleton  the sums, `count` by values_per_field(): for each face, the x coordinates
+  ///                     at all skeleton vertices, then y, then z.
   void add_at_vertices(const float* at_skeleton, std::size_t first_face, std::size_t count) {
     float* added = vertex_sums_ + first_face * kPatchValues;
     // Returns a pointer to the sums of one coordinate of one face. i = 0, 1, 2 are x, y, z of the
@@ -332,7 +337,8 @@ class CrowdBlender::PatchBlender {
     }
   }
 
-  /// Writes the faces at the vertices of the patch: the positions of the target plus the sums.
+  /// Writes the positions of the patch's vertices in each face: the position in the target plus the
+  /// sum in `vertex_sums_`.
   void write() {
     for (std::size_t face = 0; face < crowd_.size(); ++face) {
       const Recipe& recipe = crowd_.recipe(face);
@@ -363,9 +369,11 @@ class CrowdBlender::PatchBlender {
   std::vector<float> scaled_coefficients_;
   std::vector<VertexRun> runs_;
   AlignedFloats unpacked_values_, skeleton_values_, added_values_;
-  /// kMaxColumns by values_per_field(): sums at the skeleton vertices
+  /// kMaxColumns by values_per_field(): sums of the fields, each multiplied by its coefficient, at
+  /// the skeleton vertices of the patch (from which its other vertices are interpolated)
   float* skeleton_sums_ = nullptr;
-  /// #faces by 3 by kPatchVertices: sums at all vertices of the patch
+  /// #faces by 3 by kPatchVertices: what is added to the target's positions in each face of the
+  /// batch, at all vertices of the patch
   float* vertex_sums_ = nullptr;
   std::array<const float*, kMaxColumns> columns_{};
   std::array<float*, kMaxColumns> products_{};

@@ -13,13 +13,21 @@
 namespace crowdface {
 
 /// Blends many faces at once, with approximate smoothing. For each head C_h, the smoothing S̃_L to
-/// any level L was fitted in advance as S̃_L C_h = C_h + Σ_p φ_hp(L) c_hp (Eq. 5), where c_hp are
-/// vector fields on the mesh and φ_hp are functions of the level. With this fit, Eq. 7 becomes
+/// any level L was fitted in advance:
+///
+///     S̃_L C_h = C_h + Σ_p φ_hp(L) c_hp    (Eq. 5)
+///
+/// Head h has the vector fields c_hp on the mesh, numbered by p. The field c_hp is multiplied by
+/// φ_hp, which is a function of the level. With this fit, Eq. 7 becomes the following formula:
 ///
 ///     A = B + Σ_k α_k Σ_h Σ_p [ Σ_L s_kLh φ_hp(L) ] c_hp
 ///
-/// B is the target, α_k are the vertex weights of region k, and s_kLh is the weight of head h at
-/// level L from weights_by_level. With one band, L = L_k and s_kLh = τ_h − e_k ω̂_kh.
+/// - A is the blended face.
+/// - B is the target: Σ_h τ_h C_h with the weights τ_h from target_head_weights.
+/// - α_k are the vertex weights of region k.
+/// - s_kLh is the weight of head h at level L in region k, from weights_by_level. If region k has
+///   only one band, L is the level of this band and s_kLh = τ_h − e_k ω̂_kh, where e_k is the
+///   band's extrapolation factor and ω̂_kh is the band's weight of head h (see BandRecipe).
 ///
 /// For M faces, each region of a patch takes two matrix products. The first product multiplies the
 /// fields of all heads at the patch's skeleton (the vertices from which all vertices of the patch
@@ -33,7 +41,7 @@ namespace crowdface {
 class CrowdBlender {
  public:
   /// \param heads           must outlive this object.
-  /// \param levels          the fitted smoothing S̃_L of each head, one entry per head.
+  /// \param levels          for each head: its fitted smoothing to all levels.
   /// \param patches         the compressed fields of all heads.
   /// \param regions         α, #V by #regions, where rows sum to one; must outlive this object.
   /// \throws BrokenPrecondition if the arguments do not fit together.
@@ -50,8 +58,9 @@ class CrowdBlender {
   Positions blend(const Recipe& recipe) const;
 
   /// Changes a face that was blended from the recipe `before` into the face of the recipe `after`.
-  /// The result is bit-identical to `blend(after)`. If the target is the same in both recipes,
-  /// recomputes only the patches that a changed region covers; otherwise all patches.
+  /// The result is bit-identical to `blend(after)`. If both faces are built on the same target head
+  /// or mixture (Recipe::target, Recipe::mixture), recomputes only the patches that a changed
+  /// region covers; otherwise all patches.
   ///
   /// \param face  #V by 3, the result of `blend` for `before`.
   void update(const Recipe& before, const Recipe& after, Positions& face) const;
@@ -78,9 +87,9 @@ class CrowdBlender {
   std::size_t field_count() const { return field_offsets_.back(); }
 
   const HeadSet& heads_;
-  std::vector<HeadSmoothing> levels_;  ///< #heads: the fitted smoothing S̃_L of each head
-  FieldPatches patches_;               ///< the fields c_hp of all heads
-  const RegionWeights& regions_;       ///< α, #V by #regions
+  std::vector<HeadSmoothing> head_smoothings_;  ///< the fitted smoothing of each head, to any level
+  FieldPatches patches_;          ///< the vector fields c_hp of all heads (see the class comment)
+  const RegionWeights& regions_;  ///< α, #V by #regions
   /// #heads + 1: for each head, the index of its first field among the fields of all heads
   std::vector<std::size_t> field_offsets_;
   /// indices of each patch's regions (see regions_of_patch), one patch after the other

@@ -56,8 +56,10 @@ std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t reg
                                            Extrapolation extrapolation) {
   const RegionRecipe& bands = recipe.regions[region];
   std::vector<LevelWeights> levels;
-  // G_b is a difference of two terms (see weights_by_level in recipe.h). `coarser` has the weights
-  // of the heads in the first term: B for the first band, e_{b−1} C̄_{b−1} for later bands b.
+  // The weighted sum of each band is a difference of two terms (G_b in the comment of
+  // weights_by_level, recipe.h). `coarser` has the weights of the heads in the first term. In the
+  // first band, the first term is the target; in later bands, it is the mean of the heads that lend
+  // the previous band, times the previous band's extrapolation factor.
   std::vector<SourceWeight> coarser = target_head_weights(recipe);
   for (std::size_t b = 0; b < band_count(bands); ++b) {
     const BandRecipe& band = band_of(bands, b);

@@ -11,8 +11,9 @@
 
 namespace crowdface {
 
-/// A head and its weight in a blend. For heads that lend detail, the weights are the normalised
-/// weights ω̂.
+/// A head and its weight in a blend. Two kinds of heads have weights. Heads on which the face is
+/// built have the weights of a mixture (Recipe::mixture). Heads that lend detail (the sources) have
+/// the normalised weights of Eq. 3, which the docs call ω̂.
 struct SourceWeight {
   Index head = 0;  ///< index of the head in the HeadSet
   double weight = 0;
@@ -32,11 +33,13 @@ struct BandRecipe {
   double smoothness = 0;
   /// L_k: the level at which the band begins, as a number of smoothing iterations
   std::uint64_t iterations = 0;
-  /// e_k: the extrapolation factor of Fig. 6, which is the strength of the band's detail
+  /// e_k: the band's extrapolation factor (Fig. 6 of the paper, see docs/paper.md), which is the
+  /// strength of the detail that the heads lend
   double extrapolation = 1;
 };
 
-/// The recipe of one region. The base class is the region's coarsest band (the only band in Eq. 7).
+/// The recipe of one region. The base class is the region's coarsest band. The paper's blend (Eq.
+/// 7, docs/method.md) has only this band.
 struct RegionRecipe : BandRecipe {
   /// all further bands, from coarse to fine; the level of each band is at most the level of the
   /// next coarser band
@@ -62,9 +65,10 @@ struct Recipe {
   Index target = 0;
   /// for each region of the mask: which heads lend detail, and how much
   std::vector<RegionRecipe> regions;
-  /// The weights τ_h of a mixture B = Σ_h τ_h B_h: by ascending head, not zero, summing to one. If
-  /// empty, B is the target alone. Eq. 2 is linear in B, so its result is also linear in the heads
-  /// of the mixture.
+  /// If the face is built on a mixture of heads instead of one head: the weights of the heads in
+  /// this mixture, by ascending head, not zero, summing to one. If empty, the face is built on the
+  /// head `target` alone. The blend (Eq. 2) is linear in the head on which the face is built, so
+  /// its result is also linear in the heads of the mixture.
   std::vector<SourceWeight> mixture = {};
   /// The weights of the heads in the textures of all regions: by ascending head, not zero, summing
   /// to one. If empty, RegionRecipe::colours determines the weights in each region.
@@ -85,9 +89,9 @@ double mirror_image_weight(const Recipe& recipe);
 /// A smoothing level, and the weighted heads whose sum is smoothed to this level; see
 /// weights_by_level.
 struct LevelWeights {
-  std::uint64_t level = 0;  ///< L_b, the level as a number of smoothing iterations
-  /// the weights s_h of the heads in the sum G_b (see weights_by_level), in the order of summation;
-  /// a head may occur twice
+  std::uint64_t level = 0;  ///< number of smoothing iterations; L_b in weights_by_level
+  /// the weights of the heads in the sum (G_b in weights_by_level), in the order of summation; a
+  /// head may occur twice
   std::vector<SourceWeight> weights;
 };
 
@@ -115,8 +119,8 @@ enum class Extrapolation { kAsGiven, kNone };
 std::vector<LevelWeights> weights_by_level(const Recipe& recipe, std::size_t region,
                                            Extrapolation extrapolation = Extrapolation::kAsGiven);
 
-/// Returns the weights τ_h of the heads in B: the weights of the mixture or, without a mixture,
-/// weight 1 for the target.
+/// Returns the weights τ_h of the heads on which the face is built: the weights of Recipe::mixture
+/// or, without a mixture, weight 1 for the head Recipe::target.
 std::vector<SourceWeight> target_head_weights(const Recipe& recipe);
 
 /// Sets the heads on which a recipe's face is built (B in Eq. 2): sets `mixture`, or leaves it

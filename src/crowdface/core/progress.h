@@ -25,7 +25,8 @@ SecondsClock steady_seconds_clock();
 class StepRate {
  public:
   /// \param simultaneous_steps  number of steps that may end at almost the same time, such as the
-  ///     number of threads. Measured times are at least this many steps apart.
+  ///     number of threads. Two samples are stored only if at least this many steps ended between
+  ///     them.
   explicit StepRate(std::size_t simultaneous_steps) : simultaneous_steps_(simultaneous_steps) {}
 
   /// Records the number of finished steps.
@@ -39,7 +40,7 @@ class StepRate {
  private:
   /// The number of finished steps at one time.
   struct Sample {
-    double seconds = 0;  ///< time at which `record` was called, see its parameter
+    double seconds = 0;  ///< the argument `seconds` of a call of `record`
     std::size_t finished_steps = 0;
   };
   std::size_t simultaneous_steps_;

@@ -229,9 +229,13 @@ std::shared_ptr<const TextureMap> compose(
   return composed;
 }
 
-/// Sets the size of each image in the layout.
-/// \param sizes  size of each file
-/// \param rows   rows[head]: the result of rows_in_pictures for a head
+/// Sets the size of each image of the blended textures.
+/// \param sizes   size of each texture file
+/// \param rows    rows[h][p]: which files of head h (indices into found.heads[h].files) image p of
+///                the layout shows, see rows_in_pictures
+/// \param size    largest side of an image in pixels; empty: the side of the largest file, at most
+///                kMaxDefaultSide
+/// \param layout  the images of the blended textures; the function sets their sizes
 void choose_sizes(const FoundTextureFiles& found, const std::map<fs::path, ImageSize>& sizes,
                   const std::vector<std::vector<std::vector<std::uint32_t>>>& rows,
                   std::optional<std::uint64_t> size, TextureLayout& layout) {
@@ -253,9 +257,11 @@ void choose_sizes(const FoundTextureFiles& found, const std::map<fs::path, Image
   }
 }
 
-/// The content and the number of channels of an image's maps, from the kind of texture and the
-/// image's first file.
-/// \param channels  largest number of channels of the image's files
+/// The content and the number of channels that the maps of all heads for one image of a blended
+/// texture get.
+/// \param first     the first texture file that is drawn into the image; tells normal maps from
+///                  height maps in bump textures
+/// \param channels  largest number of channels of the texture files that are drawn into the image
 NeededMap content_of(TextureKind kind, const fs::path& first, int channels) {
   switch (kind) {
     case TextureKind::kColour:

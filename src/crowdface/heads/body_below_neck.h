@@ -13,12 +13,13 @@ namespace crowdface {
 /// \throws InvalidInput if there is none.
 Rim find_neck_rim(const Config& config, const Inputs& inputs);
 
-/// The sum of the area vectors of the polygons around each vertex of a rim, #rim by 3.
+/// For each vertex of a rim: the sum of the area vectors of the polygons around the vertex. One row
+/// for each vertex of the rim.
 Positions area_vectors_around(const Topology& topology, const Positions& positions, const Rim& rim);
 
 /// The body whose file the config names as `neck.body`.
 struct BodyBelowNeck {
-  /// #rim by 3: positions of the body's rim, in the order of the heads' rim
+  /// positions of the vertices of the body's rim, one row for each, in the order of the heads' rim
   Positions rim_positions;
   Positions area_vectors;  ///< result of area_vectors_around for the body's rim
   /// Whether the file contains a head with the heads' topology, instead of a body.
@@ -37,8 +38,9 @@ struct BodyBelowNeck {
 /// Reads the body and matches its rim with the heads' rim. If the config names the body's rim
 /// (`neck.body_rim`), removes the polygons above this rim, such as the body's own head.
 /// \param rim   the heads' rim
-/// \param ring  the mean of the heads' positions at the rim, #rim by 3
-/// \throws InvalidInput if no rim fits, or if the config needs a body and the file has a head.
+/// \param ring  mean positions, over the heads, of the vertices of the heads' rim; one row for each
+/// \throws InvalidInput if no rim fits. Also throws InvalidInput if the config needs a body, but
+///         the body's file (`neck.body`) contains a head with the heads' topology instead.
 BodyBelowNeck read_body_below_neck(const Config& config, const Inputs& inputs, const Rim& rim,
                                    const Positions& ring);
 

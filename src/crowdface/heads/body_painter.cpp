@@ -17,16 +17,18 @@ namespace {
 
 /// Texture coordinates that give each polygon its own square of the image; the squares form rows.
 struct SquareLayout {
-  static constexpr int kTexels = 4;  ///< side of each polygon's square, in texels
+  /// side of the square that each polygon has in the texture, in texels
+  static constexpr int kTexels = 4;
   int per_row;
 
   explicit SquareLayout(Index polygons)
       : per_row(static_cast<int>(std::ceil(std::sqrt(static_cast<double>(polygons))))) {}
   int side() const { return kTexels * per_row; }
   Eigen::RowVector2d place(Index polygon, std::size_t corner, std::size_t corners) const {
-    // The polygon's corners lie on a circle of this radius (in texels) around the centre of the
-    // polygon's square. So the corners of a quad are the centres of the square's four corner
-    // texels, and interpolation reads no texel outside the square.
+    // Each polygon has its own square of kTexels × kTexels texels in the texture. The texture
+    // coordinates of the polygon's corners lie on a circle around the square's centre. With this
+    // radius (in texels), the corners of a quad are the centres of the square's four corner texels,
+    // so interpolation reads no texel outside the square.
     constexpr double kRadius = 1.5 * std::numbers::sqrt2;
     const double angle =
         2 * std::numbers::pi * (static_cast<double>(corner) + 0.5) / static_cast<double>(corners);
@@ -76,7 +78,8 @@ TextureLayout one_picture(const Topology& topology, const TextureMap& map) {
   return layout;
 }
 
-/// The low frequencies of a map's optical densities, at the vertices of a rim, #rim by 3.
+/// The low frequencies of a map's optical densities at the vertices of a rim: one row of 3 channels
+/// for each vertex.
 OpticalDensities coarse_at(const Rim& rim, const Topology& topology, const Positions& positions,
                            const SurfaceTexels& texels,
                            const std::shared_ptr<const TextureMap>& map) {

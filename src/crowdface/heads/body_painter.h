@@ -18,9 +18,9 @@ namespace crowdface {
 class BodyPainter {
  public:
   /// \param neck     must have a body and outlive this object.
-  /// \param texture  an image in the body's texture coordinates. Empty: the body's colours come
-  ///                 only from the face's colours at the ring, and the body gets new texture
-  ///                 coordinates.
+  /// \param texture  path of an image in the body's texture coordinates. If the path is empty, the
+  ///                 body has no colours of its own: it gets the face's colours at the ring of the
+  ///                 neck, and new texture coordinates.
   BodyPainter(const HeadsOnBody& neck, double falloff_mm, const std::filesystem::path& texture);
 
   /// The body's polygons. Their corners refer to rows of uvs().
@@ -29,7 +29,8 @@ class BodyPainter {
   const TextureCoordinates& uvs() const { return uvs_; }
 
   /// Paints the body's texture for one face.
-  /// \param ring_densities  optical densities of the face's skin at the ring, #rim by 3
+  /// \param ring_densities  optical densities of the face's skin at the vertices of the neck's
+  ///                        ring, one row of 3 channels for each vertex
   BlendedPicture paint(const OpticalDensities& ring_densities) const;
 
  private:
@@ -38,10 +39,12 @@ class BodyPainter {
   TextureCoordinates uvs_;                 ///< result of `uvs()`
   std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
   std::unique_ptr<const SurfaceTexels> texels_;  ///< for each texel: the triangle that covers it
-  /// the body's colours at the ring of the neck, #rim by 3
+  /// optical densities of the body's own colours at the vertices of the neck's ring, one row of 3
+  /// channels for each vertex
   OpticalDensities body_optical_densities_;
-  /// Spreads colour differences from the ring over the body, with the method that NeckBend uses for
-  /// displacements. The differences fade with the distance from the ring.
+  /// Spreads the difference between the face's and the body's colours from the neck's ring over the
+  /// body, with the method that NeckBend uses for displacements. The change of the body's colours
+  /// fades with the distance from the ring.
   NeckBend neck_bend_for_colours_;
 };
 

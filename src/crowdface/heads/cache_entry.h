@@ -209,16 +209,16 @@ class CacheEntry {
   /// The array with this name and with numbers of this type. \throws InvalidInput like `get`.
   template <class Number>
   const StoredArray& find_array(std::string_view name) const {
-    const StoredArray& row = find_array(name, detail::number_type<Number>());
+    const StoredArray& array = find_array(name, detail::number_type<Number>());
     if constexpr (std::is_floating_point_v<Number>) {
       require(are_in_coordinate_range(
-          {reinterpret_cast<const Number*>(at(row)), row.rows * row.columns}));
+          {reinterpret_cast<const Number*>(at(array)), array.rows * array.columns}));
     }
-    return row;
+    return array;
   }
   const StoredArray& find_array(std::string_view name, const std::array<char, 4>& type) const;
   /// Address of the array's first number.
-  const char* at(const StoredArray& row) const { return file_->bytes().data() + row.offset; }
+  const char* at(const StoredArray& array) const { return file_->bytes().data() + array.offset; }
   /// If `matches` is false, rejects the entry: it has another version or holds other data.
   void require_match(bool matches) const;
   /// If `fits` is false, rejects the entry: its size is wrong.

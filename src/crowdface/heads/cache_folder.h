@@ -9,8 +9,9 @@
 
 namespace crowdface {
 
-/// The default cache folder, unless `--cache` names another: $XDG_CACHE_HOME/crowdface, else
-/// ~/.cache/crowdface, else a folder for temporary files.
+/// The cache folder that is used without the option `--cache`. If $XDG_CACHE_HOME is set,
+/// $XDG_CACHE_HOME/crowdface. Otherwise, if $HOME is set, ~/.cache/crowdface. Otherwise, a folder
+/// for temporary files.
 std::filesystem::path cache_directory();
 
 /// A cache folder, and whether unchanged files are accepted without being hashed again.

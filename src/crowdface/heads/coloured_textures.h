@@ -10,7 +10,7 @@ namespace crowdface {
 
 /// A material file or a texture of an attachment, and whether it gets the attachment's colour.
 struct AttachmentFile {
-  MaterialFile file;
+  MaterialFile file;  ///< the material file or texture, and the path of its copy
   /// whether the file on disk is a texture in a neutral colour, and the output gets the texture
   /// that `coloured_texture` makes from this file
   bool is_coloured = false;

@@ -108,8 +108,9 @@ std::optional<Vertices> match_vertices_by_uvs(const HeadFile& first, const Topol
   return vertices;
 }
 
-/// Whether matching vertices of two meshes have the same range of texture coordinates. True if one
-/// of the meshes has no texture coordinates.
+/// Whether each pair of matching vertices of two meshes has the same texture coordinates. The
+/// function compares the ranges of the corners' coordinates at both vertices (see uv_bounds). True
+/// if one of the meshes has no texture coordinates.
 /// \param vertices  the vertex of `found` for each vertex of `first`
 bool has_same_uvs(const HeadMesh& first, const Topology& found, const TextureCoordinates& uvs,
                   const Vertices& vertices) {
@@ -138,14 +139,17 @@ bool has_same_corner_uvs(const HeadMesh& first, const HeadMesh& found) {
   return true;
 }
 
-/// The vertices of a head, matched to the vertices of the first head.
+/// The vertices of a head ("this head"), matched to the vertices of the first head.
 struct VertexMatch {
-  Vertices vertices;         ///< for each vertex of the first head: the head's matching vertex
-  bool has_own_uvs = false;  ///< whether the two heads have different texture coordinates
+  Vertices vertices;  ///< for each vertex of the first head: the matching vertex of this head
+  /// whether the texture coordinates of this head differ from the first head's
+  bool has_own_uvs = false;
 };
 
-/// Matches the vertices by their polygons or by the graph of the edges, after vertices at seams are
-/// joined. The polygons of the head may be triangulated.
+/// Matches the vertices of `head` to the vertices of the first head: by their polygons, by the
+/// graph of the edges, or by their texture coordinates. If `head` has more vertices than the first
+/// head, the function joins the vertices of `head` at seams before. The polygons of `head` may be
+/// the first head's polygons cut into triangles.
 std::optional<VertexMatch> match_graphs(const HeadFile& first, const HeadFile& head) {
   const Topology& expected = first.mesh->topology;
   Topology found = head.mesh->topology;
@@ -262,11 +266,12 @@ HeadFile with_vertices(const HeadFile& head, Vertices vertices) {
   return made;
 }
 
-/// Finds the mesh of heads whose exports may have split vertices. Corners share a vertex in the
-/// result if they share a vertex in any head and have equal positions on each head.
+/// Finds the mesh in which no vertices are split, for heads whose files may contain one vertex
+/// several times. Two polygon corners share a vertex of this mesh if they share a vertex in at
+/// least one head and have equal positions in every head.
 /// \param heads  heads with the same polygons, whose vertices the reader has not joined
-/// \param made   receives the mesh if no head has this mesh
-/// \return a head with the mesh
+/// \param made   receives a head with this mesh if none of `heads` has the mesh
+/// \return one of `heads` that has this mesh, or else `made`
 const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadFile& made) {
   DisjointSets sets(heads[0]->mesh->topology.corner_vertices.size());
   std::vector<const HeadFile*> united;
@@ -291,10 +296,11 @@ const HeadFile& find_whole_mesh(const std::vector<const HeadFile*>& heads, HeadF
   return made;
 }
 
-/// Finds a common mesh for heads from formats whose reader joins all vertices at the same position.
-/// In the common mesh, corners share a vertex if they have the same position in every head. If the
-/// common mesh has over 2 % more vertices than the head with most vertices, the meshes really
-/// differ; then the result is the first head.
+/// Finds the common mesh of heads from formats whose reader joins all vertices at the same
+/// position. If vertices touch in one head but are separate in another head, they are separate in
+/// the common mesh: two corners share a vertex of it only if they have the same position in every
+/// head. If the common mesh has over 2 % more vertices than the head with most vertices, the meshes
+/// really differ; then the result is the first head.
 /// \param heads  heads with the same polygons
 /// \param made   receives the common mesh if no head has this mesh. This happens if each head joins
 ///               some vertices that are separate in another head.

@@ -29,7 +29,7 @@ constexpr double kEyesAboveMouthMm = 65;
 struct Window {
   /// the window's centre: its distance from the symmetry plane and its height above the mouth
   double across, above_mouth;
-  /// standard deviations of the Gaussian, across and along the height of the face
+  /// the Gaussian's standard deviations in millimetres, across the face and along its height
   double sigma_across = 4, sigma_up = 3.5;
 };
 
@@ -43,9 +43,10 @@ struct Term {
   Direction direction;
 };
 
-/// A movement of one feature of the face. Its value, the sum of the terms, is the displacement of
-/// the feature minus the displacement of the skin around the feature. The difference cancels the
-/// displacements of longer, wider or more prominent faces.
+/// A movement of one feature of the face, compared with the median head. The movement's value is
+/// the sum of its `terms`: the displacement of the feature minus the displacement of the skin
+/// around the feature. In a longer, wider or more prominent face, both displacements are about
+/// equal, so the value is near 0.
 struct Movement {
   std::vector<Term> terms;
   /// standard deviation of the movement's value among heads with a neutral expression (synthetic,
@@ -56,9 +57,10 @@ struct Movement {
   const char *positive_text, *negative_text;
 };
 
-/// Open mouth, raised and lowered corners of the mouth, pursed mouth, puffed cheeks. The windows
-/// and factors are chosen so that the values of the ICT model's expressions are large compared with
-/// the differences between neutral heads.
+/// The movements of the mouth and the cheeks: open mouth, raised and lowered corners of the mouth,
+/// pursed mouth, puffed cheeks. Each movement's windows and factors are chosen so that the
+/// movement's value is large in the matching expression of the ICT model, compared with its
+/// differences between neutral heads.
 const std::vector<Movement>& mouth_movements() {
   constexpr Window kUpperLip{0, 4, 6, 2.5}, kLowerLip{0, -5, 6, 2.5}, kUpperSide{18, 5},
       kLowerSide{18, -5}, kCorner{26, 0}, kOuterCorner{30, 0, 5, 4}, kCheek{32, 14},
@@ -185,7 +187,8 @@ class FaceSkin {
   }
 
   /// Returns the linear form that computes a movement's value, in millimetres, from displacements
-  /// in the unit of the positions. Returns nothing if a window contains too few vertices.
+  /// in the unit of the positions. Returns nothing if a window of the movement (Term::window)
+  /// contains too few vertices.
   /// \param side  half of the face: 1 left, −1 right.
   std::optional<LinearForm> linear_form_of(const Movement& movement, int side) const {
     LinearForm form;
@@ -293,9 +296,11 @@ class HeadDisplacements {
 
 /// The movement in which a head deviates most from the other heads.
 struct LargestDeviation {
-  double ratio = 0;         ///< deviation_mm / usual_mm
-  double deviation_mm = 0;  ///< distance of the movement's value from the median over all heads
-  double usual_mm = 0;      ///< root mean square of the other heads' deviations, see update_largest
+  double ratio = 0;  ///< deviation_mm / usual_mm
+  /// difference between the movement's value (see Movement) in this head and the median of its
+  /// values in all heads
+  double deviation_mm = 0;
+  double usual_mm = 0;  ///< root mean square of the other heads' deviations, see update_largest
   const char* text = nullptr;  ///< start of the warning about this deviation
 };
 

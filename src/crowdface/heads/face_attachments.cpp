@@ -96,8 +96,8 @@ std::size_t FaceAttachments::memory_bytes() const {
 /// Adds up, for each kind of attachment, the memory for the largest attachment of the kind. A face
 /// wears at most one attachment of each kind.
 std::size_t FaceAttachments::placement_memory_bytes() const {
-  // Three copies of a mesh are in memory at once: the bent mesh, and the mesh before and after it
-  // is pushed off the skin.
+  // While an attachment is placed, up to three copies of its mesh are in memory at once: after
+  // bending, and before and after a step that pushes the mesh off the skin.
   constexpr std::size_t kCopies = 3;
   std::map<std::string, std::size_t> largest;
   for (const Attachment& item : inputs_.attachments.items) {

@@ -55,7 +55,7 @@ class FaceAttachments {
 
   /// Memory of this object, in bytes.
   std::size_t memory_bytes() const;
-  /// Maximum memory of one face's attachments, in bytes.
+  /// Maximum memory that `attachments_of` needs for the meshes of one face, in bytes.
   std::size_t placement_memory_bytes() const;
 
  private:

@@ -48,8 +48,9 @@ HeadsAtSamples heads_above(const Inputs& inputs, const PreparedHeads& prepared,
   return heads;
 }
 
-/// Rotates each head about the middle of the neck's ring into the common pose of all heads. Rotates
-/// the smoothing trajectories too, because smoothing commutes with rotations.
+/// Rotates each head into the common pose of all heads; the centre of rotation is the centroid of
+/// the neck's ring. Rotates each head's trajectories (displacements of its vertices at several
+/// smoothing levels) too, because smoothing commutes with rotations.
 void turn_heads(const HeadsOnBody& neck, HeadsAtSamples& heads) {
   for (std::size_t h = 0; h < heads.heads.size(); ++h) {
     if (neck.heads[h].pose_rotation.isZero(0)) continue;

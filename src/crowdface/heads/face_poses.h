@@ -32,7 +32,8 @@ class FacePoses {
   bool uses_rotated_head(const Recipe& recipe) const;
 
   const HeadsOnBody& heads_on_body_;
-  /// the heads above the bend of the neck, in file units, as placed on the body
+  /// Samples of each head, as placed on the body, in file units. The samples are vertices of the
+  /// skin above the part of the neck that bends.
   HeadsAtSamples placed_heads_;
   HeadsAtSamples heads_in_common_pose_;  ///< `placed_heads_`, rotated to the common pose
   /// motion of the mean head from its pose on the body to the common pose

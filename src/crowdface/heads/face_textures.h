@@ -65,7 +65,7 @@ class FaceTextures {
 
   /// one blender for each kind of blended textures
   std::vector<std::unique_ptr<TextureBlender>> blenders_;
-  /// An image that is made for each face: image `index` of a blender.
+  /// An image that a TextureBlender makes for each face.
   struct Picture {
     const TextureBlender* blender;  ///< the blender that makes the image
     std::size_t index;              ///< index of the image among the blender's images

@@ -10,8 +10,9 @@
 namespace crowdface {
 namespace {
 
-/// Whether the fields are consistent: each tile uses the first n fields for some n, the tiles
-/// together use all quantization steps, and each step is zero or a power of two.
+/// Whether the data of vector fields are consistent. Each tile stores a number of leading fields,
+/// at most `rank`. There is one quantization step for each stored field of each tile. Each step is
+/// zero or a power of two.
 bool are_fields(const LevelFields& fields) {
   const auto& first = fields.first_field_of_tile;
   for (std::size_t t = 0; t + 1 < first.size(); ++t) {
@@ -40,8 +41,9 @@ constexpr auto kPreparedArrays = [](auto& arrays, auto& head) {
   arrays("numbers", fields.quantized_values);
 };
 
-/// Whether a prepared head that was read from the cache has these sizes and consistent fields.
-/// First sets the members of its fields that the cache does not store: vertex count and rank.
+/// Whether a prepared head that was read from the cache has these sizes and consistent vector
+/// fields (LevelFields). Before the check, sets the vertex count and the rank of the vector fields,
+/// which the cache does not store.
 bool is_head(PreparedHead& head, const HeadCacheSizes& sizes) {
   const Eigen::MatrixXd& coefficients = head.levels.function_coefficients;
   LevelFields& fields = head.levels.fields;

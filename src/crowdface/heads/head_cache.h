@@ -23,8 +23,8 @@ struct StoredLevels {
   LevelFields fields;
   /// the file that holds the fields; null if they lie in memory
   std::shared_ptr<const MappedFile> mapped_file;
-  /// For `levels: basis`: coefficients of the level functions φ_p(L), one row per node and one
-  /// column per function (see LevelBasis::function_coefficients).
+  /// Only for `levels: basis`: LevelBasis::function_coefficients. One row for each node of
+  /// LevelNodes, and one column for each of `fields`.
   Eigen::MatrixXd function_coefficients;
   /// distances between the fitted levels and the exact filter; only for `levels: basis`
   BasisError error;

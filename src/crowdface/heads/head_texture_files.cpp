@@ -162,7 +162,7 @@ std::vector<FoundTextureFiles> find_texture_files(const HeadSet& heads,
     parallel_for_each(face_count, kBlock,
                       [&](Index f) { tile[static_cast<std::size_t>(f)] = tile_of(heads, f); });
   }
-  // Read material files that several heads share only once.
+  // If several heads share a material file, read this file only once.
   std::map<std::pair<fs::path, std::vector<std::string>>, NamedTextures> known;
   std::vector<const NamedTextures*> of_head;
   std::set<TextureKind> kinds = {TextureKind::kColour};

@@ -53,7 +53,10 @@ int shading_map_texels(int max_px) {
   return std::max(1, max_px / 2);
 }
 
-/// A normal or roughness map as a texture for renders; the mean normals become slopes.
+/// Converts a normal map or a roughness map to a texture for renders. Each texel of the texture is
+/// the mean of the map's texels that it covers. In a normal map, this mean normal is then converted
+/// to the slopes of the surface.
+/// \param normals  true: a normal map; false: a roughness map
 Texture shading_map_of(const BlendedPicture& picture, bool normals, int max_px) {
   const auto channels = static_cast<std::size_t>(picture.channels);
   const std::size_t middle = channels / 2;

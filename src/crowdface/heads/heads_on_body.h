@@ -37,7 +37,9 @@ struct HeadsOnBody {
   /// The body, if renders or mesh files contain it or if each face gets a texture of the body.
   /// Otherwise null.
   std::shared_ptr<const Attachment> body;
-  Rim body_rim;  ///< for each vertex of the heads' ring, the body's vertex; empty without `body`
+  /// For each vertex of the heads' neck rim (`seam.rim`): the vertex of the body at the same place.
+  /// Empty without `body`.
+  Rim body_rim;
   /// Whether an attachment is the body's mesh, which is stored like an attachment.
   bool is_body(const Attachment& item) const { return body.get() == &item; }
 

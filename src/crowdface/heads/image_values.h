@@ -14,7 +14,8 @@ ImageRows linear_light_of(const Image& image);
 /// Converts an image of tangent-space normals, stored in 0 … 1, to surface slopes: for each texel,
 /// the slope to the right and the slope upwards in the image.
 ImageRows normal_slopes_of(const Image& image);
-/// The image's values without conversion: its first channel, or its first three channels.
+/// The image's values without conversion: the first three channels. If the image has fewer than
+/// three channels, all three values of a texel are the first channel.
 ImageRows channel_values_of(const Image& image);
 
 }  // namespace crowdface

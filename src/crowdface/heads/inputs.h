@@ -80,7 +80,7 @@ struct AttachmentSet {
 /// The template's rig: joints, skinning weights, and the joints' positions at rest.
 struct Rig {
   GlbSkin skin;     ///< joints and skinning weights, in the axes of the heads
-  PointSet points;  ///< position of each joint relative to the template
+  PointSet points;  ///< position of each joint on the template
   Digest digest;
 
   bool empty() const { return skin.joints.empty(); }
@@ -122,7 +122,7 @@ struct Inputs {
   /// the levels of detail, one for each entry of the config key `output.lods`
   std::vector<MeasuredLevel> detail_levels;
   PointSet points;            ///< named points that every face gets
-  Digest points_digest;       ///< hash of the points, if there are any
+  Digest points_digest;       ///< hash of `points`, if there are any
   Rig rig;                    ///< joints and skinning weights; empty: none
   AttachmentSet attachments;  ///< attachments that faces may wear
   RegionWeights regions;      ///< #V by #regions: weights α of the vertices in the regions

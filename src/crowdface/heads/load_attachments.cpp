@@ -27,8 +27,8 @@ Positions fitted_mesh(const Config& config, const Inputs& inputs) {
     return inputs.heads_on_body ? inputs.heads_on_body->mean_before_placement
                                 : mean_head(inputs.head_set);
   const auto head = static_cast<std::size_t>(*asked.fitted_head);
-  // Attachments fit the head with the positions that the head's file stores. Read the file again if
-  // rigid alignment or the neck has moved the loaded head.
+  // Attachments are fitted to the positions that the head's file stores. If rigid alignment or the
+  // neck has moved the loaded head, read these positions from the file again.
   if (config.faces.align == Align::kRigid || inputs.heads_on_body)
     return read(config.faces.files[head]);
   return inputs.head_set.heads[head].positions;

@@ -122,7 +122,8 @@ struct Poses {
 /// The body on which the heads are placed, and the heads' rotation.
 struct PlacementGoal {
   BodyBelowNeck body;
-  Matrix3d rotation = Matrix3d::Identity();  ///< rotation of all heads from their common pose
+  /// rotation that turns all heads from their common pose into the pose that fits the body
+  Matrix3d rotation = Matrix3d::Identity();
 };
 
 PlacementGoal find_goal(const Config& config, const Inputs& inputs, const Rim& rim,
@@ -227,7 +228,7 @@ Digest neck_digest(const Config& config, const HeadsOnBody& neck) {
   return hasher.digest();
 }
 
-/// Returns the unit normals at the vertices of the neck's rim, #rim by 3.
+/// Returns the unit normals at the vertices of the neck's rim, one row for each vertex.
 /// \param areas       the sum of the heads' area vectors around each vertex of the rim
 /// \param body_areas  the sum of the body's area vectors around each vertex of the rim
 Positions normals_of(Positions areas, const Positions& body_areas) {

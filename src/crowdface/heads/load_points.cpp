@@ -107,7 +107,8 @@ Positions template_of(const YamlNode& root, const std::filesystem::path& file,
 
 /// Reads the named points from a parsed file. The file has the points of a single mesh (key
 /// `points`) or of each head (key `heads`).
-/// \param neutral  mesh file of the shapes' template; empty if there is none
+/// \param neutral  file of the template at rest (`shapes.template`), from which blend shapes are
+///                 transferred; empty if there is none
 void read_points_file(const std::filesystem::path& file, const YamlNode& root,
                       const std::filesystem::path& neutral, Inputs& inputs,
                       Complaints& complaints) {

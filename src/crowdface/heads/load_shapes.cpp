@@ -77,7 +77,8 @@ void keep_ring_still(const Inputs& inputs, Displacements& moves) {
   if (inputs.heads_on_body) inputs.heads_on_body->seam.keep_rim_still(moves);
 }
 
-/// Loads the template's shapes; skips shapes that the template lacks.
+/// Loads the template's version of the shapes that the config names. Skips names for which there is
+/// no file of the template.
 ShapeSet load_template(const ShapeSource& source, const Inputs& inputs, double extent,
                        Problems& problems) {
   const Config::Shapes& asked = source.config.shapes;

@@ -41,16 +41,19 @@ Digest key_of(const Config& config, const Inputs& inputs, const FaceSamples& sam
       .digest();
 }
 
-/// Maximum error of interpolating between the nodes (see LevelNodes), as a fraction of the
-/// displacement at L_max. With this limit, the interpolation uses about a tenth of the error
-/// tolerance (measured, docs/method.md). At the default tolerance of 0.05 mm, the limit is 2·10⁻⁴.
+/// Returns the largest allowed error of interpolating smoothed positions between the smoothing
+/// levels that are nodes (see LevelNodes). The error is a fraction of the displacement that the
+/// smoothing to the highest level causes. With this limit, the interpolation uses about a tenth of
+/// the error tolerance (measured, docs/method.md). At the default tolerance of 0.05 mm, the limit
+/// is 2·10⁻⁴.
 double max_node_residual(const Config& config) {
   constexpr double kSharePerMm = 4e-3, kLargest = 1e-3;
   if (config.smoothing.levels != LevelRepresentation::kBasis) return 2e-4;
   return std::min(kSharePerMm * config.smoothing.tolerance_mm, kLargest);
 }
 
-/// Prepares heads that the cache lacks; makes the filter when the first head needs it.
+/// Prepares heads that the cache lacks. Makes the smoothing filter when the first of these heads
+/// needs it.
 class HeadPreparation {
  public:
   HeadPreparation(const Config& config, const Inputs& inputs, const SmoothingOperator& smoothing,

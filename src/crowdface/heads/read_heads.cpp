@@ -169,7 +169,7 @@ struct HeadReading {
   fs::path unnamed_texture;  ///< see find_unnamed_texture; empty if there is none
 };
 
-/// Moves the data that was read to the head and to the head's mesh.
+/// Moves data from `read` into the head of `reading` and into the head's mesh.
 void store_mesh(HeadReading& reading, ObjFile read, SharedMeshes& shared) {
   ObjFile& file = reading.head.file;
   file =
@@ -191,9 +191,9 @@ const fs::path& scratch_folder() {
   return scratch.path();
 }
 
-/// Stores the textures embedded in a mesh file as image files next to a material file, as for OBJ
-/// files. The files are in a folder of the cache, or in a scratch folder if no cache can be
-/// written.
+/// Writes the textures of a mesh as image files, and a material file that names them. Afterwards,
+/// the head can be treated like a head from an OBJ file. The files are written into a folder of the
+/// cache, or into a scratch folder if the cache cannot be written.
 /// \return the head's new ObjFile::material_base, and the name of the material file in that folder;
 ///         empty if there are no textures
 std::pair<fs::path, std::string> store_textures(const HeadFile& head, const CacheFolder& cache,
@@ -235,8 +235,9 @@ void read_other_format(HeadReading& reading, const CacheFolder& cache, SharedMes
   file.is_mended = true;
 }
 
-/// Adds a line to the text of an OBJ file that names a material file beside the OBJ file, or a
-/// material file that keep_unnamed_texture writes. The line takes the place of a comment, so that
+/// If an OBJ file names no material file, but an image or a material file lies beside the OBJ file,
+/// adds an `mtllib` line to the text that was read. For an image, the line names the material file
+/// that keep_unnamed_texture writes. The line replaces a first line that is a comment, so that
 /// messages name the right lines.
 void name_unnamed_texture(HeadReading& reading) {
   const HeadFile& head = reading.head;
@@ -250,7 +251,7 @@ void name_unnamed_texture(HeadReading& reading) {
   reading.head.file.file = MappedFile::from_text(concat("mtllib ", library, '\n', text));
 }
 
-/// Writes a material file for the image that a head does not name.
+/// Writes a material file for the image that name_unnamed_texture found beside the head's OBJ file.
 void keep_unnamed_texture(HeadReading& reading, const CacheFolder& cache) {
   const fs::path& found = reading.unnamed_texture;
   if (found.empty()) return;

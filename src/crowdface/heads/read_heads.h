@@ -39,11 +39,12 @@ std::vector<HeadFile> read_heads(const std::vector<std::filesystem::path>& paths
 /// Reads the vertex positions of a mesh file.
 /// \param topology        the topology that the mesh must have
 /// \param name_of_meshes  noun in error messages for the meshes that have `topology`: "the heads"
-/// \throws Error, InvalidInput if the mesh has another topology.
+/// \throws InvalidInput if the mesh has another topology; Error if the file cannot be read.
 Positions read_positions(const std::filesystem::path& file, const Topology& topology,
                          std::string_view name_of_meshes);
 
-/// Stores large files that the cache lacks. A cache that cannot be written only causes a warning.
+/// Stores the heads and their meshes in the cache folder. Skips heads that the cache already has
+/// and heads from files smaller than kMinCachedBytes. If the folder cannot be written, only warns.
 void cache_heads(const std::vector<HeadFile>& heads, const std::filesystem::path& cache);
 
 }  // namespace crowdface

@@ -70,7 +70,7 @@ Positions densities_at(const ColourRows& colours, const std::vector<std::uint32_
   return densities;
 }
 
-/// Index of the image, in the layout of blended textures, that the polygons at the ring use;
+/// Index of the image, in the layout of blended textures, that the polygons at the neck's rim use;
 /// kNoIndex if these polygons have no image.
 std::uint32_t picture_at(const Rim& rim, const VertexFaces& around, const TextureLayout& layout) {
   for (const std::uint32_t face : around.items_of(rim.front())) {

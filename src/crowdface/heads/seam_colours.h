@@ -20,7 +20,8 @@ class SeamColours {
 
   /// Whether the colours of at least one head's skin above the neck's ring are known.
   bool has_colours() const;
-  /// Colours at the ring's vertices: optical densities (see `Density`), #rim by 3.
+  /// Colours at the vertices of the neck's ring: optical densities (see `Density`), one row of 3
+  /// channels for each vertex.
   /// \param weights  one per head; heads without colours are left out. If all weights are zero, all
   ///                 heads get equal weights
   OpticalDensities optical_densities_at_ring(const std::vector<double>& weights) const;

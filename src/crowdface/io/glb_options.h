@@ -79,6 +79,7 @@ struct GlbOptions {
   /// The value of `_VERTEX_ID` for each vertex. If empty, the values are 0, 1, 2, …
   std::vector<std::uint32_t> vertex_ids;
   std::vector<GlbFaceImage> images;  ///< the images embedded in every file
+  /// The image of the materials with `uses_overlay`; empty: there are no such materials.
   std::optional<GlbOverlay> overlay = {};
   /// For files without embedded images: the path from the file to the folder that contains
   /// `GlbOverlay::kFile`.

@@ -68,7 +68,7 @@ class GlbTemplate {
   }
 
   Index vertex_count_;
-  bool has_colours_;         ///< whether files have vertex colours
+  bool has_colours_;         ///< whether the encoded files have vertex colours
   std::size_t image_count_;  ///< number of `GlbOptions::images`
   Index point_count_;        ///< number of `GlbOptions::point_names`
   /// The original vertex of each split vertex with an index ≥ #V.

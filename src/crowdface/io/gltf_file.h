@@ -14,8 +14,8 @@
 
 namespace crowdface {
 
-/// The joints and weights of the vertices of a skinned mesh. For each pair of attributes JOINTS_n
-/// and WEIGHTS_n, both lists have an element with four numbers per vertex.
+/// The joints and weights of the vertices of a skinned mesh. Element n of both lists comes from the
+/// attributes JOINTS_n and WEIGHTS_n; it has four numbers for each vertex.
 struct GltfSkinWeights {
   std::vector<std::vector<std::uint32_t>> joints;  ///< indices into the skin's list of joints
   std::vector<std::vector<double>> weights;        ///< weights of these joints
@@ -31,7 +31,7 @@ class GltfFile {
   /// \throws InvalidInput
   GltfFile(std::string_view bytes, std::filesystem::path path);
 
-  /// The JSON of the file.
+  /// The whole JSON of the glTF file.
   const Json& scene() const { return scene_; }
   /// Throws InvalidInput with the name of the file and `what`.
   [[noreturn]] void fail(const std::string& what) const;
@@ -42,7 +42,7 @@ class GltfFile {
   /// \param width     numbers per element: 3 for "VEC3".
   /// \throws InvalidInput if a value is not finite.
   std::vector<double> read_values(std::size_t accessor, std::size_t width);
-  /// The values of an accessor as unsigned integers.
+  /// The values of an accessor as unsigned integers. The parameters are those of read_values.
   std::vector<std::uint32_t> read_unsigned_values(std::size_t accessor, std::size_t width);
   /// The data of a URI: embedded in the URI, or read from a file beside the glTF file.
   /// \param what  name of the data in messages, such as "its buffer 2"

@@ -43,9 +43,10 @@ struct UvTransform {
 /// The vertices of one accessor, as a range of rows in the list of all vertices of the file.
 struct VertexRange {
   std::uint32_t first = 0, count = 0;
-  /// These vertices may have several sets of texture coordinates. The key of a set is its accessor
-  /// and its transform. The value is the row of the first vertex in the list of all texture
-  /// coordinates of the file; kNoIndex if the set does not have one pair per vertex.
+  /// The sets of texture coordinates of the range's vertices. The key of a set is its accessor and
+  /// its transform. The reader appends each set to the list of all texture coordinates of the file;
+  /// the map's value is the row of the range's first vertex in this list. The value is kNoIndex if
+  /// the set does not have one pair of coordinates for each vertex.
   std::map<std::pair<std::size_t, UvTransform>, std::uint32_t> first_uvs;
 };
 
@@ -269,8 +270,8 @@ class GltfMeshReader {
     unused_targets_ = std::max(unused_targets_, unused);
   }
 
-  /// Places the vertices of a skinned mesh in the rest pose. A vertex without weights follows the
-  /// first joint in its list.
+  /// Places the vertices of a skinned mesh in the rest pose. If all weights of a vertex are zero,
+  /// the vertex follows the first joint in the vertex's own list of joints (JOINTS_0).
   void move_by_joints(const GltfSkinWeights& by, std::vector<double>& places) {
     for (std::size_t p = 0; p < places.size() / 3; ++p) {
       Eigen::Vector3d place = Eigen::Vector3d::Zero();

@@ -31,9 +31,9 @@ struct GltfRig {
 };
 
 /// Reads a GLB file. A mesh without a skin counts as rigidly bound to its parent joint.
-/// \throws InvalidInput if the file is not GLB, has no joints, has a mesh that is not below a
-/// joint, or stores JOINTS_n or WEIGHTS_n with a component type that glTF does not allow;
-/// MissingInput.
+/// \throws MissingInput if there is no such file; InvalidInput if the file is not GLB, has no
+///         joints, has a mesh that is not below a joint, or stores JOINTS_n or WEIGHTS_n with a
+///         component type that glTF does not allow.
 GltfRig read_gltf_rig(const std::filesystem::path& path);
 
 }  // namespace crowdface

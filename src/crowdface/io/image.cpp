@@ -58,8 +58,8 @@ const ImageCodec& codec_of(std::string_view format) {
 struct OpenImage {
   const ImageCodec& codec;
   ImageHeader header;
-  /// For a Photoshop file: its content without layers, which `picture` reads in place of the file.
-  /// Null for other files.
+  /// The content of a Photoshop file without its layers. `picture` reads this content in place of
+  /// the file. Null for files of other formats.
   std::unique_ptr<const std::string> rewritten;
   std::unique_ptr<void, void (*)(void*)> picture;
 };
@@ -149,7 +149,8 @@ void* make_room(const path& file, const ImageHeader& header, Image& image) {
   refuse_file(file, concat("expected 8 or 16 bit integers or floats, found ", header.type_name));
 }
 
-/// Number of bytes of the decoded pixels. Integers keep the type that they have in the file.
+/// Number of bytes of the decoded pixels. Values of 8 or 16 bits take 1 or 2 bytes each, as in the
+/// file; all other values take 4 bytes each.
 std::uint64_t pixel_bytes(const ImageHeader& header) {
   const bool bytes = header.value_type == ImageHeader::ValueType::kBytes;
   const bool words = header.value_type == ImageHeader::ValueType::kWords;

@@ -61,7 +61,8 @@ struct ImageLimits {
   int max_side = 16384;  ///< maximum of the width and of the height, in pixels
   int max_channels = 16;
   std::int64_t max_values = 1LL << 30U;  ///< maximum of width · height · channels
-  /// Whether to accept JPEG and WebP; true for colour textures, false for masks.
+  /// Whether to accept formats with lossy compression, JPEG and WebP: true for colour textures,
+  /// false for masks.
   bool allows_jpeg = false;
   /// Whether crowdface itself wrote the file, so that `input_limits()` does not apply.
   bool is_crowdface_file = false;

@@ -20,8 +20,10 @@ std::string image_format(std::string_view bytes);
 std::string container_defect(std::string_view format, std::string_view bytes, int max_side,
                              bool jpeg);
 
-/// A Photoshop file without its layers, their transparency, paths and metadata: its decoder trusts
-/// the sizes that these sections claim. Expects a file without defects.
+/// Removes the layers, the layers' transparency, the paths and the metadata from the content of a
+/// Photoshop file, because the library that decodes the file trusts the sizes that these sections
+/// claim.
+/// \param bytes  content of a file in which container_defect finds no defect.
 std::string flattened_psd(std::string_view bytes);
 
 }  // namespace crowdface

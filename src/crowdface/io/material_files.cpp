@@ -92,7 +92,8 @@ std::vector<float> leading_fractions(std::string_view text) {
   return numbers;
 }
 
-/// Sets the colour or the opacity of a material; ignores other statements.
+/// If a line of a material file is a statement `Kd`, `d` or `Tr`, sets the material's colour or
+/// opacity from this line; otherwise does nothing.
 void set_colour(const MaterialLine& line, SurfaceMaterial& material) {
   if (line.keyword != "Kd" && line.keyword != "d" && line.keyword != "Tr") return;
   const std::vector<float> numbers = leading_fractions(line.arguments);

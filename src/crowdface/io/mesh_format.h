@@ -30,19 +30,23 @@ inline constexpr std::size_t kMeshFormatCount = static_cast<std::size_t>(MeshFor
 
 /// Where a format stores a kind of data: shapes, attachments or textures.
 enum class DataStorage {
-  kNowhere,   ///< the format does not store this data
-  kInside,    ///< stored in the file of the face
-  kOneFile,   ///< stored in one additional file of the same format, which holds all such data
-  kOwnFiles,  ///< one file for each shape or texture, one OBJ file for each attachment
+  kNowhere,  ///< the format does not store this kind of data
+  kInside,   ///< the file of the face stores the data
+  /// one additional file per face, of the same format, stores all data of this kind
+  kOneFile,
+  /// each shape and each texture has a file of its own; each attachment has an OBJ file of its own
+  kOwnFiles,
 };
 
-/// For which meshes an encoder must be given normals.
+/// For which meshes the caller must compute normals and pass them to an encoder.
 enum class FileNormals {
-  kNone,  ///< no mesh needs normals
-  /// Only levels of detail need normals; the encoder computes the normals of full meshes.
+  kNone,  ///< the encoder needs normals for no mesh
+  /// The encoder needs normals for levels of detail; it computes the normals of full meshes itself.
   kReducedLevels,
-  kLikeTarget,  ///< all meshes if the file of the target head has normals; else none
-  kAlways,      ///< all meshes need normals
+  /// If the file of the target head has normals, the encoder needs normals for all meshes.
+  /// Otherwise, the encoder needs normals for no mesh.
+  kLikeTarget,
+  kAlways,  ///< the encoder needs normals for all meshes
 };
 
 /// Properties of a format. The program needs them to plan, name, read and check files of the

@@ -179,16 +179,17 @@ class Mender {
     out += line;
   }
 
-  /// Appends a statement and its first `most` words to `out`; drops further words and comments. If
-  /// there is nothing to drop, appends the line unchanged.
-  static void add_words(std::string_view statement, const std::vector<std::string_view>& words,
+  /// Appends a line of the file to `out`: its keyword and at most `most` of the words after the
+  /// keyword. Drops further words and comments. If there is nothing to drop, appends the line
+  /// unchanged.
+  static void add_words(std::string_view keyword, const std::vector<std::string_view>& words,
                         std::size_t most, std::string_view line, std::string& out) {
     const bool is_sound = words.size() <= most && line.find('#') == line.npos;
     if (is_sound) {
       out += line;
       return;
     }
-    out += statement;
+    out += keyword;
     for (std::size_t i = 0; i < std::min(most, words.size()); ++i) {
       out += ' ';
       out += words[i];

@@ -26,8 +26,8 @@ class ObjTemplate {
   ///                files.
   /// \param topology  the polygons, which all heads share; must outlive this object.
   /// \param colours  whether each file has its own colours after the coordinates of its `v` lines.
-  /// \param fixed  normals that replace the computed normals of some vertices, in `vn` lines that
-  ///               only one vertex uses.
+  /// \param fixed  normals that replace the computed normals of some vertices. A `vn` line gets
+  ///               such a normal only if no other vertex uses the same line.
   ObjTemplate(const ObjFile& target, const Topology& topology, bool colours = false,
               const GivenNormals& fixed = {});
 
@@ -64,7 +64,8 @@ class ObjTemplate {
     std::uint64_t begin = 0;
     std::uint64_t end = 0;            ///< offset in the text at which the block ends
     std::uint64_t output_offset = 0;  ///< offset in the output buffer at which the block starts
-    std::vector<NumberRange> ranges;  ///< the ranges, in the order of the text
+    /// the number ranges of the block, in the order of the text
+    std::vector<NumberRange> ranges;
   };
   /// The new values of the `v` and `vn` lines.
   struct NewValues {

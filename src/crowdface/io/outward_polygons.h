@@ -14,7 +14,7 @@ namespace crowdface {
 inline constexpr std::string_view kReversedFacesNote =
     "its faces pointed inward (inside out) and are flipped";
 
-/// Reverses the polygons of a mesh that is inside out, and adds a note.
+/// If a mesh is inside out, reverses its polygons and adds kReversedFacesNote to the mesh's notes.
 void reverse_inward_faces(FileMesh& mesh);
 /// Reverses the polygons of an OBJ file that is inside out, both in its mesh and in its text, and
 /// sets `has_reversed_faces`. Does not add kReversedFacesNote to the file's notes.

@@ -21,9 +21,8 @@
 namespace crowdface {
 namespace {
 
-/// Describes the libraries that are being loaded; part of an error message. With the phrase "images
-/// need (OpenImageIO)", the message is "the libraries that images need (OpenImageIO) cannot be
-/// started".
+/// What needs the libraries that are being loaded: the part of an error message between "the
+/// libraries that" and "cannot be started". Example: "images need (OpenImageIO)".
 std::atomic<const char*> current_dependents_phrase{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only

@@ -126,8 +126,8 @@ std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size)
     const std::uint64_t one = word_at(bytes + i), two = word_at(bytes + i + 1);
     const std::uint64_t differences =
         (word_at(bytes + i - 1) ^ one) | (one ^ two) | (two ^ word_at(bytes + i + 2));
-    // The lowest bit of `zeros` is the high bit of the lowest byte of `differences` that is 0
-    // (Warren, Hacker's Delight, 6-1)
+    // Find the lowest byte of `differences` that is 0 (Warren, Hacker's Delight, 6-1). The lowest
+    // bit that is set in `zeros` lies in this byte.
     const std::uint64_t zeros =
         (differences - 0x0101010101010101U) & ~differences & 0x8080808080808080U;
     if (zeros != 0) return i + static_cast<std::size_t>(std::countr_zero(zeros)) / 8;
@@ -139,7 +139,8 @@ std::size_t next_run(const std::uint8_t* bytes, std::size_t i, std::size_t size)
   return size;
 }
 
-/// Length of the run of equal bytes at `bytes`, from kMinRun to `most`.
+/// Length of the run of equal bytes that begins at `bytes`, at most `most`. Requires that the first
+/// kMinRun bytes are equal.
 std::size_t run_length(const std::uint8_t* bytes, std::size_t most) {
   std::size_t length = kMinRun;
   const std::uint64_t repeated = bytes[0] * std::uint64_t{0x0101010101010101};
@@ -192,7 +193,8 @@ struct LengthToken {
   std::uint8_t symbol, extra, extra_bits;
 };
 
-/// Encodes a list of code lengths; one token stands for up to 138 lengths 0 (RFC 1951, 3.2.7).
+/// Encodes a list of code lengths. One token can stand for a run of up to 138 lengths that are zero
+/// (RFC 1951, 3.2.7).
 std::vector<LengthToken> length_tokens(const std::vector<int>& lengths) {
   constexpr std::size_t kMinZeros = 3, kMaxFewZeros = 10, kMaxZeros = 138;
   std::vector<LengthToken> tokens;

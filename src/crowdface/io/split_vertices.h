@@ -26,7 +26,8 @@ struct SplitVertices {
   std::vector<std::uint32_t> triangle_faces;  ///< for each triangle: the polygon that it is part of
 };
 
-/// Splits the vertices of a topology and triangulates its polygons.
+/// Splits each vertex that has several texture coordinates, and triangulates the polygons of the
+/// topology; see SplitVertices.
 SplitVertices split_vertices(const Topology& topology);
 
 }  // namespace crowdface

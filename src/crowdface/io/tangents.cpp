@@ -15,7 +15,7 @@ namespace {
 
 /// Twice the signed area of a polygon in texture coordinates; 0 if a corner has no texture
 /// coordinate.
-double uv_area(const Topology& topology, Index face, const TextureCoordinates& uvs) {
+double twice_uv_area(const Topology& topology, Index face, const TextureCoordinates& uvs) {
   const auto corners = topology.face_uvs(face);
   double area = 0;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -46,7 +46,7 @@ SplitVertices split_at_mirrored_uvs(const Topology& topology, const TextureCoord
   const auto count = static_cast<std::uint32_t>(uvs.rows());
   Topology marked = topology;
   for (Index f = 0; f < topology.face_count(); ++f) {
-    if (!(uv_area(topology, f, uvs) < 0)) continue;
+    if (!(twice_uv_area(topology, f, uvs) < 0)) continue;
     const auto [begin, end] = topology.corners(f);
     for (std::uint32_t c = begin; c < end; ++c) marked.corner_uvs[c] += count;
   }

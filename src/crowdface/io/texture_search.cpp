@@ -34,8 +34,8 @@ std::string key_of(const fs::path& name) {
   return lower_case(decomposed(name.string()));
 }
 
-/// The folder's entry with this name; if there is none, the first entry whose name has the same
-/// key.
+/// The folder's entry with this name. If there is none, the first entry whose name differs from
+/// `name` only in case or in the normal form of Unicode (see key_of).
 /// \param name  may contain <UDIM>; so does the result.
 std::optional<fs::path> find_entry(const fs::path& folder, const fs::path& name) {
   const fs::path file = first_file(name);

@@ -6,11 +6,15 @@
 
 namespace crowdface {
 
-/// Searches for a texture, or for the buffer of a glTF file, whose path comes from another machine.
-/// First tries suffixes of the path relative to `folder`, longest first; then looks in the
-/// subfolder `STEM.fbm`; then takes the file of this name in any subfolder, if only one subfolder
-/// has such a file. Ignores the case of names, as Windows does, and whether letters are composed,
-/// as macOS does.
+/// Searches in `folder` for a texture, or for the buffer of a glTF file. Its path `named` comes
+/// from another machine, such as "C:/work/maps/skin.png". The search has three steps:
+///
+/// 1. The last parts of `named`, with as many parts as possible: "work/maps/skin.png", then
+///    "maps/skin.png", then "skin.png".
+/// 2. The file name in the subfolder STEM.fbm, where STEM is `stem`.
+/// 3. The file name in any subfolder, if only one subfolder has a file of this name.
+///
+/// Ignores the case of names, as Windows does, and whether letters are composed, as macOS does.
 /// \param named  path with forward slashes; may be absolute, and may contain <UDIM>
 /// \param stem   name of the mesh file without its extension
 /// \return the path relative to `folder`; nothing if there is no such file.

@@ -11,7 +11,7 @@ namespace crowdface {
 /// \param jpeg  whether strips and tiles may be JPEG.
 /// \return a description of the defect, or an empty string. Defects are: entries, strips or tiles
 /// beyond the end of the file; fewer or shorter strips or tiles than the image needs with its
-/// compression; a compression other than none, LZW, Deflate and PackBits.
+/// compression; a compression other than none, LZW, Deflate, PackBits and (if `jpeg`) JPEG.
 std::string tiff_defect(std::string_view bytes, bool jpeg);
 
 }  // namespace crowdface

@@ -21,7 +21,8 @@ struct UsdaSurface {
   /// Whether the alpha channel of the mask file is the mask; otherwise the first channel is the
   /// mask.
   bool is_opacity_in_alpha = false;
-  /// whether textures are clamped and use the primvar `st1`; otherwise they repeat and use `st`
+  /// Whether the colour map is an overlay (see GlbOverlay), which has its own texture coordinates.
+  /// If so, textures use the primvar `st1` and are clamped; otherwise, they use `st` and repeat.
   bool is_overlay = false;
 };
 

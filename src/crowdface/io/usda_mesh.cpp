@@ -86,8 +86,8 @@ void UsdaMesh::add(EncodedFile& file, const PrimPaths& prim_paths, const Positio
                   kUsdaPoints));
   file.add(usda_rows(positions));
   file.add("]\n");
-  // Write normals only without subdivision, because viewers compute the normals of a subdivided
-  // surface
+  // Write normals only if the surface is not subdivided, because viewers compute the normals of a
+  // subdivided surface.
   if (subdivision_ == Subdivision::kNone) {
     require_finite(normals, vertex_count_, what);
     file.add("            normal3f[] normals = [");

@@ -26,7 +26,8 @@ inline constexpr std::string_view kUsdaPoints = "point3f[] points = [";
 /// each file, and everything else once.
 class UsdaMesh {
  public:
-  /// What the prim contains in addition to the polygons. These contents are the same in all files.
+  /// What the Mesh prim contains in addition to the polygons. This content is the same in the files
+  /// of all faces.
   struct Options {
     Subdivision subdivision = Subdivision::kNone;  ///< how viewers subdivide the mesh
     std::vector<std::string> materials = {};       ///< names of the materials; may be empty
@@ -44,7 +45,8 @@ class UsdaMesh {
 
   /// Name of the Mesh prim in a layer, and paths of the prims that the Mesh prim refers to.
   struct PrimPaths {
-    std::string face_prim;  ///< path of the parent prim, which contains the skeleton
+    /// path of the face's prim, which is the parent of the Mesh prim and contains the skeleton
+    std::string face_prim;
     std::string name;       ///< name of the Mesh prim, the last component of its path
     std::string materials;  ///< path of the prim that contains the materials
   };

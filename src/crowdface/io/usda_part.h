@@ -23,7 +23,7 @@ class UsdaPart {
   /// Placeholder in the names of texture files. The `PartLook::name` of each face replaces it.
   static constexpr std::string_view kLookPlaceholder = "<LOOK>";
 
-  /// A material of the additional mesh.
+  /// A material of this part.
   struct Material {
     std::string name;
     UsdaSurface surface;

@@ -51,7 +51,8 @@ struct Prim {
 /// A Mesh prim and the transform from its axes to the axes of a prim above it, or of the layer.
 struct MeshPrim {
   Eigen::Matrix4d place;
-  bool has_final_place;  ///< whether `place` transforms to the layer's axes
+  /// Whether `place` transforms to the axes of the layer, so that no prim above changes `place`.
+  bool has_final_place;
   Prim prim;
   bool is_hidden = false;  ///< whether the prim, or a prim above it, is inactive or invisible
   /// Whether the prim, or a prim above it, has a property with only time samples.
@@ -150,10 +151,12 @@ struct UvSource {
   auto operator<=>(const UvSource&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
-/// The transform from a prim's axes that its xformOpOrder describes.
+/// The transform that a prim's xformOpOrder describes: from the prim's axes to the axes of its
+/// parent, or to the axes of the layer.
 struct LocalTransform {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  bool ignores_parents = false;  ///< true: to the layer's axes; false: to the parent's axes
+  /// whether `matrix` transforms to the axes of the layer instead of the parent's axes
+  bool ignores_parents = false;
 };
 
 LocalTransform local_transform(const Prim& prim) {
@@ -409,8 +412,9 @@ class UsdaReader {
     return found == nullptr || found->texts.empty() ? std::string_view() : found->texts[0];
   }
 
-  /// The shader of the same material to which an input of `shader` is connected, by a path such as
-  /// </head/skin/colour.outputs:rgb>. Null if there is none.
+  /// The input `input` of `shader` may be connected to an output of another shader of the same
+  /// material, by a path such as "/head/skin/colour.outputs:rgb". Returns this other shader; null
+  /// if there is none.
   static const Prim* connected(const Prim& material, const Prim& shader, std::string_view input) {
     std::string_view path = text_of(shader, concat(input, ".connect"));
     path = path.substr(0, path.find('.'));
@@ -419,8 +423,8 @@ class UsdaReader {
     return path.empty() || found == material.shaders.end() ? nullptr : &*found;
   }
 
-  /// The value of a shader's input. If the input is connected to an input of the material, the
-  /// value of that input.
+  /// Returns the value of a shader's input. If this input has no value of its own but is connected
+  /// to an input of the material, returns the value of the material's input.
   static std::string_view input_text(const Prim& material, const Prim& shader,
                                      std::string_view input) {
     const std::string_view own = text_of(shader, input);

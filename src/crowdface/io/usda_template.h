@@ -34,7 +34,7 @@ class UsdaTemplate {
   /// \param moves  for each blend shape, its displacements from `positions`.
   /// \param images  paths of the options' images, relative to the layer.
   /// \param points  #points by 3, in the positions' unit: child prims of the face's prim.
-  /// \param parts  additional meshes with the same targets.
+  /// \param parts  additional meshes, such as hair, which have the same blend shapes as the face.
   /// \param colours  #V, or no rows (see `UsdaMesh`).
   /// \throws InvalidInput if positions or normals are not #V by 3 or not finite.
   EncodedFile encode(const Positions& positions, const Positions& normals, const std::string& name,
@@ -59,8 +59,9 @@ class UsdaTemplate {
   std::string axis_transform_;
   /// Materials of the face; a copy of `GlbOptions::materials`.
   std::vector<GlbMaterial> glb_materials_;
-  std::string shared_folder_;                  ///< see `GlbOptions::shared_folder`
-  std::vector<std::string> point_prim_names_;  ///< prim names of the points
+  std::string shared_folder_;  ///< see `GlbOptions::shared_folder`
+  /// for each of `GlbOptions::point_names`: the name of the point's prim
+  std::vector<std::string> point_prim_names_;
 };
 
 /// Reads the positions of a file that `UsdaTemplate` wrote.

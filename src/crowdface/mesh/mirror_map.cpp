@@ -34,8 +34,8 @@ Positions mirrored(const MirrorMap& map, const Positions& positions) {
 
 Positions blend_with_mirrored(const Positions& positions, const Positions& image, double w) {
   Positions result(positions.rows(), 3);
-  // Interpolate from the end (A or M(A)) with the larger weight, so that w = 0 and w = 1 reproduce
-  // both ends bitwise.
+  // The result is (1 − w) · positions + w · image. Start the interpolation at the input with the
+  // larger weight, so that w = 0 gives exactly `positions` and w = 1 gives exactly `image`.
   const bool near_image = w > 0.5;
   const Positions& from = near_image ? image : positions;
   const Positions& to = near_image ? positions : image;

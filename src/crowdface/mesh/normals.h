@@ -14,7 +14,7 @@ namespace crowdface {
 /// run.
 class NormalFans {
  public:
-  /// Makes the lists for one normal per vertex.
+  /// Makes the lists of polygons for the case that each vertex has one normal.
   explicit NormalFans(const Topology& topology);
   /// \param normal_of_corner  #C: index of the normal that each corner uses, or kNoIndex.
   /// \param count             number of normals.

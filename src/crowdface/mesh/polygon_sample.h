@@ -11,7 +11,9 @@ namespace crowdface {
 /// corner 0 to the second corner, plus t times the vector from corner 0 to the third corner.
 struct PolygonSample {
   std::size_t second_corner = 1;  ///< number of the triangle's second corner in the polygon
-  double s = 0, t = 0;            ///< not negative; s + t is at most 1
+  /// factors on the vectors from corner 0 to the second corner (s) and to the third corner (t); not
+  /// negative; s + t is at most 1
+  double s = 0, t = 0;
 };
 
 /// A sample point in a polygon: point `number` of a low-discrepancy sequence in the unit square

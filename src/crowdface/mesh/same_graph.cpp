@@ -85,8 +85,9 @@ class Graph {
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::uint64_t> sums(colours_.size(), mixed(static_cast<std::uint64_t>(round)));
       for (std::uint32_t c = 0; c < face_of_.size(); ++c) {
-        // Hash the graph colours (labels, not RGB) of the polygon's vertices in order, starting at
-        // this corner.
+        // Compute a hash of the polygon, seen from this corner. It starts with the number of
+        // corners and whether the edge is a border. Then it includes the graph colours (labels, not
+        // RGB) of the polygon's other vertices, in order.
         std::uint64_t seen = face_size(c) + (twins_[c] == kNoIndex ? 1000U : 0U);
         std::uint32_t at = c;
         for (std::uint32_t k = face_size(c); k > 1; --k) {
@@ -247,7 +248,8 @@ class Matcher {
     return sum;
   }
 
-  /// Moves b rigidly so that the matched vertices lie as close together as possible.
+  /// Moves mesh b rigidly so that its matched vertices lie as close as possible to their partners
+  /// in mesh a.
   void align(const Pairs& pairs) {
     Positions from(static_cast<Index>(pairs.size()), 3), to(static_cast<Index>(pairs.size()), 3);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -283,7 +285,7 @@ class Matcher {
   std::vector<std::uint32_t> to_b_, to_a_;
   CompressedRows<std::uint32_t> corners_at_b_;
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> with_colour_;
-  std::vector<bool> seen_;  ///< polygons of a that the traversal has visited
+  std::vector<bool> seen_;  ///< for each polygon of mesh `a`: whether the traversal has visited it
 };
 
 using Triangle = std::array<std::uint32_t, 3>;

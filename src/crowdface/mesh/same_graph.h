@@ -23,8 +23,9 @@ std::optional<std::vector<std::uint32_t>> match_graphs(const Topology& expected,
                                                        const Topology& found,
                                                        const Positions& found_positions);
 
-/// Whether two meshes have the same polygons on the same vertices. The polygons may have different
-/// orders, and may be cut into triangles along different diagonals.
+/// Whether two meshes have the same polygons, where vertex v of one mesh is vertex v of the other
+/// mesh. The function ignores the order of the polygons. It also ignores how polygons are cut into
+/// triangles: polygons that are cut along different diagonals count as the same.
 bool has_same_polygons(const Topology& a, const Topology& b);
 
 /// Cuts polygons into fans of triangles. All triangles of a quad share the quad's corner

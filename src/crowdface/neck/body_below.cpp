@@ -46,7 +46,8 @@ std::vector<bool> polygons_below(const Topology& topology, const Positions& posi
   std::vector<std::pair<Edge, std::uint32_t>> edges;
   const auto faces = static_cast<std::size_t>(topology.face_count());
   // For each part that touches the loop: the sum, over the part's polygons with an edge on the
-  // loop, of the height above this edge. The sum is stored at the index of the part's root polygon.
+  // loop, of the height of the polygon's centre above the middle of this edge. The sum is stored at
+  // the index of the part's root polygon.
   std::vector<double> height_above_loop(faces, 0.0);
   visit_edges(topology, [&](std::uint32_t f, const Edge& edge) { edges.emplace_back(edge, f); });
   std::ranges::sort(edges);

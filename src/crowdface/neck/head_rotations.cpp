@@ -63,7 +63,7 @@ RigidMotion head_motion(const Positions& from, const Positions& to) {
 Eigen::Matrix3d pose_difference(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& across) {
   // Ignore small rotations: between heads of different shape, the fit finds a rotation even if both
   // heads have the same pose. Among 24 MakeHuman, 24 synthetic and 16 ICT heads, this rotation is
-  // 4.3 degrees about the axis through the ears and 0.8 degrees about other axes.
+  // at most 4.3 degrees about the axis through the ears and at most 0.8 degrees about other axes.
   constexpr double kInclined = 0.10481555856608242;    // 2 tan(6°/2)
   constexpr double kAsymmetric = 0.03491012985643517;  // 2 tan(2°/2)
   const Eigen::Vector3d turn = rotation_vector(rotation);

@@ -18,9 +18,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Largest differences between a body's rim and the heads' rim that match: ratio of their radii, and
-// angle of the rotation from one to the other. The rims of different people differ less; rims in
-// different units, poses or positions differ more.
+// A body's rim matches the heads' rim only if they differ by at most these limits: the ratio of
+// their radii (kMaxScale), and the angle of the rotation from one rim to the other
+// (kMaxTurnDegrees). The rims of different people differ less; rims in different units, poses or
+// positions differ more.
 constexpr double kMaxScale = 1.3;
 constexpr double kMaxTurnDegrees = 12;
 constexpr double kRoundingMm = 0.01;
@@ -53,11 +54,10 @@ double root_mean_square(const Positions& rows) {
   return std::sqrt(square_sum(rows) / static_cast<double>(rows.rows()));
 }
 
-/// How well the best rigid motion maps one rim to another: its rotation angle and the remaining
-/// distance.
+/// The rigid motion that best maps one rim to another rim.
 struct RigidFit {
-  /// rotation angle of the motion; rms distance of corresponding rim vertices after the motion
-  double degrees = 0, rms_mm = 0;
+  double degrees = 0;  ///< rotation angle of the motion
+  double rms_mm = 0;   ///< rms distance of corresponding vertices of both rims after the motion
 };
 
 RigidFit rigid_fit(const Positions& from, const Positions& to) {
@@ -150,7 +150,8 @@ const OrderedRim& best_rigid_fit(const std::vector<OrderedRim>& orders,
   return alike && other->fit.degrees < best->fit.degrees ? *other : *best;
 }
 
-/// Text with the lengths and distances of the nearest rims. \param rims nearest first
+/// Text that lists the body's rims nearest to the heads' rim: for each, its number of vertices and
+/// the distance of its centroid from the centroid of the heads' rim. \param rims nearest first
 std::string list_of(const std::vector<RimMatch>& rims) {
   constexpr std::size_t kNamed = 6;
   std::vector<std::string> named;

@@ -33,9 +33,11 @@ struct RimMatch {
 /// Matches the vertices of two rims with the same number of vertices. Tries every start vertex in
 /// both directions. Returns the order with the smallest sum of squared distances, unless another
 /// order is much closer to the heads' rim after a rigid motion.
-/// \param head_rim  the heads' rim, #rim by 3, in mm, in the order of the rim
+/// \param head_rim  positions of the vertices of the heads' rim in mm, one row for each, in the
+///                  order of the rim
 /// \param body_positions  positions of the whole body, in mm
-/// \param max_distance_mm  largest distance between the rims; callers pass the falloff
+/// \param max_distance_mm  largest distance between the rims; callers pass the config value
+///                         `neck.falloff`
 RimMatch match_rims(const Positions& head_rim, const Rim& body_rim, const Positions& body_positions,
                     double max_distance_mm, RimOrder order = RimOrder::kFree);
 

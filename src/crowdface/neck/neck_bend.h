@@ -25,8 +25,8 @@ class NeckBend {
 
   /// Indices of the vertices above the rim that move with the rim, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
-  /// Returns the displacements of `vertices()`. \param rim_moves #rim by 3: displacements of the
-  /// rim
+  /// Returns the displacements of `vertices()`.
+  /// \param rim_moves  displacements of the rim's vertices, one row for each.
   Positions bend(const Positions& rim_moves) const;
 
  private:

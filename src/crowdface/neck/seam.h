@@ -6,12 +6,12 @@
 
 namespace crowdface {
 
-/// The ring of vertices in which all faces end, with the ring's positions and normals, and the
-/// bending of the skin above the ring. Thread-safe.
+/// The rim of the neck: the ring of vertices in which all faces end. Includes the rim's positions
+/// and normals, and the bending of the skin above the rim. Thread-safe.
 struct Seam {
-  Rim rim;                       ///< the ring, as vertex indices of the heads
-  Positions positions, normals;  ///< #rim by 3: positions and unit normals of the ring
-  NeckBend neck_bend;            ///< bends the skin above the ring
+  Rim rim;                       ///< the vertices of the rim, as vertex indices of the heads
+  Positions positions, normals;  ///< positions and unit normals of the rim's vertices
+  NeckBend neck_bend;            ///< bends the skin above `rim`
 
   /// Bends the neck of a mesh so that the rim has exactly the seam's positions.
   void bend_to_seam(Positions& mesh) const;

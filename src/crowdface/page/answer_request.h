@@ -36,7 +36,7 @@ HttpAnswer binary_answer(std::string bytes);
 class PageFiles {
  public:
   /// \param folder     folder with the built pages; nothing if the pages were not built
-  /// \param page_name  NAME in the names of the files, such as "editor"
+  /// \param page_name  name of the page's files without extension (NAME above), such as "editor"
   PageFiles(std::optional<std::filesystem::path> folder, std::string page_name);
 
   /// The file with this name. The empty name stands for the page itself, such as editor.html; if

@@ -304,7 +304,7 @@ bool LocalServer::State::is_over(const Connection& client) const {
   return !client.socket.valid() || Clock::now() - client.since > patience;
 }
 
-/// Waits up to kPollInterval for events and handles them without blocking.
+/// Waits for events, at most kPollInterval. Then handles the events; the handling never waits.
 void LocalServer::State::serve_once() {
   const short new_clients = is_full() ? 0 : POLLIN;
   std::vector<pollfd> waiting = {{listening.get(), new_clients, 0}, {woken.get(), POLLIN, 0}};

@@ -348,9 +348,9 @@ class LandmarkSearch {
       const auto inner = depth(x - kSpan, up), outer = depth(x + kSpan, up);
       return inner && outer ? (*inner - *outer) / (2 * kSpan) : 0;
     };
-    // Search from the height that is the fraction kLowest of the way from the base to the tip of
-    // the nose, up to kAboveTip millimetres above the tip. Lower down, the fold between cheek and
-    // lip is as steep as a wing, and could be mistaken for a wing.
+    // Search for the wings of the nose from the height that is the fraction kLowest of the way from
+    // the base to the tip of the nose, up to kAboveTip millimetres above the tip. Lower down, the
+    // fold between cheek and lip is as steep as a wing, and could be mistaken for a wing.
     constexpr double kLowest = 0.4, kAboveTip = 4;
     double widest = 0, at_height = 0;
     for (double up = base->up + kLowest * (tip->up - base->up); up <= tip->up + kAboveTip;
@@ -444,9 +444,10 @@ class LandmarkSearch {
     widest("jaw", {0, mouth->up - 4, back - 16}, {0, mouth->up, front}, reason);
   }
 
-  /// Finds the ears' highest and lowest points. Rays from the side scan the surface downwards from
-  /// above the ear, and upwards from below the ear. In each of the two directions, the first steep
-  /// rise of the surface is the ear's rim.
+  /// Finds the ears' highest and lowest points. The function samples the surface with rays that
+  /// come from the side of the head: for the highest point downwards from above the ear, for the
+  /// lowest point upwards from below the ear. In each of these two directions, the first steep rise
+  /// of the surface is the ear's rim.
   void ear_rims(const Ears& ears) {
     constexpr double kAround = 16, kStep = 0.5, kRise = 0.8;
     const double back = ears.back / mm_, front = ears.front / mm_;

@@ -187,17 +187,19 @@ constexpr double kBridgeSearchMm = 10, kTipSearchMm = 14, kMouthSpreadMm = 12;
 /// the lips and of the chin.
 constexpr double kBridgeHalfWidthMm = 15, kLipHalfWidthMm = 5, kChinHalfWidthMm = 10;
 /// The search for the bridge and the tip of the nose prefers heights near the feature's height on
-/// the mean face: the search subtracts a penalty from each measured depth. The penalty is this
-/// length at the highest and the lowest searched height, and smaller between these two heights. On
-/// a mesh with long edges, the penalty is larger.
+/// the mean face: the search subtracts a penalty from each measured depth. On a mesh with edges of
+/// at most kFineMm, the penalty is this length at the highest and the lowest searched height, and
+/// smaller between these two heights. On a mesh with longer edges, all penalties are multiplied by
+/// a factor above 1.
 constexpr double kMaxHeightPenaltyMm = 3;
 /// kMaxMiddleOffsetMm: if the middle of the skin is farther than this length from the symmetry
 /// plane of the relief, the symmetry plane of the relief is used. kMaxEyeOffsetMm: if the heights
 /// of the eyeballs and of the relief's eyes differ by more than this length, the eyeballs are
 /// ignored.
 constexpr double kMaxMiddleOffsetMm = 4, kMaxEyeOffsetMm = 20;
-constexpr double kFineMm = 5;      ///< edges up to this length resolve the lips
-constexpr double kMaxEdgeMm = 18;  ///< longer edges do not show a face
+constexpr double kFineMm = 5;  ///< edges up to this length resolve the lips
+/// A mesh whose edges near the face are longer is too coarse to show a face.
+constexpr double kMaxEdgeMm = 18;
 struct MouthAndChin {
   double mouth = 0, chin = 0;  ///< heights of mouth and chin
 };
@@ -205,9 +207,12 @@ struct MouthAndChin {
 /// Finds mouth and chin together. The mouth is a hollow of the profile between two convex lips. The
 /// chin is convex. The mouth divides the distance from the tip of the nose to the chin in about the
 /// same ratio in all faces.
-/// \param tip    height of the tip of the nose
-/// \param prior  weight of the mouth's height penalty, which is prior / 2 · (d / kMouthSpreadMm)².
-///               Here d is the mouth's distance from the mouth's height on the mean face.
+/// \param tip      height of the tip of the nose
+/// \param mm       length of a millimetre of the mean face, in the unit of the heights
+/// \param stretch  vertical scale of the face divided by its horizontal scale
+/// \param prior    weight of a penalty on unusual heights of the mouth. The penalty is
+///                 prior / 2 · (d / kMouthSpreadMm)². Here d is the distance of the mouth from the
+///                 mouth's height on the mean face.
 MouthAndChin mouth_and_chin(const Profile& outline, double tip, double mm, double stretch,
                             double prior) {
   constexpr double kChinFromMm = 115, kChinToMm = 50, kMouthFromMm = 65, kMouthToMm = 18;
@@ -313,14 +318,16 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   FaceMarks marks;
   marks.axes = match.axes;
   const double mm = match.scale, eyes = match.eye_midpoint.dot(match.fitted_axes.up);
-  // The middle of the skin gives the symmetry plane more accurately than the relief does, except
-  // if hair or a cap shifts this middle.
+  // Two estimates of the symmetry plane: through the middle between the left and the right half of
+  // the skin, and through the middle of the matched relief of the face. The first estimate is more
+  // accurate, except if hair or a cap shifts the middle of the skin. So use the second estimate if
+  // both differ much.
   marks.symmetry_offset = symmetry_offset(topology, head, marks.axes);
   const double of_relief = match.eye_midpoint.dot(match.axes.side());
   if (std::abs(marks.symmetry_offset - of_relief) > kMaxMiddleOffsetMm * mm)
     marks.symmetry_offset = of_relief;
-  // Heights in the profile are along the upright axis of the face, so that the orientation of the
-  // head has no effect.
+  // The profile is the outline of the face in its symmetry plane. Its axes are `fitted_axes`, in
+  // which the face is upright, so that the posture of the head has no effect.
   const double across = match.eye_midpoint.dot(match.fitted_axes.side());
   const Profile outline(topology, head.positions, head.is_skin, match.fitted_axes, across, mm);
   const Profile closed = outline.without_slits(kMaxSlitMm * mm);

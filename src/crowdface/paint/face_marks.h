@@ -12,11 +12,12 @@
 
 namespace crowdface {
 
-/// Positions of the features of a face. Heights are along axes.up, in the unit of the positions.
+/// Positions of the features of a face. Heights are coordinates along axes.up, in the unit of the
+/// positions.
 struct FaceMarks {
   HeadAxes axes;               ///< see ReliefMatch::axes
   double symmetry_offset = 0;  ///< position of the symmetry plane along axes.side()
-  double bridge_height = 0;    ///< height of the deepest point of the bridge of the nose
+  double bridge_height = 0;    ///< height of the point where the bridge of the nose is most hollow
   double tip_height = 0;       ///< height of the tip of the nose
   double eyes_height = 0;      ///< height of the centres of the eyes
   double mouth_height = 0;     ///< height of the line between the lips

@@ -23,11 +23,13 @@ namespace {
 
 constexpr double kRadians = std::numbers::pi / 180;
 
-/// A candidate position of the face on the surface, and the correlation there.
+/// A candidate for the face's position and size on the searched surface.
 struct Candidate {
+  /// Coordinates of the point between the eyes, along the side axis and up; and see
+  /// ReliefMatch::scale and ReliefMatch::stretch.
   double across = 0, height = 0, scale = 1, stretch = 1;
-  ReliefFit fit;
-  double score = -1;
+  ReliefFit fit;      ///< comparison of the surface at this position with the mean face
+  double score = -1;  ///< see ReliefMatch::score
 };
 
 double diagonal_of(const Positions& samples) {
@@ -49,8 +51,10 @@ double angle_between(const HeadAxes& a, const HeadAxes& b) {
 /// eye_agreement.
 constexpr double kEyeAgreementWeight = 0.15;
 
-/// Returns 1 if the midpoint of the known eyeballs is near the point between the eyes of a match,
-/// −1 if the two points are farther apart than kNearMm, and 0 if no eyeballs are known.
+/// Compares the midpoint between the known eyeballs with the midpoint between the eyes of the
+/// relief, as a match places the relief on the surface. Returns 1 if these two points are closer
+/// together than kNearMm, −1 if they are farther apart, and 0 if no eyeballs are known.
+/// \param across, height  coordinates of the relief's midpoint, along the side axis and up
 int eye_agreement(const std::vector<Eigen::Vector3d>& eyes, const HeadAxes& axes, double across,
                   double height, double scale) {
   constexpr double kNearMm = 20;
@@ -77,8 +81,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
   const DepthMap map(samples, axes, diagonal_of(samples) / kSquares);
   const Eigen::AlignedBox2d& box = map.box();
   const double breadth = box.sizes().x();
-  // Search with sizes in a geometric sequence, in parallel. `of_scale` holds the best candidate of
-  // each size.
+  // Search for the relief with scales in a geometric sequence, in parallel. `of_scale` holds the
+  // best candidate of each scale.
   std::vector<Candidate> of_scale;
   for (double scale = kMinShare * breadth / kReliefMm; scale < kMaxShare * breadth / kReliefMm;
        scale *= grow) {
@@ -89,8 +93,8 @@ Candidate search_view(const Positions& samples, const HeadAxes& axes,
     const double scale = best.scale;
     const double top = box.max().y() - 0.5 * kReliefTopRowHeightMm * scale,
                  low = box.min().y() + kReliefTopRowHeightMm * scale;
-    // Try all heights, and lateral positions whose distance from the middle is at most a quarter of
-    // the breadth.
+    // Try the relief at all heights on the surface, and at lateral positions whose distance from
+    // the surface's middle is at most a quarter of the surface's breadth.
     const int aside = static_cast<int>(std::floor(0.25 * breadth / (aside_mm * scale)));
     for (double height = low; height < top; height += up_mm * scale) {
       for (int i = -aside; i <= aside; ++i) {
@@ -222,7 +226,9 @@ class Refinement {
     return starts;
   }
 
-  /// Rotates the axes of the best match by the pitch that the vertical slope of the depths shows.
+  /// Rotates the axes of the best match so far (`best_`), so that the face is as upright as the
+  /// mean face. The angle comes from the fit of the relief: how much the face's depth grows with
+  /// height, compared with the mean face (`slope_up_`).
   /// \return the absolute angle of the rotation in degrees
   double make_upright() {
     refine_placement();
@@ -239,7 +245,8 @@ class Refinement {
     }
   }
 
-  /// Replaces the best match by `match` with other axes, even if the score decreases.
+  /// Replaces the best match (`best_`) by `match` with its axes changed to `axes`, even if the
+  /// score decreases.
   void restart(const ReliefMatch& match, const HeadAxes& axes) {
     ReliefMatch next = match;
     next.fitted_axes = axes;
@@ -267,8 +274,9 @@ class Refinement {
     return differences;
   }
 
-  /// Turns the match about the up and front axes and moves it sideways until the face is symmetric.
-  /// Uses robust Gauss-Newton steps.
+  /// Finds the symmetry plane of the face: turns the axes of the match about the up axis and the
+  /// front axis, and moves its origin sideways, until the face is symmetric in these axes. Uses
+  /// robust Gauss-Newton steps.
   void make_symmetric() {
     constexpr int kSteps = 8;
     constexpr double kDegrees = 2, kMm = 2;  // step sizes for numerical derivatives
@@ -443,8 +451,9 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   // A face counts as aligned with the requested axes if the axes of the face differ from the
   // requested axes by less than this angle, in degrees.
   constexpr double kAlignedDegrees = 5;
-  // A pitch below this angle, in degrees, is attributed to the posture of the head or the form of
-  // the face.
+  // If the face is pitched up or down by less than this angle, in degrees, relative to the nearest
+  // requested axes, the pitch is ignored: it is due to the posture of the head or the shape of the
+  // face.
   constexpr double kMinPitch = 10;
   if (samples.rows() == 0 || !(diagonal_of(samples) > 0)) return std::nullopt;
   const auto search = [&](const std::vector<HeadAxes>& views, double coarseness) {
@@ -471,7 +480,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     });
     ReliefMatch match = *std::ranges::max_element(refined, {}, &ReliefMatch::score);
     if (match.score <= -1) return match;
-    // Choose the requested axes that are nearest to the axes of the face.
+    // Among the caller's orientations (`all_axes`), choose the one that differs from the axes of
+    // the face by the smallest angle.
     match.nearest_orientation_index = static_cast<std::size_t>(
         std::ranges::min_element(
             all_axes, {}, [&](const HeadAxes& asked) { return angle_between(match.axes, asked); }) -

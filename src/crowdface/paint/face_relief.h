@@ -35,15 +35,19 @@ struct ReliefMatch {
   std::size_t nearest_orientation_index = 0;
   /// angle between the nearest requested axes and `fitted_axes`
   double rotation_degrees = 0;
-  /// `fitted_axes`, corrected towards the nearest requested axes. The correction removes a pitch
-  /// below 10° relative to the nearest requested axes. If the remaining angle between both pairs of
-  /// axes is below 5°, `axes` equals the nearest requested axes.
+  /// `fitted_axes`, corrected towards the nearest requested axes. If `fitted_axes` are pitched by
+  /// less than 10° relative to the nearest requested axes, the correction removes this pitch. If
+  /// the corrected axes then differ from the nearest requested axes by less than 5°, `axes` equals
+  /// the nearest requested axes.
   HeadAxes axes;
-  /// The axes in which the face is symmetric and as upright as the mean face. Small rotations from
-  /// the requested axes are due to the posture and shape of the face.
+  /// The axes in which the face is symmetric and as upright as the mean face. If `fitted_axes`
+  /// differ only slightly from the requested axes (argument `axes` of match_relief), the difference
+  /// is due to the posture of the head and the shape of the face.
   HeadAxes fitted_axes;
   Eigen::Vector3d eye_midpoint;  ///< point on the surface between the eyes
-  double scale = 1;    ///< horizontal scale: units of the positions per millimetre of the mean face
+  /// size of the face along its side axis: length, in the unit of the samples' positions, that
+  /// corresponds to 1 mm on the mean face
+  double scale = 1;
   double stretch = 1;  ///< vertical scale divided by the horizontal scale
 };
 

@@ -15,12 +15,12 @@
 
 namespace crowdface {
 
-/// Regions of a mask that can be computed from a head's shape: horizontal bands of the face, ears,
-/// neck. Unrelated to the bands of detail.
+/// Regions of a mask that can be computed from a head's shape: three horizontal bands of the face,
+/// the ears, and the neck. Unrelated to the bands of detail.
 enum class MaskBand : std::uint8_t {
-  kBrow,   ///< brows and above
-  kNose,   ///< eyes and nose
-  kMouth,  ///< mouth and below
+  kBrow,   ///< the band contains the brows and everything above
+  kNose,   ///< the band at the height of the nose: contains the nose and the eyes
+  kMouth,  ///< the band contains the mouth and everything below, down to the neck
   kEars,
   kNeck,  ///< below chin and ears
 };

@@ -14,7 +14,7 @@ namespace crowdface {
 /// nose and mouth.
 /// \throws UsageError otherwise.
 std::vector<MaskBand> parse_bands(std::string_view text);
-/// Returns the names of mask regions, see kMaskBandNames.
+/// Returns the name of each of the given bands, see kMaskBandNames.
 std::vector<std::string> names_of(const std::vector<MaskBand>& bands);
 
 /// Width and height in texels that are sufficient for masks of soft regions on a mesh with this

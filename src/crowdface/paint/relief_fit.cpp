@@ -63,9 +63,10 @@ const Terms& terms() {
 
 using UsedCells = std::bitset<kReliefCells>;
 
-/// A least-squares fit of the model to the used cells. The mean face is the last term of the model.
-/// The other terms explain a part of the sum of squared depths. The square of the last entry of
-/// `explained` is the additional part that the mean face explains.
+/// A least-squares fit of the model (see ReliefFit) to the depths in those cells of the grid that
+/// contain a surface. The mean face is the last term of the model. The terms together explain a
+/// part of the sum of the squared depths: the squared norm of the vector `explained`. The square of
+/// its last entry is the part that the mean face explains in addition to all other terms.
 struct CellFit {
   ReliefFit fit;
   Products factor = Products::Zero();  ///< Cholesky factor of the normal matrix, lower triangle

@@ -42,14 +42,16 @@ inline constexpr double kNoDepth = -std::numeric_limits<double>::infinity();
 /// The depth of a surface in each cell of the grid, row by row.
 using ReliefDepths = std::array<double, kReliefCells>;
 
-/// Result of comparing the depths of a surface with the mean face.
+/// Result of comparing the depths of a surface with the mean face. The comparison fits a model to
+/// the depths: a weighted sum of a constant, slopes, curvatures and the depths of the mean face.
 struct ReliefFit {
   double correlation = -1;  ///< see ReliefMatch::correlation
   double amplitude = 0;     ///< coefficient of the mean face in the fitted model
-  /// depth of the fitted model at the point between the eyes; excludes the term of the mean face
+  /// depth of the fitted model at the point between the eyes, without the model's summand for the
+  /// mean face
   double offset = 0;
   /// vertical slope (change of depth per length upwards) of the fitted model at the middle height
-  /// of the grid; excludes the term of the mean face
+  /// of the grid, without the model's summand for the mean face
   double slope_up = 0;
 };
 

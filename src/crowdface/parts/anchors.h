@@ -30,17 +30,20 @@ class Anchors {
   /// Measures, for each bound vertex of a head, the offset of the vertex from its anchor point on
   /// the skin, in the coordinate frame that rotates with this skin.
   std::vector<Eigen::Vector3d> measure_offsets(const Positions& head) const;
-  /// Places each bound vertex of `result` at the given offset in the vertex's coordinate frame on
-  /// `result`. Where the surrounding skin has not moved, a vertex keeps exactly its position on
+  /// Places the bound vertices of a blended head on its skin: each vertex at its offset, in the
+  /// coordinate frame that the skin of `result` gives the vertex. If the skin around a vertex has
+  /// the same positions in `result` as in `target`, the vertex gets exactly its position in
   /// `target`.
   ///
   /// \param offsets  One offset per bound vertex, measured on the target.
+  /// \param result   The blended head, #V by 3; the positions of the bound vertices are changed.
   void place_vertices(const Positions& target, std::span<const Eigen::Vector3d> offsets,
                       Positions& result) const;
 
  private:
   using Frame = std::array<Eigen::Vector3d, 3>;  ///< a coordinate frame: three orthonormal axes
-  /// A vertex of the skin around a triangle.
+  /// A vertex of the ring of skin vertices around a triangle, from which the triangle's coordinate
+  /// frame is computed.
   struct RingVertex {
     std::uint32_t vertex;
     /// weights of the vertex in the sums for the frame's first and second axis

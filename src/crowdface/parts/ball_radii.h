@@ -24,8 +24,12 @@ class BallRadii {
 
   /// Gap between the eyeball's surface and a point.
   struct Gap {
-    double gap = 0;          ///< signed distance from the surface; negative: inside the eyeball
-    Eigen::Vector3d normal;  ///< outward unit normal of the eyeball, in the direction of the point
+    /// signed distance of the point from the eyeball's surface, in the unit of the head's
+    /// positions; negative: the point is inside the eyeball
+    double gap = 0;
+    /// outward unit normal of the eyeball's surface, where the line from the eyeball's centre to
+    /// the point meets the surface
+    Eigen::Vector3d normal;
   };
   /// Returns the approximate gap between the surface and a point (exact to first order).
   ///
@@ -33,6 +37,7 @@ class BallRadii {
   Gap gap_at(const Eigen::Vector3d& centre_to_point) const;
 
   const Eigen::Vector3d& centre() const { return centre_; }
+  /// Returns the constructor's parameter `radius`: one radius for the whole eyeball.
   double radius() const { return radius_; }
   /// Returns the largest radius in any direction.
   double max_radius() const { return max_radius_; }

@@ -36,14 +36,15 @@ constexpr double kRotationCost = 1, kSizeCost = 2;
 /// Largest decrease (kMaxShrink) and increase (kMaxGrowth) of a part's size, as fractions of the
 /// size.
 constexpr double kMaxShrink = 0.06, kMaxGrowth = 0.01;
-/// Penalties for violated constraints, as multiples of the reach. kOutsidePenalty: for vertices
-/// that are outside the skin in all heads; these vertices have priority. kInsidePenalty: for all
-/// other vertices.
+/// Penalties for violated constraints, as multiples of the reach of PartContact (violations are
+/// lengths, and a penalty is a cost per violation). kOutsidePenalty: for vertices that are outside
+/// the skin in all heads; these vertices have priority. kInsidePenalty: for all other vertices.
 constexpr double kOutsidePenalty = 1000, kInsidePenalty = 1;
 
 /// Index of the first unknown of each kind in an optimisation step of a part: translation (3
-/// unknowns), rotation (3), change of size, and the two violations with the penalties
-/// kOutsidePenalty and kInsidePenalty. All unknowns are lengths.
+/// unknowns), rotation (3), change of size, and two slack variables. The slack variables are the
+/// violations of constraints that kOutsidePenalty and kInsidePenalty penalise. All unknowns are
+/// lengths: rotation and change of size are multiplied by the part's radius.
 enum Unknown : std::size_t {
   kShift = 0,
   kTurn = 3,
@@ -112,8 +113,9 @@ void PartContact::find_search_starts(const Positions& positions,
       nearest[i][p] = grid.nearest(row3(head, pairs_[p].vertex), 2 * reach_).vertex;
     }
   });
-  // For each pair, keep at most kMaxSearchStarts of the skin vertices found as start vertices. Omit
-  // a vertex that is closer than `apart` to another start vertex of the pair.
+  // `nearest` has, for each head and pair, the nearest skin vertex. Choose at most kMaxSearchStarts
+  // of a pair's nearest vertices as start vertices. Omit a vertex that is closer than `apart` to
+  // another start vertex of the pair.
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     SearchStarts& starts = pairs_[i].search_starts;
     std::size_t count = 1;
@@ -154,7 +156,8 @@ void PartContact::find_clusters(const Positions& positions, const std::vector<He
     open.emplace_back(middle, end);
     open.emplace_back(begin, middle);
   }
-  // Set Cluster::height_margin of each cluster from the largest height differences in the heads.
+  // Set Cluster::height_margin of each cluster. In every head, measure by how much the cluster's
+  // middle pair is higher above the skin than each other pair of the cluster; use the maximum.
   for (Cluster& cluster : clusters_) {
     for (const Head& head : heads) {
       const auto rough = [&](std::size_t i) {

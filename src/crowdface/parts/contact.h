@@ -36,16 +36,19 @@ class PartContact {
   };
   /// Returns the height of a point of the part above the nearest skin.
   ///
-  /// \param pair   Index of the pair whose vertex is at `point`.
+  /// \param pair   Index of a pair. The pair's vertex of the part is at `point`; the search for the
+  ///               nearest skin starts near the pair's triangle.
   /// \param skin   Positions of the head or face whose skin is used, #V by 3.
   Height height(std::size_t pair, const Eigen::Vector3d& point, const Positions& skin) const;
 
-  /// Returns the motion that keeps the part out of the skin and is nearest to `motion`. After this
-  /// motion, no vertex is deeper inside the skin than in the head where this vertex is deepest. A
-  /// vertex that is outside the skin in all heads stays outside. The correction is a small
-  /// translation, rotation and scaling.
+  /// Returns the motion that keeps the part out of the skin and is nearest to `motion`. Each vertex
+  /// of the part has a largest depth inside the skin: its maximum over all input heads. After the
+  /// returned motion, no vertex is deeper inside the skin than its largest depth. A vertex that is
+  /// outside the skin in all heads stays outside. The returned motion differs from `motion` by a
+  /// small translation, rotation and scaling.
   ///
-  /// \param target  The head with the part before the motion.
+  /// \param target  The head from which the face takes the part: the part's positions before the
+  ///                motion.
   /// \param motion  Motion of the surrounding skin.
   /// \param moved_face  The face with the moved skin.
   /// \param margin  Distance that the part keeps from the skin, where the part is outside the skin
@@ -64,7 +67,8 @@ class PartContact {
   struct Pair {
     std::uint32_t vertex;  ///< vertex of the part
     Triangle corners;      ///< triangle of the skin
-    /// point of the triangle that is nearest to the vertex on the head where the pair was found
+    /// Barycentric coordinates of a point of the triangle. On the head where the pair was found, no
+    /// other point of the triangle is nearer to the vertex.
     std::array<double, 3> barycentric;
     /// Vertices of the skin from which the search for the skin point nearest to `vertex` starts.
     /// Near both lips, some start vertices lie on the upper lip and others on the lower lip.
@@ -75,7 +79,8 @@ class PartContact {
   /// lower bound for the heights of all pairs of the cluster.
   struct Cluster {
     std::size_t begin, end;  ///< the cluster consists of `pairs_[begin]` to `pairs_[end - 1]`
-    /// estimated upper bound of the height by which the middle pair is above any other pair
+    /// estimated upper bound for: height above the skin of the middle pair's vertex, minus the
+    /// smallest such height of the cluster's vertices
     double height_margin;
     /// Returns the index of the middle pair.
     std::size_t middle() const { return begin + (end - begin) / 2; }
@@ -92,8 +97,11 @@ class PartContact {
   Eigen::Vector3d normal_near(const SurfacePoint& place, const Positions& skin) const;
   /// Improves `motion` by one step of the optimisation.
   ///
-  /// \param near  Indices of pairs to check; the function removes pairs that are far from the skin.
-  /// \return      false if no pair violates a limit.
+  /// \param target, moved_face, margin  see keep_out_of_skin.
+  /// \param start  The parameter `motion` of keep_out_of_skin, from which the result differs least.
+  /// \param near   Indices of `pairs_` to check; the function removes pairs that are far from the
+  ///               skin.
+  /// \return       false if every vertex is high enough above the skin, so that no step was needed.
   bool step(const Positions& target, const RigidMotion& start, const Positions& moved_face,
             double margin, std::vector<std::uint32_t>& near, RigidMotion& motion) const;
 
@@ -102,7 +110,7 @@ class PartContact {
   double reach_ = 0;        ///< the constructor's parameter `reach`
   double normal_sign_ = 1;  ///< −1 if the skin's normals point away from the part, else 1
   double radius_ = 0;       ///< root mean square distance of the part's vertices from `middle_`
-  /// middle of the part on the head where the pairs were found
+  /// middle of the part, in the head that the constructor got as `positions`
   Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
   std::vector<Pair> pairs_;  ///< all pairs, ordered by cluster
   std::vector<Cluster> clusters_;

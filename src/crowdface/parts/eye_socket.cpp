@@ -22,7 +22,7 @@ constexpr double kMinFront = 0.35;
 /// Number of sectors around the axis of the eye; the rim has at most one vertex in each sector.
 constexpr std::size_t kRimSectors = 60;
 /// Largest number of lid vertices that are used; more vertices are subsampled evenly.
-constexpr std::size_t kMaxLids = 2500;
+constexpr std::size_t kMaxLidVertices = 2500;
 
 /// kMeanGapWeight: weight of the error of a lid's mean gap, relative to the mean square error of
 /// the gaps at the rim. kMeanGapTolerance: tolerance of the mean gap, as a fraction of the radius;
@@ -46,10 +46,13 @@ constexpr double kMinOutsideGap = -0.003;
 constexpr double kFarFirst = 0.1, kFarLater = 0.04;
 /// The iteration ends with the first step that translates by less than this fraction of the radius.
 constexpr double kDoneShift = 1e-3;
-/// Penalties for violated constraints, as multiples of the radius. kNewLidPenalty: a lid vertex is
-/// inside the eyeball or too close to it, but outside in all heads. kMeanGapPenalty: the mean gap
-/// of a lid differs too much from the target's. kDeepLidPenalty: a lid vertex that is inside the
-/// eyeball in some head is deeper inside than in any head.
+/// Penalties for violated constraints, as multiples of the radius.
+/// - kNewLidPenalty is for lid vertices that are outside the eyeball in all heads: such a vertex is
+///   now inside the eyeball or too close to it.
+/// - kMeanGapPenalty: the mean gap between a lid and the eyeball differs too much from the mean gap
+///   in the target.
+/// - kDeepLidPenalty is for lid vertices that are inside the eyeball in at least one head: such a
+///   vertex is now deeper inside than in every head.
 constexpr double kNewLidPenalty = 100, kMeanGapPenalty = 10, kDeepLidPenalty = 1;
 
 /// Unknowns of an optimisation step of an eyeball. All unknowns are lengths.
@@ -101,7 +104,7 @@ Lids find_lids(const Positions& positions, const PointGrid& eyeball, const Eigen
     if (best.vertex != kNoIndex) rim.push_back(best.vertex);
   }
   std::ranges::sort(rim);
-  const std::vector<std::uint32_t> some = evenly_spaced_items(near, kMaxLids);
+  const std::vector<std::uint32_t> some = evenly_spaced_items(near, kMaxLidVertices);
   std::set_union(some.begin(), some.end(), rim.begin(), rim.end(),
                  std::back_inserter(lids.vertices));
   for (const std::uint32_t v : rim) {
@@ -167,9 +170,10 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
                             std::vector<LidPoint>& lids) const {
   const BallRadii& map = ball_radii_[target];
   const double radius = motion.scale * map.radius();
-  // Lid vertices outside this radius are farther from the eyeball than `far`. The factor 1.5 allows
-  // for gaps, which are measured along the normal of the eyeball and are a little smaller than the
-  // distance along the ray from the centre.
+  // If a lid vertex is farther from the eyeball's centre than this radius, its gap (the distance
+  // from the eyeball's surface) is larger than `far` · `radius`. The gap is measured along the
+  // normal of the eyeball, so it is a little smaller than the distance along the ray from the
+  // centre. The factor 1.5 allows for this difference.
   const double outside = motion.scale * map.max_radius() + 1.5 * far * radius;
   const Eigen::Vector3d centre = motion.apply(map.centre());
   const Eigen::Vector3d shifted = centre - skin_motion.apply(map.centre());
@@ -212,7 +216,7 @@ RigidMotion EyeSocket::step(std::size_t target, const RigidMotion& skin_motion,
     program.add_lower_bound(a, (never ? kMargin * radius : motion.scale * least) - gap.gap);
   }
   lids.resize(kept);  // Later steps skip the lid vertices that are too far from the eyeball.
-  // Keep the mean gap of each lid, within a tolerance.
+  // Keep the mean gap between each lid's rim and the eyeball, within a tolerance.
   for (auto& of : mean) {
     if (of.count == 0) continue;
     for (double& value : of.a) value /= of.count;

@@ -51,7 +51,7 @@ class EyeSocket {
   /// \param target       Index of the head.
   /// \param skin_motion  Motion of the skin around the eye, from the head to the face.
   /// \param face         The face, with the moved skin.
-  /// \return             Motion of the eyeball from the head to the face.
+  /// \return             Motion of the eyeball from the head to the face, including its scaling.
   RigidMotion fit(std::size_t target, const RigidMotion& skin_motion, const Positions& face) const;
   /// Improves only the translation of an eyeball's motion and keeps its scale, because the caller
   /// gives the size of the eyeball.
@@ -65,15 +65,18 @@ class EyeSocket {
  private:
   /// Whether the optimisation may change the size of the eyeball.
   enum class SizeMode { kFree, kKept };
-  /// A lid vertex on a face.
+  /// A vertex of a lid, and its position in a new head ("face").
   struct LidPoint {
-    Eigen::Vector3d point;  ///< position on the face
+    Eigen::Vector3d point;  ///< position of the vertex
     std::uint32_t index;    ///< index into `Lids::vertices`
   };
-  /// Returns `motion` improved by one step of the optimisation.
-  /// \param far   The function removes from `lids` the points whose distance from the eyeball is
-  ///              larger than this fraction of the eyeball's radius.
-  /// \param lids  The lid vertices to check.
+  /// Returns the motion of the eyeball improved by one step of the optimisation.
+  /// \param target       Index of the head whose eyeball is moved.
+  /// \param skin_motion  Motion of the skin around the eye, from this head to the face.
+  /// \param motion       Motion of the eyeball before the step, from this head to the face.
+  /// \param far          The function removes from `lids` the points whose distance from the
+  ///                     eyeball is larger than this fraction of the eyeball's radius.
+  /// \param lids         The lid vertices to check.
   RigidMotion step(std::size_t target, const RigidMotion& skin_motion, const RigidMotion& motion,
                    double far, SizeMode size_mode, std::vector<LidPoint>& lids) const;
   /// Repeats `step` until the eyeball hardly moves; starts from `motion`.

@@ -46,7 +46,7 @@ bool MirroredWalk::add_pair(MirroredPair pair) {
   return true;
 }
 
-bool MirroredWalk::pair_corners(const FacePair& faces,
+bool MirroredWalk::pair_corners(const FaceEdgePair& faces,
                                 const std::function<bool(const MirroredPair&)>& may_continue) {
   const auto face = topology_.face(faces.here.face), image = topology_.face(faces.there.face);
   const std::size_t size = face.size(), known = pairs_.size();
@@ -68,7 +68,7 @@ bool MirroredWalk::walk(DirectedEdge edge, DirectedEdge other,
   if (!visit_faces(edge, other) || faces_.empty()) return false;
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (f % 4096 == 0) throw_if_interrupted();
-    if (!pair_corners(FacePair(faces_[f]), may_continue)) return false;
+    if (!pair_corners(FaceEdgePair(faces_[f]), may_continue)) return false;
     const auto face = topology_.face(faces_[f].here.face);
     for (std::size_t i = 0; i < face.size(); ++i) {
       const std::uint32_t from = face[i], to = face[(i + 1) % face.size()];
@@ -84,7 +84,7 @@ void MirroredWalk::reset() {
     partner_of_vertex_[vertex] = kNoIndex;
     vertex_of_partner_[partner] = kNoIndex;
   }
-  for (const FacePair& faces : faces_) is_visited_[faces.here.face] = false;
+  for (const FaceEdgePair& faces : faces_) is_visited_[faces.here.face] = false;
   pairs_.clear();
   faces_.clear();
 }

@@ -51,11 +51,12 @@ class MirroredWalk {
   };
   /// Corresponding edges of two mirrored polygons: `here` on the first side, `there` on the second
   /// side.
-  struct FacePair {
+  struct FaceEdgePair {
     FaceEdge here, there;  ///< on the first side, and on the second side
   };
 
-  /// Returns the polygon that contains the directed edge, if there is one.
+  /// Returns the polygon that contains the directed edge, and the corner where the edge begins;
+  /// nothing if no polygon contains the edge.
   std::optional<FaceEdge> face_along(DirectedEdge edge) const;
   /// Visits two mirrored polygons: the polygon with the directed edge `here`, and the polygon with
   /// the corresponding edge `there`.
@@ -66,7 +67,7 @@ class MirroredWalk {
   bool add_pair(MirroredPair pair);
   /// Pairs the corners of two mirrored polygons. Returns false if the polygons do not match, or if
   /// `may_continue` returns false.
-  bool pair_corners(const FacePair& faces,
+  bool pair_corners(const FaceEdgePair& faces,
                     const std::function<bool(const MirroredPair&)>& may_continue);
   /// Fills `pairs_` as walk_from describes; returns false if the walk fails.
   bool walk(DirectedEdge edge, DirectedEdge other,
@@ -83,7 +84,7 @@ class MirroredWalk {
   std::vector<std::uint32_t> vertex_of_partner_;
   /// for each polygon of the first side: whether the walk has visited the polygon
   std::vector<bool> is_visited_;
-  std::vector<FacePair> faces_;      ///< visited pairs of polygons, in the order of visits
+  std::vector<FaceEdgePair> faces_;  ///< visited pairs of polygons, in the order of visits
   std::vector<MirroredPair> pairs_;  ///< the vertex pairs found so far
 };
 

@@ -115,8 +115,8 @@ std::vector<Candidate> facing_candidates(const Positions& positions, const Posit
   return found;
 }
 
-/// Swaps the two vertices of some pairs, so that the low vertices of all pairs of a group lie on
-/// the same side.
+/// Swaps the two vertices of some pairs, so that FacingPair::low_vertex of all pairs of a group
+/// lies on the same side of the gap, such as the lower lip.
 void agree_on_sides(FacingGroup& group) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const FacingPair& pair : group) spread += pair.up * pair.up.transpose();

@@ -12,10 +12,11 @@ namespace crowdface {
 
 /// Two vertices of the skin that face each other across a narrow gap, as on two lips.
 struct FacingPair {
-  /// vertex indices: the vertex on the low side and the vertex on the high side of the gap
+  /// Vertex indices: the vertex on one side of the gap (the "low" side) and the vertex on the other
+  /// side (the "high" side).
   std::uint32_t low_vertex = 0, high_vertex = 0;
   Eigen::Vector3d middle;  ///< midpoint of the two vertices
-  Eigen::Vector3d up;      ///< unit vector from the low side to the high side
+  Eigen::Vector3d up;      ///< unit vector from the low side of the gap to its high side
 };
 
 /// Facing pairs of one gap, such as the pairs of a closed mouth. The low vertices of all pairs lie

@@ -39,20 +39,22 @@ constexpr double kWalkShare = 0.05, kWalkReach = 0.0025;
 // largest difference between the bounding boxes of two matched components, as a fraction of the
 // skin's extent
 constexpr double kBoxReach = 0.03;
-/// Largest distance of a partner that is matched by nearness, as a fraction of the local edge
-/// length.
+/// Two vertices may be matched by nearness if the distance between one vertex and the mirror image
+/// of the other is at most this fraction of the local edge length.
 constexpr double kNearness = 0.05;
 
-constexpr double kRoundingFactor = 1 + 1e-9;  ///< factor on limits of sums; allows for rounding
+/// The upper limit for a sum is multiplied by this factor, to allow for rounding errors of the sum.
+constexpr double kRoundingFactor = 1 + 1e-9;
 
 using Vertices = std::vector<std::uint32_t>;
 
 using Box = Eigen::AlignedBox3d;
 
-/// Matches each component with the component at its mirror image; kNoIndex if there is none. First
-/// pairs components with equally many vertices, the nearest pairs first, so that each layer of
-/// lashes finds its counterpart. Then matches each remaining component with the component nearest
-/// to its mirror image.
+/// Returns, for each component, the component that matches its mirror image; kNoIndex if no
+/// component is within `reach` of the mirror image. First pairs components with equally many
+/// vertices, the nearest pairs first, so that each layer of lashes finds its counterpart. Then
+/// matches each remaining component with the component nearest to its mirror image.
+/// \param reach  largest difference between the bounding boxes of the mirror image and of its match
 Vertices component_partners(const Positions& mean, const std::vector<Vertices>& components,
                             const MirrorPlane& plane, double reach) {
   std::vector<Box> boxes, images;
@@ -233,8 +235,9 @@ double mean_square_distance(const MirrorMap& map, const Positions& mean,
   return squares / static_cast<double>(mean.rows());
 }
 
-/// Returns the plane that the pairs of partners determine, or the coordinate plane if the
-/// coordinate plane fits nearly as well.
+/// Returns the mirror plane that the pairs of partners determine. If the coordinate plane
+/// perpendicular to the side axis (such as x = 0) fits nearly as well, returns the coordinate
+/// plane.
 MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positions& mean,
                               const Eigen::Vector3d& side) {
   PlaneFit fit;

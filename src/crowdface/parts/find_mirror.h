@@ -33,8 +33,8 @@ struct FoundMirror {
 /// image of w. The partner of every other vertex is the point of the surface that is nearest to the
 /// mirror image of the vertex.
 ///
-/// \param mean  #V by 3.
-/// \param side  Unit vector along the axis from the head's right to its left, in either direction.
+/// \param mean  Positions of the mean head, #V by 3.
+/// \param side  Unit vector along the head's side axis: towards the left or the right ear.
 FoundMirror find_mirror(const Topology& topology, const Components& components,
                         const Positions& mean, const Eigen::Vector3d& side);
 

@@ -32,14 +32,15 @@ class PlaneFit {
 };
 
 /// Finds the plane in which a surface is most nearly symmetric, by iterative closest points (Besl &
-/// McKay 1992) with a reflection. The iteration runs twice: from the given plane, and from the
-/// plane that matching of nearest vertices gives. The second plane is exact for a symmetric mesh.
-/// Returns the best plane of all steps.
+/// McKay 1992) with a reflection. The iteration runs twice, with different start planes. The first
+/// start plane is `start`. The second start plane is fitted to pairs of vertices: each vertex and
+/// the vertex that is nearest to its mirror image. For a symmetric mesh, the second start plane is
+/// exact. Returns the best plane of all steps.
 ///
-/// \param mean   #V by 3.
+/// \param mean   Positions of the mean head, #V by 3.
 /// \param skin   The surface's vertices; at least one.
-/// \param start  First guess. Its normal is a unit vector along the axis from the head's right to
-///               its left, in either direction.
+/// \param start  First guess. Its normal is a unit vector along the head's side axis: towards the
+///               left or the right ear.
 MirrorPlane find_mirror_plane(const Topology& topology, const VertexFaces& vertex_faces,
                               const Positions& mean, const std::vector<std::uint32_t>& skin,
                               const MirrorPlane& start);

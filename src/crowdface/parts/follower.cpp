@@ -19,7 +19,8 @@ namespace {
 /// fraction of its radius (about 12 mm). kSocketReach: for other parts, as a fraction of the skin's
 /// extent (about 43 cm).
 constexpr double kEyeReach = 1, kSocketReach = 0.03;
-/// Largest number of a part's vertices that determine its socket.
+/// The socket of a part is the skin near the part's vertices. If the part has more vertices than
+/// this number, a subset of this size is used to find the socket.
 constexpr std::size_t kMaxSocketVertices = 4000;
 /// Fractions of the skin's extent. kContactReach: largest distance at which skin and part are
 /// tested for contact. kContactMargin: smallest clearance that is kept.
@@ -126,7 +127,8 @@ struct PartFollower::State {
   Anchors anchors;
   /// for each head: the result of Anchors::measure_offsets
   std::vector<std::vector<Eigen::Vector3d>> offsets;
-  PartWeights tooth_weights;  ///< weights with which bound vertices follow teeth
+  /// weights with which the vertices of bound parts (PartClass::kBound, such as gums) follow teeth
+  PartWeights tooth_weights;
 
   struct PartMotion {
     bool still = true;  ///< whether the skin around the part has kept its positions

@@ -18,8 +18,8 @@ namespace {
 /// facing pairs within kUpReach determine the direction across the gap (GapSection::up).
 constexpr double kDirectionReach = 4, kUpReach = 1.5;
 
-/// Returns the direction, perpendicular to `up`, in which the midpoints of the pairs near a point
-/// are spread most.
+/// Returns the direction along a gap at a point: the direction, perpendicular to `up`, in which the
+/// midpoints of the facing pairs are spread most. Uses the midpoints within `reach` of `middle`.
 Eigen::Vector3d gap_direction(const FacingGroup& group, const Eigen::Vector3d& middle, double reach,
                               const Eigen::Vector3d& up) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();

@@ -25,7 +25,8 @@ struct EdgePoint {
 /// A cutting plane in which the gap between two facing sides of the skin is measured. On the mean
 /// head, the plane cuts a short curve (profile) out of each side.
 struct GapSection {
-  /// `middle`: position on the mean head. `up`: unit vector from the low side to the high side.
+  /// `middle`: position of the section's middle on the mean head. `up`: unit vector from one side
+  /// of the gap (the "low" side) to the other (the "high" side).
   Eigen::Vector3d middle, up;
   Eigen::Vector3d plane_normal;  ///< unit normal of the cutting plane
   /// The points of the profile on the low side of the gap, and of the profile on the high side.
@@ -48,7 +49,8 @@ std::vector<GapSection> distribute_gap_sections(const FacingGroup& group, double
 
 /// Cuts the two profiles of a section. One profile or both profiles may stay empty.
 ///
-/// \param vertices  Vertices around the group.
+/// \param vertices  Vertices of the skin around the group of facing pairs for which the section was
+///                  made (see distribute_gap_sections).
 /// \param side      One value per vertex of the mesh: positive on the high side, negative on the
 ///                  low side.
 /// \param reach     Largest distance of a profile's points from the section's middle.
@@ -73,11 +75,11 @@ class Clearance {
   /// A point on the low profile and a point on the high profile at the same depth, each
   /// interpolated between two neighbouring profile points.
   struct OppositePoints {
-    /// The two neighbouring points of the low profile between which the point on the low profile
-    /// lies. They are given by their indices in the list of all profile points (see `points_`).
+    /// Indices, in the list of all profile points (`points_`), of two neighbouring points of the
+    /// low profile. The opposite point on the low profile is interpolated between these two.
     std::array<std::uint32_t, 2> low_indices;
-    /// The two neighbouring points of the high profile between which the point on the high profile
-    /// lies, as indices in the same list.
+    /// Indices, in the list of all profile points (`points_`), of two neighbouring points of the
+    /// high profile. The opposite point on the high profile is interpolated between these two.
     std::array<std::uint32_t, 2> high_indices;
     /// weights of `low_indices` and of `high_indices`; each pair sums to one
     std::array<double, 2> low_weights, high_weights;
@@ -97,20 +99,22 @@ class Clearance {
   ///
   /// \param depths  Depths of all profile points, from depths().
   std::vector<OppositePoints> opposite_points(std::span<const double> depths) const;
-  /// Returns the coordinates of all profile points along the section's `up`. The points of the low
-  /// profile come first.
+  /// Returns the height of each profile point: its coordinate along the direction `up` of the
+  /// section. The points of the low profile come first.
   std::vector<double> heights(const Positions& positions) const {
     return coordinates(up_, positions);
   }
-  /// Returns the coordinates of all profile points along the section's `inward()`, in the order of
-  /// `heights`.
+  /// Returns the depth of each profile point: its coordinate along the direction `inward()` of the
+  /// section. The points have the same order as in `heights`.
   std::vector<double> depths(const Positions& positions) const {
     return coordinates(inward_, positions);
   }
-  /// Returns the smallest gap of the given pairs of points; negative if the profiles intersect.
+  /// Returns the smallest gap (OppositePoints::gap) of pairs of opposite points of the two
+  /// profiles; negative if the profiles intersect.
+  /// \param heights  heights of all profile points, from heights().
   static double gap(std::span<const OppositePoints> opposite_pairs,
                     std::span<const double> heights);
-  /// Returns the smallest gap of the section on a head.
+  /// Returns the smallest gap between the section's low profile and its high profile on a head.
   double gap(const Positions& positions) const;
 
  private:

@@ -120,7 +120,8 @@ void join_inside(const PartList& list, const std::vector<std::uint32_t>& rigid,
   }
 }
 
-/// Joins rigid components, except eyeballs, whose vertices are at most `reach` apart.
+/// Joins two rigid components if a vertex of one is at most `reach` away from a vertex of the
+/// other. Leaves out eyeballs.
 void join_touching(const Positions& positions, const Components& components,
                    const std::vector<std::vector<std::uint32_t>>& members,
                    const std::vector<std::uint32_t>& rigid, const std::vector<bool>& eyeball,
@@ -189,7 +190,8 @@ PartList find_parts(const Topology& topology, const Adjacency& adjacency,
     eyeball[c] = is_eyeball(list.shapes[c], extent);
     if (!is_user_assigned[c]) rigid.push_back(c);
   }
-  // Join by position those rigid components that the user did not assign.
+  // Join rigid components with one another into parts: components inside eyeballs, and components
+  // that touch. Leave out components that the user assigned.
   join_inside(list, rigid, eyeball, grouping);
   join_touching(positions, components, members, rigid, eyeball, kTouchDistance * extent, grouping);
   split_jaws(positions, members, axes, rigid, eyeball, grouping);

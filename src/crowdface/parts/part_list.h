@@ -13,7 +13,7 @@ namespace crowdface {
 
 /// How a connected component of a mesh moves when a face is blended.
 enum class PartClass : std::uint8_t {
-  kSkin,   ///< the positions of its vertices are blended (Eq. 7)
+  kSkin,   ///< the positions of its vertices are blended (see blend_exact)
   kRigid,  ///< moves as a whole with the skin around it: eyeballs, teeth
   kBound,  ///< each vertex moves with the nearest skin: lashes, tear lines
 };
@@ -51,9 +51,9 @@ struct PartOverrides {
 ///   extent, and vertices without polygons;
 /// - bound: open strips and shells near the skin;
 /// - rigid: all other components. Round components as large as an eye are eyeballs; a component
-///   whose centre is inside an eyeball joins the eyeball's part. Other components that nearly touch
-///   form one part. Two rows of such components, one above the other, are the teeth of two jaws;
-///   each row is a separate part.
+///   whose centre is inside an eyeball joins the eyeball's part. Other rigid components that nearly
+///   touch form one part. Exception: if rigid components form two rows, one above the other, the
+///   rows are the teeth of two jaws, and each row is a separate part.
 ///
 /// \param positions  #V by 3, any unit; preferably the mean head.
 PartList find_parts(const Topology& topology, const Adjacency& adjacency,

@@ -12,7 +12,7 @@ enum class PartShape {
 /// How a generated face treats lips and other skin that nearly touches skin.
 enum class ContactHandling {
   kAuto,  ///< each gap gets a width between its smallest and largest width on target and sources
-  kNone,  ///< gaps are not corrected after the blend (Eq. 7)
+  kNone,  ///< each gap keeps the width that the blend (Eq. 7) gives it
 };
 
 }  // namespace crowdface

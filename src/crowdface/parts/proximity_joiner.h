@@ -22,7 +22,7 @@ class ProximityJoiner {
   /// groups while this object exists.
   /// \param points      one point per row. Only the rows listed in `rows` are read; these must be
   ///                    finite.
-  /// \param rows        row indices of the points in the tree; may be empty.
+  /// \param rows        row indices of the points that take part; may be empty.
   /// \param components  the component of each point.
   ProximityJoiner(const Positions& points, std::vector<std::uint32_t> rows,
                   const std::vector<std::uint32_t>& components, DisjointSets& groups);
@@ -47,8 +47,8 @@ class ProximityJoiner {
   DisjointSets& groups_;
   MedianSplitTree tree_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< bounding box of each node of the tree
-  /// for each node: if all points of the node are known to belong to one group, a component of this
-  /// group; otherwise kNoIndex
+  /// for each node: if all points of the node are known to belong to one group of components, any
+  /// one component of this group, which stands for the group; otherwise kNoIndex
   std::vector<std::uint32_t> groups_of_nodes_;
 };
 

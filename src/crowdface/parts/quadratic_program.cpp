@@ -138,8 +138,9 @@ class Table {
     }
   }
 
-  /// Computes the violation of each constraint: the signed distance, in units of x, by which y
-  /// misses the constraint; negative if y fulfils the constraint.
+  /// Computes the violation of each constraint a·x ≥ lower by the unknowns x that belong to y: the
+  /// signed distance of x from the constraint's plane a·x = lower; negative if x fulfils the
+  /// constraint.
   void compute_violations(const Vector& y, std::vector<double>& result) const {
     result = lower_;
     for (std::size_t i = 0; i < unknowns_; ++i) {

@@ -27,11 +27,11 @@ class QuadraticProgram {
 
   /// Adds the term weight/2 (a·x − target)². \param weight  Positive.
   void add_target(const Vector& a, double target, double weight);
-  /// Adds the term weight/2 (x_i − target)² for an unknown.
+  /// Adds the term weight/2 (x_i − target)² for one unknown x_i. \param unknown  the index i.
   void add_target(std::size_t unknown, double target, double weight);
   /// Adds the constraint a·x ≥ lower.
   void add_lower_bound(const Vector& a, double lower);
-  /// Adds the constraints lower ≤ x_i ≤ upper for an unknown.
+  /// Adds the constraints lower ≤ x_i ≤ upper for one unknown x_i. \param unknown  the index i.
   void add_bounds(std::size_t unknown, double lower, double upper);
   /// Makes an unknown x_i a slack variable, with the bound x_i ≥ 0 and the cost penalty·x_i +
   /// x_i²/2. A constraint a·x ≥ lower that contains x_i may then be violated by the other unknowns,
@@ -54,7 +54,7 @@ class QuadraticProgram {
   std::size_t unknowns_;
   std::array<Vector, kMaxUnknowns> quadratic_ = {};  ///< Q of the objective ½ xᵀ Q x − linear·x
   Vector linear_ = {};         ///< `linear` of the objective ½ xᵀ Q x − linear·x
-  std::vector<Bound> bounds_;  ///< all constraints
+  std::vector<Bound> bounds_;  ///< all constraints, each a lower bound for a·x
 };
 
 }  // namespace crowdface

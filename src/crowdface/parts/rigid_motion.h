@@ -17,9 +17,9 @@ inline Eigen::Vector3d multiply3(const Eigen::Matrix3d& map, const Eigen::Vector
           map(2, 0) * v.x() + map(2, 1) * v.y() + map(2, 2) * v.z()};
 }
 
-/// The motion x ↦ scale · R (x − pivot) + moved_pivot. Computed with plain arithmetic, so that the
-/// bits are the same on every machine. (The factorisation behind `Similarity` in mesh/alignment.h
-/// depends on the library.)
+/// A similarity: rotation, uniform scaling and translation, x ↦ scale · R (x − pivot) +
+/// moved_pivot. Computed with plain arithmetic, so that the bits are the same on every machine.
+/// (The factorisation behind `Similarity` in mesh/alignment.h depends on the library.)
 struct RigidMotion {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
   double scale = 1;
@@ -29,7 +29,7 @@ struct RigidMotion {
   Eigen::Vector3d apply(const Eigen::Vector3d& point) const;
   /// Applies the inverse of the motion to a point.
   Eigen::Vector3d apply_inverse(const Eigen::Vector3d& point) const;
-  /// Rotates and scales a direction as the motion does; does not translate the direction.
+  /// Applies the rotation and the scaling of the motion to a direction, without the translation.
   Eigen::Vector3d apply_to_direction(const Eigen::Vector3d& direction) const;
 };
 

@@ -48,8 +48,8 @@ double wendland_kernel(double distance) {
 /// The skin around a group of facing vertices, and the side of the gap on which each vertex lies.
 struct Sides {
   std::vector<std::uint32_t> vertices;  ///< vertex indices, ascending
-  /// for each vertex: ½ on the high side of the gap, −½ on the low side; linear along the surface
-  /// in between
+  /// For each vertex: ½ on the high side of the gap (the side to which GapSection::up points), −½
+  /// on the low side. Between the two sides, the value changes linearly along the surface.
   std::vector<double> side_weights;
 };
 
@@ -330,7 +330,8 @@ void SkinContacts::fit_gaps(std::span<const Range> ranges, Positions& positions)
       if (largest_deviation <= tolerance_) break;
       // The first round sets the largest allowed amplitude of a correction for all rounds.
       if (round == 0) max_amplitude = kMaxAmplitudeFactor * largest_deviation;
-      // Determine the amplitudes of the sections' corrections with these opposite points.
+      // Each section has a correction of the skin. Determine the amplitudes of the corrections,
+      // with the gaps measured at the current opposite points (Profiles::opposite_pairs).
       changes = find_kernel_amplitudes(section_group, ranges, max_amplitude, profiles, amplitudes);
     }
     if (max_amplitude > 0) move(section_group, amplitudes, positions);

@@ -26,9 +26,10 @@ class SkinContacts {
   /// Returns the number of sections.
   std::size_t size() const { return sections_.size(); }
   const GapSection& section(std::size_t i) const { return sections_[i]; }
-  /// Returns the gap at each section of a mesh with these positions, in the heads' unit.
+  /// Returns, for each section, the gap between its two sides of skin in a mesh with these
+  /// positions, in the heads' unit. See GapSection.
   std::vector<double> gaps(const Positions& positions) const;
-  /// Returns the gap at each section of the head with this index, in the heads' unit.
+  /// Returns the result of gaps() for the head with this index.
   const std::vector<double>& head_gaps(Index head) const {
     return head_gaps_[static_cast<std::size_t>(head)];
   }
@@ -56,13 +57,16 @@ class SkinContacts {
   /// the kernels of all sections, each multiplied by an amplitude.
   struct KernelValue {
     std::uint32_t section;
-    /// value of the kernel: positive on the gap's high side, negative on its low side
+    /// value of the kernel: positive at vertices on the high side of the section's gap (see
+    /// GapSection), negative on the low side
     double weight;
   };
-  /// Derivatives of the heights and depths of a group's profile points with respect to the
-  /// amplitude of one section. The points have the same order as in Profiles.
+  /// How the correction of one section moves the profile points of a group, per unit of the
+  /// correction's amplitude. The points have the same order as in Profiles.
   struct PointMotions {
-    std::vector<double> heights, depths;  ///< one derivative for each profile point
+    /// for each profile point: the change of its height and the change of its depth if the
+    /// amplitude increases by 1
+    std::vector<double> heights, depths;
   };
   /// Sections whose corrections move the same skin, such as all sections of a mouth.
   struct SectionGroup {
@@ -85,8 +89,8 @@ class SkinContacts {
     /// for each section: opposite points of the two profiles
     std::vector<std::vector<Clearance::OppositePoints>> opposite_pairs;
 
-    /// Returns the smallest gap of a section.
-    /// \param section  Index of the section within the group.
+    /// Returns the smallest gap between the two profiles of a section, in the unit of the heights.
+    /// \param section  Index of the section within the SectionGroup.
     double gap(std::size_t section) const;
   };
 
@@ -137,9 +141,10 @@ class SkinContacts {
 
   double tolerance_ = 0;  ///< a gap may be outside its range by this length, in the heads' unit
   std::vector<GapSection> sections_;
-  std::vector<Clearance> clearances_;  ///< for each of `sections_`: measures its gap
+  /// for each of `sections_`: measures the gap between the section's two sides of skin
+  std::vector<Clearance> clearances_;
   std::vector<SectionGroup> section_groups_;
-  std::vector<std::vector<double>> head_gaps_;  ///< for each head: its gap at each section
+  std::vector<std::vector<double>> head_gaps_;  ///< for each head: the result of gaps()
 };
 
 }  // namespace crowdface

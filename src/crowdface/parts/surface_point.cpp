@@ -17,8 +17,9 @@ SurfacePoint bare_vertex(const Positions& positions, std::uint32_t vertex,
   return {{vertex, vertex, vertex}, {1, 0, 0}, place, (point - place).norm()};
 }
 
-/// Updates `best` if the polygon contains a nearer point, or if `best` has no triangle yet (its
-/// three corners are the same vertex).
+/// Sets `best` to the point of the polygon that is nearest to `point`, if this point is nearer than
+/// `best`, or if `best` is still a vertex instead of a point in a triangle. For a vertex, all three
+/// entries of best.corners are equal.
 void try_face(std::span<const std::uint32_t> face, const Positions& positions,
               const Eigen::Vector3d& point, SurfacePoint& best) {
   for (std::size_t k = 1; k + 1 < face.size(); ++k) {

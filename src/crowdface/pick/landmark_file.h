@@ -67,7 +67,8 @@ std::string format_landmarks(const std::vector<PickedLandmark>& landmarks,
 
 /// The comment lines at the start of a text, with their line ends.
 std::string_view header_comments(std::string_view text);
-/// Whether the text may have comments below its header_comments.
+/// Whether the text has comments below its header_comments. May also return true if a quoted name
+/// contains " #".
 bool has_comments_after_header(std::string_view text);
 
 }  // namespace crowdface

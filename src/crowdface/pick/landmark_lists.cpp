@@ -186,7 +186,7 @@ std::vector<std::string_view> fields_of(std::string_view line, char separator) {
 
 /// The columns of a table whose header names the columns x, y and z, or the column vertex.
 struct TableColumns {
-  std::size_t count = 0;  ///< number of columns of the table; 0 if there is no such header
+  std::size_t count = 0;  ///< number of columns of the table; 0 if no header names these columns
   std::vector<std::size_t> numbers;  ///< indices of the columns x, y and z, or of the column vertex
   std::optional<std::size_t> name;   ///< index of the column that has the names
   /// index of the column that has 0 for points that were not placed
@@ -238,7 +238,7 @@ bool was_not_placed(std::string_view line, const std::vector<std::string_view>& 
          std::ranges::all_of(values, is_missing_value);
 }
 
-/// A row of a table.
+/// A row of a table of landmarks.
 struct TableRow {
   std::string name;  ///< empty if the row has no name
   /// one number (a vertex) or three numbers (x, y, z); any other count is an error in the row
@@ -333,7 +333,8 @@ void read_table(std::string_view text, LandmarkList& list) {
     const std::string where = concat(':', line_number);
     if (was_not_placed(line, fields, columns)) continue;
     const auto row = columns.count > 0 ? row_by_header(fields, columns) : row_by_order(fields);
-    // Without other separators, "tip 0 1 2 3" may be a name with blanks, or a point and its error.
+    // If only blanks separate the columns, a row such as "tip 0 1 2 3" is ambiguous: the name may
+    // be "tip 0" (with the point 1, 2, 3) or "tip" (with the point 0, 1, 2 and its error 3).
     const bool is_ambiguous = separator == ' ' && columns.count == 0 && row && !row->name.empty() &&
                               !is_number(fields[0]) && fields.size() > 4;
     if (!row || row->numbers.empty() || is_ambiguous) {

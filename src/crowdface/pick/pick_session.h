@@ -52,11 +52,12 @@ class PickSession {
   /// at the start of the file.
   bool saving_deletes_comments() const;
 
-  /// The first point at which a ray hits the template or the scan. On the template, the result is a
-  /// vertex. On the scan, the result is a point whose coordinates are rounded to a power of ten
-  /// that is at most a millionth of the scan's size.
+  /// Returns the template's vertex nearest to the first point at which a ray hits the template;
+  /// nothing if the ray misses the template.
   std::optional<PickedPlace> pick_on_template(const Eigen::Vector3d& origin,
                                               const Eigen::Vector3d& direction) const;
+  /// Returns the first point at which a ray hits the scan; nothing if the ray misses the scan. The
+  /// coordinates are rounded to a power of ten that is at most a millionth of the scan's size.
   std::optional<PickedPlace> pick_on_scan(const Eigen::Vector3d& origin,
                                           const Eigen::Vector3d& direction) const;
   /// Suggests positions for landmarks that are not picked yet, see suggest_places.

@@ -69,9 +69,10 @@ std::vector<double> residuals_of(const std::vector<Pair>& pairs, const std::vect
   return residuals;
 }
 
-/// Returns the index of the pair whose residual is far larger than the residuals of the other used
-/// pairs. Returns residuals.size() if there is no such pair, or if there are fewer than five used
-/// pairs.
+/// Returns the index of the landmark pair (see LandmarkPose::Residual) whose residual is far larger
+/// than the residuals of the other used pairs. Returns residuals.size() if there is no such pair,
+/// or if there are fewer than five used pairs.
+/// \param used  for each pair: whether it counts
 std::size_t farthest_outlier(const std::vector<double>& residuals, const std::vector<bool>& used) {
   // An outlier has a residual above both kMinMm and kTimes times the median residual. Without
   // errors, corresponding points of two faces differ by about 5 mm after a fit.
@@ -90,9 +91,11 @@ std::size_t farthest_outlier(const std::vector<double>& residuals, const std::ve
   return residuals[farthest] > most ? farthest : residuals.size();
 }
 
-/// Gaussian-weighted average of the fit's residual vectors near `place`. The average corrects for
-/// local differences between faces. A constant in the divisor (kHeld) lets the correction fade to
-/// zero far from all pairs.
+/// Returns a correction for the position on the scan to which `pose` maps `place`. A pair is a
+/// landmark of the template and the same landmark of the scan; the pair's residual is the scan's
+/// landmark minus the mapped landmark of the template. The correction is the mean of the residuals,
+/// with Gaussian weights around `place`. It corrects for local differences between faces. A
+/// constant in the divisor (kHeld) lets the correction fade to zero far from all landmarks.
 Eigen::Vector3d correction(const std::vector<Pair>& pairs, const LandmarkPose& pose,
                            const Eigen::Vector3d& place) {
   constexpr double kReachMm = 25, kHeld = 0.5;

@@ -16,7 +16,8 @@ namespace crowdface {
 /// Similarity transform from template to scan, fitted to landmark pairs.
 struct LandmarkPose {
   Similarity pose;  ///< maps the template (mm) to the scan, in the unit of the scan
-  /// How well a landmark pair agrees with the other pairs.
+  /// How well a landmark pair (a landmark on the template and the same landmark on the scan) agrees
+  /// with the other pairs.
   struct Residual {
     /// Distance in mm between the pair's template landmark, transformed by a fit, and the pair's
     /// scan landmark. This fit leaves out the pair itself and all outliers. If the remaining pairs
@@ -26,7 +27,7 @@ struct LandmarkPose {
     /// landmark was misplaced. The fit of `pose` ignores outliers.
     bool is_outlier = false;
   };
-  /// maps the name of a pair's landmark to the residual of the pair
+  /// by landmark name: the residual of the pair of this landmark
   std::map<std::string, Residual> residuals;
 };
 
@@ -41,8 +42,10 @@ std::optional<LandmarkPose> fit_pose_to_picked(const std::vector<PickedLandmark>
 /// position on the scan is the picked or suggested position on the template, mapped by `pose`,
 /// corrected by the residuals of nearby pairs, and projected to the scan's skin.
 struct SuggestedPlaces {
-  std::map<std::string, PickedPlace> template_places;  ///< suggested positions on the template
-  std::map<std::string, PickedPlace> scan_places;      ///< suggested positions on the scan
+  /// by landmark name: the suggested position of the landmark on the template
+  std::map<std::string, PickedPlace> template_places;
+  /// by landmark name: the suggested position of the landmark on the scan
+  std::map<std::string, PickedPlace> scan_places;
   std::optional<LandmarkPose> pose;  ///< pose of the template on the scan; see fit_pose_to_picked
 };
 

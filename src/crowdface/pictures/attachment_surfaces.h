@@ -38,8 +38,8 @@ class AttachmentSurfaces {
   /// Converts a material for rendering; reads the textures that the material names.
   AttachmentMaterial material_of(const SurfaceMaterial& source) const;
 
-  int max_px_;
-  bool shows_textures_;
+  int max_px_;           ///< largest side of a texture, in texels; see the constructor
+  bool shows_textures_;  ///< whether colour textures are shown; see the constructor
   mutable LazyMap<const Attachment*, AttachmentSurface> surfaces_;  ///< results of `at`
   // Textures by file path; many attachments share the same texture file.
   mutable LazyMap<std::filesystem::path, Picture> colour_maps_;

@@ -141,7 +141,8 @@ std::string CrowdRenders::gallery_script_of_head(Index head,
   const std::optional<TextureSet> texture_set = texture_set_of(head);
   const auto colours = colours_of(head, texture_set ? &*texture_set : nullptr);
   const auto body = blend_body_texture(recipe_of_head(head));
-  // The prefix "head" distinguishes the script from the script of a face with the same name.
+  // A new face may have the same name as this head. The prefix "head" gives the head's script
+  // another name than the face's script.
   return gallery_->face_script(concat("head ", name), positions, moves,
                                texture_set ? &*texture_set : nullptr, colours ? &*colours : nullptr,
                                {}, body ? &*body : nullptr);

@@ -49,8 +49,8 @@ class FaceComparison {
 /// Checks the mesh file that the config names for comparison, if any. Adds errors to `problems`.
 void check_compared_mesh(const Config& config, const Inputs& inputs, Problems& problems);
 
-/// Checks that the crowd that the config names for comparison, if any, has a mesh for every face of
-/// this crowd. Called before the run makes any face.
+/// If the config names another crowd for comparison, checks that the other crowd has a mesh for
+/// every face in `crowd`. Called before the run makes any face.
 /// \throws MissingInput if a mesh is missing.
 void check_compared_crowd(const Config& config, const std::vector<FacePlan>& crowd);
 

@@ -34,8 +34,11 @@ constexpr std::size_t kMaxHidden = 2'000;
 /// Largest width and height of a face's textures, in texels. With more than two textures, the limit
 /// is half of this value.
 constexpr int kMaxTexels = 1024;
-constexpr double kMinMoveMm = 0.02;  ///< the gallery omits shorter displacements of shapes
-constexpr float kMinLight = 0.004F;  ///< smallest value in `sky_visibility_` if there are shapes
+/// The gallery omits the displacement of a vertex in a blend shape if it is shorter than this.
+constexpr double kMinMoveMm = 0.02;
+/// If there are blend shapes, smaller values in `sky_visibility_` are raised to this value.
+/// Otherwise vertices that no light reaches at rest would stay black when a shape opens the mouth.
+constexpr float kMinLight = 0.004F;
 constexpr float kUnseen = 0.02F;  ///< vertices that see at most this fraction of the sky are hidden
 
 /// Returns the visible fraction of the sky at the vertices of `triangles`, which are part of a
@@ -233,7 +236,6 @@ void GalleryMeshes::add_shapes(const Surfaces& surfaces, const Positions& mean) 
   shapes[shape_with_largest_motion_].moves.add_to(acting);
   sky_visibility_in_shape_with_largest_motion_ =
       vertex_visibility(pictured_mesh_.topology(), surfaces.kinds, acting, mesh_.vertices);
-  // Vertices that are fully occluded at rest would stay black when a shape opens the mouth.
   for (float& open : sky_visibility_) open = std::max(open, kMinLight);
 }
 

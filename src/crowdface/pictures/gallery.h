@@ -58,7 +58,9 @@ class GalleryMeshes {
   std::string pack_roughness(const TextureSet& texture_set) const;
   /// Returns the length below which displacements of shapes are omitted, in the unit of the mesh.
   double min_displacement() const;
-  /// Computes `shown_shapes_`, and the visible fractions of the sky in the shape that moves most.
+  /// Computes `shown_shapes_`. Also finds the blend shape with the largest displacements, and
+  /// computes the visible fraction of the sky at each vertex for this shape
+  /// (`sky_visibility_in_shape_with_largest_motion_`).
   /// \param mean  positions of the mean face (and of the body), before reduction
   void add_shapes(const Surfaces& surfaces, const Positions& mean);
   /// Packs the displacements of the vertices in `shown_shapes_` (see pack_displacement).
@@ -89,7 +91,7 @@ class GalleryMeshes {
     std::vector<std::uint32_t> vertices;  ///< indices of the moved vertices in the reduced mesh
   };
   std::vector<ShownShape> shown_shapes_;  ///< one entry per blend shape
-  /// index of the shape that moves most, such as an open jaw
+  /// index of the blend shape with the largest displacements, such as an open jaw
   std::size_t shape_with_largest_motion_ = 0;
   /// visible fraction of the sky at the vertices of the reduced mesh, on the mean head in the shape
   /// `shape_with_largest_motion_`

@@ -43,7 +43,8 @@ std::string jpeg_address(const Texture& texture, int max_px, const TexelOf& texe
 }  // namespace
 
 std::uint8_t srgb_byte(float light) {
-  // The index into the table is the square root of the light, which resembles the sRGB curve.
+  // A table has the sRGB byte for kSteps values of linear light. The steps are equal in the square
+  // root of the light, because the square root resembles the sRGB curve.
   constexpr std::size_t kSteps = 4096;
   static const std::vector<std::uint8_t> bytes = [] {
     std::vector<std::uint8_t> table;

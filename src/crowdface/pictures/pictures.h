@@ -44,7 +44,7 @@ class CrowdPictures {
                                          const CrowdLikeness& likeness) const;
 
  private:
-  /// Writes the gallery except the scripts of faces: the page, the recipes, the heads.
+  /// Writes the page, the recipes and the heads of the gallery, but not the scripts of faces.
   void write_gallery(const std::vector<FacePlan>& crowd, const CrowdLikeness& likeness) const;
   /// Writes the gallery's scripts with the recipes of the crowd. A crowd without numbered
   /// subfolders gets one script, data/crowd.js. With subfolders, data/crowd.js has only the columns

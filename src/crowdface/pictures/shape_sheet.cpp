@@ -18,8 +18,8 @@ namespace {
 /// Largest number of columns on a page, including the neutral face.
 constexpr std::size_t kMaxColumns = 16;
 
-/// A column of a page, which shows one blend shape. A corrective shape is shown together with the
-/// shape that it corrects (see find_prerequisites).
+/// A column of a page. Each column shows one blend shape. If this is a corrective shape, the column
+/// also applies the shape that it corrects (see find_prerequisites).
 struct Column {
   std::string name;
   std::vector<std::size_t> shapes;

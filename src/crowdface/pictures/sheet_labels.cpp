@@ -27,8 +27,9 @@ std::string target_label(const Recipe& recipe, const std::vector<std::string>& h
   return join(parts);
 }
 
-/// The names of the regions that the face inherits from `parent`. If only some wavelength bands of
-/// a region come from this parent, the list names these bands: "brow/skin".
+/// The names of the regions that the face inherits from `parent`. If only some bands of detail of a
+/// region come from this parent, the list has an entry "region/band" for each of these bands.
+/// Example: "brow/skin" for the band `skin` of the region `brow`.
 std::vector<std::string> inherited_regions(std::string_view parent, const FacePlan& face,
                                            const PlanNames& names) {
   const std::size_t bands = std::max(names.bands.size(), std::size_t{1});

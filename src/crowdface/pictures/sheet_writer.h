@@ -16,7 +16,8 @@ namespace crowdface {
 /// PDF file, so that the memory in use does not grow with the number of faces.
 class SheetWriter {
  public:
-  /// \param folder  must exist. \param title  title of each index.
+  /// \param folder  must exist.
+  /// \param title   text above each index image.
   SheetWriter(std::filesystem::path folder, const std::vector<SheetFormat>& formats,
               std::string title);
 

@@ -12,8 +12,9 @@ namespace crowdface {
 
 /// A position in the textures of the full mesh (before reduction).
 struct TexturePoint {
-  Index face = -1;  ///< polygon of the full mesh that has the texture; −1: no texture
-  Eigen::Vector2f uv = Eigen::Vector2f::Zero();
+  /// The polygon, of the full mesh, in whose texture the position lies; −1: there is no texture.
+  Index face = -1;
+  Eigen::Vector2f uv = Eigen::Vector2f::Zero();  ///< texture coordinates of the position
 };
 
 /// The roughness map's value at a vertex, 0 … 1; nothing if there is no roughness map. The map is

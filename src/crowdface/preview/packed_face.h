@@ -25,9 +25,10 @@ struct PackingGrid {
 };
 
 /// Packs some vertices of a face as little-endian 16-bit numbers. The positions come first: three
-/// numbers per vertex, in grid steps from the low corner of the grid, clamped to the cube. The
-/// unit normals follow: two numbers per vertex, the octahedral encoding (Meyer et al. 2010, "On
-/// floating-point normal vectors") with −1 … 1 mapped to 0 … 65,535.
+/// numbers per vertex, in grid steps from the low corner of the grid. Positions outside the grid's
+/// cube are clamped to the cube. The unit normals follow: two numbers per vertex, the octahedral
+/// encoding (Meyer et al. 2010, "On floating-point normal vectors") with −1 … 1 mapped to 0 …
+/// 65,535.
 /// \param frame         the quantization grid.
 /// \param vertices      the vertices to pack, as row indices of `positions`.
 /// \param vertex_faces  the polygons around each vertex of the whole mesh. With the normals of the

@@ -249,9 +249,9 @@ PaintedMasks paint_masks(const Topology& topology, const TextureCoordinates& uvs
       throw_if_interrupted();
       canvas.bleed();
     }
-    // Collect the samples of all vertices with priority whose texture coordinates lie in this tile.
-    // A sample interpolates four texels (`bilinear_samples`). The result should equal the weights
-    // of the vertex (`weights`).
+    // Take each vertex that has priority over other vertices and has texture coordinates in this
+    // tile. A sample of the image at these coordinates interpolates four texels
+    // (`bilinear_samples`). The result should equal the weights of the vertex (`weights`).
     std::vector<BilinearSample> bilinear_samples;
     std::vector<const double*> weights;
     for (std::uint32_t v = 0; v < static_cast<std::uint32_t>(topology.vertex_count); ++v) {

@@ -66,8 +66,8 @@ struct LoadedMask {
   }
 };
 
-/// A function that returns which channel of a tile to examine. The index may differ between the
-/// tiles of one mask.
+/// A function that returns the index of the channel to examine in a tile. This channel index may
+/// differ between the tiles of one mask.
 using ChannelOf = std::function<int(const LoadedTile&)>;
 
 ChannelOf colour(std::size_t number) {
@@ -244,9 +244,10 @@ bool is_colour_name(const std::string& name) {
   return colours.contains(lower_case(name));
 }
 
-/// Returns for each region the channel with the region's name, if there is such a channel. Returns
-/// nothing if no channel has the name of a region.
-/// \throws InvalidInput if a mask's channels have names and no name is the name of a region.
+/// Returns, for each region, the channel with the region's name, if there is such a channel. If no
+/// channel of any mask has the name of a region, returns nothing.
+/// \throws InvalidInput if the channels of a mask have names of their own (other than red, green,
+///         blue, …), but none of these is the name of a region.
 std::optional<std::vector<std::optional<RegionChannel>>> channels_by_name(
     const std::vector<MaskSource>& sources, const std::vector<LoadedMask>& masks,
     const std::vector<std::string>& regions) {
@@ -308,8 +309,8 @@ std::vector<std::size_t> images_of_regions(const std::vector<MaskSource>& source
   return by_order;
 }
 
-/// The channel of each region. A region without a channel gets 1 minus the sum of all other
-/// regions.
+/// The mask channel that holds the weights of each region. At most one region has no channel; its
+/// weight at each vertex is 1 minus the sum of the weights of all other regions.
 std::vector<std::optional<RegionChannel>> channels_of_regions(
     const std::vector<MaskSource>& sources, std::vector<LoadedMask>& masks, Index regions,
     const std::vector<std::string>& names) {

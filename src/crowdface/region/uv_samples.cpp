@@ -28,8 +28,11 @@ Eigen::RowVector2d mean_uv(std::span<const std::uint32_t> corners, const Texture
   return count > 0 ? Eigen::RowVector2d(sum / count) : sum;
 }
 
-/// The UDIM number of the tile of a corner. \throws InvalidInput that names the mesh and the
-/// vertex.
+/// The number of the UDIM tile in which a polygon's corner lies.
+/// \param uv    texture coordinates of the corner
+/// \param mean  mean of the texture coordinates of the polygon's corners; decides if `uv` lies on
+///              the border between two tiles
+/// \throws InvalidInput, naming the mesh and the vertex, if the tile has no valid number.
 int tile_of(const Eigen::RowVector2d& uv, const Eigen::RowVector2d& mean, std::uint32_t vertex,
             const std::string& mesh_name) {
   try {

@@ -71,8 +71,8 @@ std::uint8_t AttachmentSurface::mip_level(std::uint32_t quad, float pixel_count)
   const float texel_count = std::abs(one.x() * other.y() - one.y() * other.x()) / 2 *
                             static_cast<float>(levels[0].width) *
                             static_cast<float>(levels[0].height);
-  // Round log₄ of the ratio to the nearest level. Do not use std::log2, because the last bit of its
-  // result differs between versions of the C library.
+  // The level is log₄(texel_count / pixel_count), rounded to the nearest integer. Do not use
+  // std::log2, because the last bit of its result differs between versions of the C library.
   std::uint8_t level = 0;
   for (float ratio = texel_count / pixel_count; ratio >= 2 && level + 1U < levels.size();
        ratio /= 4) {

@@ -36,7 +36,8 @@ class AttachmentSurface {
   const Topology& topology() const { return topology_; }
   /// The polygons around each vertex, for computing normals.
   const NormalFans& fans() const { return fans_; }
-  /// The polygons, split into quads and triangles.
+  /// The polygons, split into quads and triangles. A triangle is a Quad that repeats its last
+  /// vertex.
   const std::vector<Quad>& quads() const { return quads_; }
   /// The materials of the attachment; each quad has one of them.
   const std::vector<AttachmentMaterial>& materials() const { return materials_; }

@@ -46,9 +46,10 @@ class AttachmentScene {
   };
   /// Returns the attachment to which a quad of the scene belongs.
   const Part& part_of(std::uint32_t quad) const;
-  /// Sets `may_cover_` in the pixels of the quads' bounding boxes on the image.
-  /// \param points    3 coordinates per vertex, in camera space
-  /// \param distance  from the viewer to the image
+  /// Sets `may_cover_` in the pixels of the image that the bounding box of any quad in `quads_`
+  /// covers.
+  /// \param points    3 coordinates per vertex of the quads, in camera space
+  /// \param distance  distance from the viewer to the image, in the unit of camera space
   void mark_pixels(const std::vector<float>& points, float distance);
 
   int size_px_;                  ///< side of the image, in pixels

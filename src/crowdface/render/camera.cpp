@@ -110,8 +110,8 @@ std::optional<double> throat_of(const Positions& head, const HeadFrame& frame) {
     return std::min(kSlices - 1, static_cast<std::size_t>((height - heights.low) * scale));
   };
   constexpr double kNone = -std::numeric_limits<double>::infinity();
-  // For each horizontal slice of the head: the coordinate, along the viewing direction of the face,
-  // of the slice's foremost point.
+  // For each horizontal slice of the head: the largest coordinate of the slice's points along
+  // `front`, the direction in which the face looks.
   std::array<double, kSlices> ahead;
   ahead.fill(kNone);
   for (Index i = 0; i < head.rows(); ++i) {

@@ -19,8 +19,8 @@ struct Camera {
   Eigen::Vector3d right = Eigen::Vector3d::UnitX();  ///< `right`, `up` and `back` are orthonormal
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
   Eigen::Vector3d back = Eigen::Vector3d::UnitZ();  ///< direction from the target to the camera
-  double distance = 1;                              ///< distance between target and camera
-  double tan_half_fov = 0.17632698070846498;        ///< tangent of half the field of view
+  double distance = 1;  ///< distance between target and camera, in the unit of the mesh files
+  double tan_half_fov = 0.17632698070846498;  ///< tangent of half the field of view
 
   /// Position of the camera, in the unit of the mesh files.
   Eigen::Vector3d position() const { return target + distance * back; }
@@ -31,8 +31,8 @@ struct Camera {
 
 /// Orientation of the heads in their files.
 struct HeadFrame {
-  Axis up = {1, 1};
-  Axis front = {2, 1};  ///< viewing direction of the faces
+  Axis up = {1, 1};     ///< direction of the top of the head; default +Y
+  Axis front = {2, 1};  ///< direction in which the faces look; default +Z
 };
 
 /// How fit_camera and fit_cameras place the heads in the image.

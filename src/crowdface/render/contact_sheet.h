@@ -18,7 +18,8 @@ struct SheetCell {
   std::string label;
 };
 
-/// Legend of a heat map below all cells of a sheet: a colour scale from 0 to `max_mm`.
+/// Legend for the heat maps in the cells of a sheet: a colour scale from 0 to `max_mm`. The sheet
+/// shows the legend below all cells.
 struct HeatLegend {
   double max_mm = 0;  ///< largest value on the scale, in mm
   std::string title;  ///< text beside the scale
@@ -37,7 +38,7 @@ struct SheetOptions {
 struct SheetLayout {
   int columns, rows;                 ///< numbers of columns and rows of cells
   int cell_width, cell_height;       ///< size of a cell's image
-  int label_height, label_lines;     ///< height and number of text lines below each image
+  int label_height, label_lines;     ///< label below each image: its height, number of text lines
   int header_height, legend_height;  ///< heights of the header and of the heat map's legend
   int margin, gap;                   ///< border around the sheet; space between cells
 
@@ -66,8 +67,9 @@ struct CellSize {
 /// \throws BrokenPrecondition if there are no cells, or more cells than columns · rows;
 ///         InvalidInput if the sheet would exceed 65,500 pixels on a side or 5·10⁸ pixels in all.
 SheetLayout layout_sheet(const CellSize& cell, std::size_t count, const SheetOptions& options);
-/// Computes the layout of a sheet with these cells. \throws InvalidInput also if the cells' images
-/// differ in size.
+/// Computes the layout of a sheet with these cells.
+/// \throws BrokenPrecondition, InvalidInput like the function above; also InvalidInput if the
+///         cells' images differ in size.
 SheetLayout layout_sheet(std::span<const SheetCell> cells, const SheetOptions& options);
 
 /// Largest number of rows that a sheet with cells of this size can have; 0 if not even one row

@@ -41,7 +41,7 @@ struct EyeballSphere {
 
 /// Returns position and size of each eyeball.
 /// \param points  x, y, z of each vertex.
-/// \param gaze    viewing direction of the eyes, a unit vector.
+/// \param gaze    direction in which the eyes look, a unit vector.
 std::vector<EyeballSphere> eyeball_spheres(const Eyeballs& eyeballs,
                                            const std::vector<float>& points,
                                            const Eigen::Vector3f& gaze);

@@ -30,8 +30,9 @@ namespace crowdface {
 
 namespace {
 
-/// Replaces kRayClearance if the occluding mesh is reduced, so that rays start outside the reduced
-/// surface.
+/// Distance of ray origins from the surface, in camera space (half the side of the image is 1).
+/// Used instead of kRayClearance if the mesh that occludes light is reduced, so that rays start
+/// outside the reduced surface.
 constexpr float kReducedClearance = 2e-3F;
 
 /// Memory for rendering one face. This memory can be large, so it is reused for the next face.
@@ -66,8 +67,9 @@ class WorkspacePool {
 
 /// The geometry that occludes light.
 struct Occluders {
-  std::vector<std::uint32_t> vertices;  ///< occluding vertices of the mesh; empty: all vertices
-  /// occluding quads, as indices into `vertices`; empty: all quads of the mesh
+  /// indices of the face mesh's vertices that the occluding geometry uses; empty: all vertices
+  std::vector<std::uint32_t> vertices;
+  /// the quads that occlude light, as indices into `vertices`; empty: all quads of the mesh
   std::vector<Quad> quads;
   /// x, y, z of each occluding vertex in the average face. If empty, there is no average face, and
   /// the renderer builds a new scene for each face.
@@ -108,7 +110,9 @@ struct FaceRenderer::PreparedMesh {
   Sampling sampling;
   std::vector<Quad> quads;
   std::vector<SurfaceKind> quad_kinds;
-  std::vector<std::optional<LinearRgb>> quad_colours;  ///< linear colour of each quad; or empty
+  /// for each quad: its linear colour, or nothing if the quad has the default colour of its kind;
+  /// the list is empty if all quads have default colours
+  std::vector<std::optional<LinearRgb>> quad_colours;
   /// texture coordinates of each quad; empty if the mesh has none
   std::vector<TexturedQuad> quad_uvs;
   Eyeballs eyeballs;

@@ -24,10 +24,11 @@ struct RenderOptions {
   /// Rays per pixel towards the key light. The results of the rays are averaged over neighbouring
   /// pixels.
   int key_light_rays = 3;
-  /// Rays per pixel towards the sky. Fewer rays suffice, because the sky casts no sharp shadows.
+  /// Rays per pixel towards the sky. The sky needs fewer rays than the key light, because the sky
+  /// casts no sharp shadows.
   int sky_rays = 2;
   bool ambient_occlusion = true;  ///< whether surfaces block light from the sky
-  Axis front = {2, 1};            ///< viewing direction of the eyes, for painted irises
+  Axis front = {2, 1};  ///< direction in which the eyes look, for painted irises; default +Z
 };
 
 /// Renders human faces of one topology in portrait light. Faces without colours and textures look

@@ -110,16 +110,19 @@ void rasterize_quads(const QuadOnPixels* begin, const QuadOnPixels* end, const Q
 /// Margin around bounding boxes, in pixels: larger than the rounding errors of positions.
 constexpr float kBoxMargin = 1e-2F;
 
-/// Bounding boxes of kCount quads, in pixels. The origin is kRimWidth pixels above and left of the
-/// image, at the corner of the first square's rim.
+/// The bounding boxes of kCount quads on the image. Coordinates are pixels, relative to a point
+/// that lies kRimWidth pixels above and left of the image's upper left corner. This point is the
+/// upper left corner of the rim of the image's first square (see kSquareSide).
 struct Boxes {
   static constexpr std::size_t kCount = 8;
   alignas(64) std::int32_t left[kCount], top[kCount], right[kCount], bottom[kCount];
   /// index of the last square of the image that the box overlaps; −1: the quad is not visible
   alignas(64) std::int32_t square[kCount];
-  alignas(64) std::int32_t in_one_square[kCount];    ///< not 0: the box overlaps only this square
+  /// not 0: the box overlaps no other square than `square`
+  alignas(64) std::int32_t in_one_square[kCount];
   alignas(64) std::int32_t no_pixel_centre[kCount];  ///< 1: no pixel centre is in the box
-  /// Box relative to `square`, packed into four bytes: left (lowest byte), top, right, bottom.
+  /// The quad's box in pixels, relative to the upper left corner of the rim of square `square`.
+  /// Four bytes hold the box: left (lowest byte), top, right, bottom.
   alignas(64) std::int32_t in_square[kCount];
 };
 
@@ -174,7 +177,8 @@ void find_boxes(const Quad* quads, const ProjectedVertex* placed, int squares_pe
     top = hn::Max(top, zero);
     right = hn::Min(right, most);
     bottom = hn::Min(bottom, most);
-    // Round the box to pixels. Find the last square that, with its rim, overlaps the box. Compute
+    // Round the box to pixels. Each square of the image has a rim around it (see kSquareSide). Find
+    // the last square in reading order that overlaps the box or whose rim overlaps the box. Compute
     // the box relative to the upper left corner of this square's rim.
     const auto l = pixel(left), t = pixel(top), r = pixel(right), b = pixel(bottom);
     const auto column = last_square(r), row = last_square(b);

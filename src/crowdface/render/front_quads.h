@@ -16,11 +16,12 @@ namespace crowdface {
 /// rim of kRimWidth pixels, which overlaps the neighbouring squares.
 inline constexpr int kLog2SquareSide = 6;
 inline constexpr int kSquareSide = 1 << kLog2SquareSide;  ///< side of a square, in pixels
-inline constexpr int kRimWidth = 2;                       ///< width of the rim, in pixels
+inline constexpr int kRimWidth = 2;  ///< width of the rim around a square, in pixels
 /// Side of a square with its rim, in pixels.
 inline constexpr int kRimmedSide = kSquareSide + 2 * kRimWidth;
 
-/// Padding at the end of lists: the largest number of floats that a SIMD vector holds.
+/// The largest number of floats that a SIMD vector holds. Lists that SIMD code reads are padded by
+/// this number of entries.
 inline constexpr std::size_t kMaxLanes = 16;
 
 /// A vertex projected to the image.
@@ -31,9 +32,9 @@ struct alignas(16) ProjectedVertex {
   float inverse_depth;
 };
 
-/// A quad that overlaps a square of the image or the square's rim, and the quad's bounding box in
-/// pixels. The box is relative to the upper left corner of the square with its rim. `right` and
-/// `bottom` are inclusive.
+/// A quad that overlaps a square of the image or the rim around this square (see kSquareSide), and
+/// the quad's bounding box in pixels. The coordinates of the box are relative to the upper left
+/// corner of the rim. `right` and `bottom` are inclusive.
 struct QuadOnPixels {
   std::uint32_t quad;  ///< index of the quad
   std::uint8_t left, top, right, bottom;
@@ -43,7 +44,8 @@ struct QuadOnPixels {
 /// pixel, and all other quads that overlap the square.
 using SquareLists = std::vector<std::array<std::vector<QuadOnPixels>, 2>>;
 
-/// Adds each quad to the lists of all squares that the quad may touch, including the squares' rims.
+/// Adds each quad to the lists of all squares of the image that the quad may touch. A quad that
+/// touches only the rim of a square is also added to the lists of this square.
 /// \param first, end  range of `quads`; `end` is exclusive
 /// \param placed  all vertices, projected to the image
 /// \param squares_per_row       number of squares in a row
@@ -95,8 +97,10 @@ struct DepthBuffer {
 /// Corners of the two triangles into which Embree splits a quad.
 inline constexpr std::array<std::array<std::size_t, 3>, 2> kQuadHalves = {{{0, 1, 3}, {2, 3, 1}}};
 
-/// Rasterizes quads into the depth buffer. Of two quads that are equally near, the earlier quad
-/// stays. The result has the same bits with every instruction set.
+/// Rasterizes the quads of one square of the image (see kSquareSide) into the depth buffer. Of two
+/// quads that are equally near, the earlier quad stays. The result has the same bits with every
+/// instruction set.
+/// \param pixel_quads  the quads that overlap the square or its rim
 /// \param placed  all vertices, projected to the image
 /// \param corner  image pixel at the upper left corner of the square's rim
 /// \param pixels  kRimmedSide² pixels of the square and its rim, row by row

@@ -46,7 +46,7 @@ struct HeadScene {
   std::vector<float> skin_lightness;   ///< skin_lightness() of each colour texture of `texture_set`
   const Eyeballs& eyeballs;            ///< which vertices form eyeballs
   std::vector<EyeballSphere> eyes;     ///< position and size of each eyeball
-  Eigen::Vector3f gaze;                ///< viewing direction of the eyes, a unit vector
+  Eigen::Vector3f gaze;                ///< direction in which the eyes look, a unit vector
   const AttachmentScene* attachments;  ///< attachments that are rendered with the head, or nullptr
   bool ambient_occlusion;              ///< whether surfaces block light from the sky
   Eigen::Vector3f viewer_position;     ///< position of the camera

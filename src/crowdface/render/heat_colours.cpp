@@ -11,8 +11,8 @@
 namespace crowdface {
 namespace {
 
-// Lightness rises up to yellow and falls after it, so that the order on each side of yellow stays
-// visible in greyscale.
+// The colours from low to high values. Lightness rises up to yellow and falls after yellow. So even
+// in greyscale, the order of the values on each side of yellow stays visible.
 constexpr std::array<std::array<float, 3>, 6> kStops = {{{0.16F, 0.22F, 0.56F},
                                                          {0.13F, 0.48F, 0.72F},
                                                          {0.35F, 0.72F, 0.66F},

@@ -113,7 +113,8 @@ void reject_transparent_hits(const RTCFilterFunctionNArguments* met) {
   }
 }
 
-/// Calls `body(first, rays of the packet)` for consecutive packets.
+/// Splits rays into packets of kPacketRays consecutive rays; the last packet may be smaller. Calls
+/// `body(first, packet)` for each packet, where `first` is the index of the packet's first ray.
 template <class Body>
 void for_each_packet(std::span<const Ray> rays, const Body& body) {
   for (std::size_t first = 0; first < rays.size(); first += kPacketRays) {

@@ -52,7 +52,7 @@ struct RayHit {
 
 /// Vertices of a quad; a triangle repeats its last vertex.
 using Quad = std::array<std::uint32_t, 4>;
-/// Converts triangles to quads.
+/// Converts each triangle to one quad, which repeats the triangle's last vertex.
 std::vector<Quad> quads_of(const std::vector<Triangle>& triangles);
 /// Returns x, y, z of each vertex relative to `middle`. Rays are traced in single precision, and a
 /// mesh may lie far from the origin.

@@ -34,8 +34,9 @@ struct PixelRectangle {
 class ScreenQuads {
  public:
   /// Replaces and projects the quads. Quads that extend behind the camera are skipped.
-  /// \param points  x, y, z of each vertex. `points` and `quads` must outlive the queries.
-  /// \param size    side of the image, in pixels
+  /// \param points    x, y, z of each vertex. `points` and `quads` must outlive the queries.
+  /// \param distance  distance of the camera from the plane z = 0, in the unit of `points`
+  /// \param size      side of the image, in pixels
   void project(const std::vector<float>& points, const std::vector<Quad>& quads, float distance,
                int size);
 

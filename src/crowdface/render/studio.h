@@ -11,8 +11,9 @@ namespace crowdface {
 /// How a surface reflects light.
 struct Material {
   LinearRgb albedo;
-  /// Wrapped diffuse light reaches surfaces that face away from the lamp, down to a cosine of −wrap
-  /// between normal and lamp.
+  /// How far diffuse light reaches beyond the terminator ("wrap lighting"), for each colour
+  /// channel. A surface gets diffuse light if the cosine of the angle between its normal and the
+  /// direction to the lamp is above −wrap.
   LinearRgb wrap;
   float roughness;    ///< roughness of the microfacets; 0 is a mirror
   float reflectance;  ///< fraction of light that is reflected specularly at normal incidence

@@ -205,7 +205,8 @@ void draw(Rgb8Image& image, const FittedLine& fitted, const LabelStyle& style, i
   int start = padding - extent.begin;
   if (style.align == TextAlign::kCentre) start = (image.width - extent.width()) / 2 - extent.begin;
   if (style.align == TextAlign::kRight) start = image.width - padding - extent.end;
-  // The baseline depends only on the size, so that all labels line up.
+  // The baseline depends only on the height of the image and on the size of the text, not on the
+  // letters, so that all labels line up.
   const int baseline = (image.height + fitted.text_px * 7 / 10) / 2;
   set_line(fitted.line, fitted.text_px, [&](const FT_GlyphSlotRec& letter, int x) {
     draw_letter(image, letter.bitmap, start + x, baseline - letter.bitmap_top, style);

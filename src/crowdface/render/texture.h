@@ -57,8 +57,8 @@ struct TextureLayer {
   std::vector<std::uint32_t> texture_of_polygon;
 };
 
-/// Colour textures, normal maps and roughness maps of one head. Polygons with kNone have the
-/// default colour of their surface kind.
+/// Colour textures, normal maps and roughness maps of one head. A polygon without a colour texture
+/// (texture_of_polygon is kNone) has the default colour of its surface kind.
 struct TextureSet : TextureLayer {
   /// Slopes of the surface along u and v, from tangent-space normal maps.
   TextureLayer slopes = {};

@@ -21,8 +21,8 @@ using Vector = Eigen::Vector3f;
 
 // Lengths are in camera space: half the side of the image is 1.
 constexpr float kSkyReach = 0.55F;  // reach of ambient occlusion
-// Distance along the normal from CameraHit::ray_origin to the origin of the rays towards the key
-// light. This distance softens the edges of shadows, as light that enters skin does.
+// Rays towards the key light start at this distance from CameraHit::ray_origin, along the normal of
+// the hit surface. The distance softens the edges of shadows, as light that enters skin does.
 constexpr float kShadowRayOffset = 0.012F;
 // Fraction of the sky's light that even occluded hair receives, because hair scatters light.
 constexpr float kScattered = 0.2F;
@@ -66,7 +66,9 @@ class PointLists {
   std::vector<float> numbers_;
 };
 
-/// Stores the visibility of a hit at index `at`. \param lists  a PointLists or a PixelVisibility
+/// Stores the position, the normal and the numbers of rays of a hit in `lists`.
+/// \param at     index at which to store the values
+/// \param lists  a PointLists or a PixelVisibility
 template <class Lists>
 void put(const CameraHit& hit, std::size_t at, Lists& lists) {
   for (int c = 0; c < 3; ++c) {
@@ -145,8 +147,8 @@ class Tile {
   }
 
   void render(Rgb8Image& image) {
-    // Trace one sample in every pixel. Trace a few samples in pixels that may show attachments,
-    // because attachments may be transparent.
+    // If a pixel may show attachments, trace a few samples in it, because attachments may be
+    // transparent. In every other pixel, trace one sample.
     trace_camera_rays([&](int x, int y, const Pixel&) {
       return may_have_attachments(x, y) ? &sampling_.coarse_samples : &sampling_.centre_sample;
     });
@@ -161,7 +163,7 @@ class Tile {
         return asks ? &sampling_.coarse_samples : nullptr;
       });
     }
-    // Trace shadow rays.
+    // Trace shadow rays towards the key light and towards the sky.
     trace_key_rays();
     if (scene_.ambient_occlusion) trace_sky_rays();
     // Compute the mean of each pixel's hits. Then shade the pixels, with shadow rays averaged over
@@ -292,12 +294,14 @@ class Tile {
 
   float pixel_side() const { return 2 / static_cast<float>(size_); }
 
-  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace, where `disc` is a point of
-  /// the unit disc. Consecutive rays have the same `disc`, so that their directions are similar.
-  /// A pixel with PixelVariation::kNone gets `directions.rays_per_pixel()` rays, spread over the
-  /// hits of the pixel. Any other pixel gets at least this number of rays, and at least one ray for
-  /// each kHitsPerShadowRay hits. filter_visibility gives the hits without a ray the visibility of
-  /// similar points nearby.
+  /// Calls `body(hit, disc, opacity_seed)` for each shadow ray to trace. `disc` is a point of the
+  /// unit disc, which determines the ray's direction. All rays with the same `disc` follow one
+  /// another, so that consecutive rays mostly have similar directions.
+  ///
+  /// A pixel with PixelVariation::kNone gets `directions.rays_per_pixel()` rays, which start at
+  /// different hits of the pixel. Any other pixel gets at least this number of rays, and at least
+  /// one ray for every kHitsPerShadowRay hits. Some hits get no ray; filter_visibility gives these
+  /// hits the visibility of similar points nearby.
   template <class Body>
   void for_each_shadow_ray(const InterleavedDisc& directions, const Body& body) {
     constexpr std::uint32_t kGoldenRatio16 =
@@ -328,8 +332,10 @@ class Tile {
   }
 
   /// Traces the shadow rays from all hits towards a light, and stores the rays in `memory_.rays`.
-  /// \param light   member of CameraHit in which the function counts the rays of each hit
-  /// \param ray_of  returns the ray from a hit for a point of the unit disc; nothing if the light
+  /// \param light   member of CameraHit that belongs to the light: there, the function counts the
+  ///                hit's rays and the rays that reached the light
+  /// \param ray_of  function of a hit and a point of the unit disc: returns the ray that starts at
+  ///                the hit, in the direction that the point determines; nothing if the light
   ///                cannot reach the hit
   /// \return for each ray: whether a surface blocks the ray
   template <class RayOf>
@@ -431,10 +437,11 @@ class Tile {
     }
   }
 
-  /// Computes the visible fractions of the key light and of the sky at `count` points with
-  /// filter_visibility.
-  /// \param x, y         pixel that all points share; with `consecutive`, pixel of the first point
-  /// \param consecutive  whether the points lie in consecutive pixels of a row
+  /// Calls filter_visibility to compute the visible fractions of the key light and of the sky at
+  /// `count` points.
+  /// \param x, y         if `consecutive`: pixel of the first point; otherwise: pixel that contains
+  ///                     all points
+  /// \param consecutive  true: the points lie in consecutive pixels of a row, one point per pixel
   void share(const PointLists& points, std::size_t count, int x, int y, bool consecutive,
              VisibleFractions& shares) {
     shares.key.resize(count + kMaxLanes);

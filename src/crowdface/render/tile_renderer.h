@@ -10,7 +10,7 @@
 
 namespace crowdface {
 
-/// Sample positions in pixels, and ray directions towards the lights.
+/// The positions of the samples within a pixel, and the directions of the rays towards the lights.
 struct Sampling {
   /// one sample in the centre of the pixel
   PixelSamples centre_sample;

@@ -25,7 +25,7 @@ VertexColours region_colours(const Eigen::Ref<const Eigen::MatrixXd>& alpha,
                              const VertexColours& colours);
 
 /// The vertex colours that FaceRenderer gives surfaces without textures, including painted irises.
-/// \param front  viewing direction of the face.
+/// \param front  direction in which the face looks.
 VertexColours surface_colours(const Topology& topology, const Surfaces& surfaces,
                               const Positions& positions, Axis front);
 

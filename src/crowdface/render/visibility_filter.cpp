@@ -19,9 +19,10 @@ HWY_INLINE Numbers number(float value) {
   return hn::Set(Lanes(), value);
 }
 
-/// Weighted numbers of rays towards a light.
+/// Weighted sums of numbers of rays towards a light, over several pixels. A pixel's weight is its
+/// similarity to the filtered point.
 struct RayCounts {
-  Numbers visible, traced;
+  Numbers visible, traced;  ///< rays that reached the light, and all traced rays
 
   void add(Numbers others_open, Numbers others_asked, Numbers weight) {
     visible = hn::Add(visible, hn::Mul(weight, others_open));
@@ -64,8 +65,8 @@ void share(const PointVisibility& points, std::size_t count, const PixelVisibili
         const auto along = [&](Numbers a, Numbers b, Numbers c) {
           return hn::Add(hn::Add(hn::Mul(u, a), hn::Mul(v, b)), hn::Mul(w, c));
         };
-        // Similarity between the pixel and the point in normal and position: 1 for the same
-        // surface, down to 0 for different surfaces.
+        // The similarity of the pixel's and the point's normals and positions (`likeness`): 1 if
+        // both lie on the same surface, down to 0 if they lie on different surfaces.
         const Numbers cosine =
             along(there(Field::kNormal), there(Field::kNormal + 1), there(Field::kNormal + 2));
         const Numbers facing =

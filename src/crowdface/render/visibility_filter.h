@@ -17,10 +17,10 @@ struct PointVisibility {
   enum Field {
     kPoint,
     kNormal = kPoint + 3,
-    kKeyVisible = kNormal + 3,  ///< rays that reached the key light
-    kKeyTraced,                 ///< rays traced towards the key light
-    kSkyVisible,                ///< rays that reached the sky
-    kSkyTraced,                 ///< rays traced towards the sky
+    kKeyVisible = kNormal + 3,  ///< number of the point's rays that reached the key light
+    kKeyTraced,                 ///< number of the point's rays towards the key light
+    kSkyVisible,                ///< number of the point's rays that reached the sky
+    kSkyTraced,                 ///< number of the point's rays towards the sky
     kFields
   };
   std::array<const float*, kFields> field_values;  ///< one array per field, #points numbers each
@@ -61,13 +61,15 @@ class PixelVisibility {
 };
 
 /// Estimates, for each point, the visible fraction of the key light and of the sky, by a bilateral
-/// filter: averages the rays of the 3 by 3 pixels around the point, weighted by how well each
-/// pixel's normal and position match the point's surface. The result has the same bits with every
-/// instruction set.
+/// filter. The visible fraction of a light is the number of rays that reached the light, divided by
+/// the number of traced rays. Both numbers are weighted sums over the 3 by 3 pixels around the
+/// point. The weight of a pixel tells how well its normal and position match the point's surface.
+/// The result has the same bits with every instruction set.
 /// \param points  arrays padded by kMaxLanes entries of any value
-/// \param pixel      index of the pixel that all points share; with `consecutive`, index of the
-///                   first point's pixel
-/// \param consecutive  whether the points lie in consecutive pixels of a row
+/// \param pixel      if `consecutive`: index of the first point's pixel. Otherwise: index of the
+///                   pixel that contains all points.
+/// \param consecutive  true: the points lie in consecutive pixels of a row, one point per pixel;
+///                   false: all points lie in one pixel
 /// \param pixel_side  side of a pixel in the unit of the positions
 /// \param key, sky   results: visible fractions, with room for `count` + kMaxLanes numbers
 void filter_visibility(const PointVisibility& points, std::size_t count,

@@ -22,10 +22,10 @@ namespace {
 constexpr int kSheetRings = 3;
 constexpr float kSimilarNormalCosine = 0.998F;
 
-/// Upper limit of `max_distance` and `max_facing_distance`, in units of the mean diagonal of the
-/// leaves' bounding boxes. On a dense mesh, leaves are small; larger distances would give too many
-/// pairs of leaves.
-constexpr double kMaxLeaves = 3;
+/// Upper limit of the search distances `max_distance` and `max_facing_distance`. The unit is the
+/// mean diagonal of the bounding boxes of the tree's leaves. On a dense mesh, leaves are small;
+/// larger distances would give too many pairs of leaves.
+constexpr double kMaxDistanceInLeaves = 3;
 
 /// Bit mask (see LeafPair) with one bit for each pair of two different triangles of the same leaf.
 constexpr std::uint64_t kEachPairOnce = [] {
@@ -109,7 +109,7 @@ CrossingSearch::CrossingSearch(std::vector<Triangle> triangles, const Positions&
 void CrossingSearch::find_leaf_pairs(const std::vector<Triangle>& numbered, const Positions& points,
                                      double max_distance, double max_facing_distance) {
   const FloatPositions single = points.cast<float>();
-  const double most = kMaxLeaves * mean_leaf_size(tree_, single);
+  const double most = kMaxDistanceInLeaves * mean_leaf_size(tree_, single);
   max_distance = std::min(max_distance, most);
   max_facing_distance = std::min(max_facing_distance, most);
   const TriangleScene scene(numbered, tree_, points, max_facing_distance / 2);

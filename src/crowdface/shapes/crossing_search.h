@@ -21,7 +21,8 @@ class CrossingSearch {
   CrossingSearch() = default;
   /// \param triangles  The triangles to search.
   /// \param mesh       #V by 3: the mesh on which the constructor finds candidate pairs.
-  /// \param max_distance  Largest distance on `mesh` between the two triangles of a candidate pair.
+  /// \param max_distance  Largest straight-line distance between the two triangles of a candidate
+  ///                     pair, with the positions of `mesh`.
   /// \param max_facing_distance  The largest distance if the two triangles face each other; at
   ///                   least `max_distance`.
   ///
@@ -40,7 +41,8 @@ class CrossingSearch {
     std::vector<Box> leaf_boxes;            ///< for each leaf: the box of all its triangles
     std::vector<std::uint8_t> is_changed;   ///< whether each leaf changed since the last search
   };
-  /// Returns the boxes of a mesh, #V by 3. All leaves count as changed.
+  /// Returns the boxes of a mesh. All leaves count as changed.
+  /// \param mesh  Positions, #V by 3.
   Boxes make_boxes(const Positions& mesh) const;
   /// Updates the boxes after vertices moved.
   ///
@@ -74,7 +76,8 @@ class CrossingSearch {
   /// vertex indices of the mesh, ascending: the vertices of the triangles
   std::vector<std::uint32_t> vertices_;
   TriangleTree tree_;  ///< tree over `triangles_`; its vertex indices are rows of `vertices_`
-  std::vector<LeafPair> leaf_pairs_;  ///< pairs of leaves with candidates, ascending
+  /// all pairs of leaves that have pairs of triangles to test; sorted by the indices of the leaves
+  std::vector<LeafPair> leaf_pairs_;
 };
 
 }  // namespace crowdface

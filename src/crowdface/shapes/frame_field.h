@@ -27,7 +27,8 @@ class FrameField {
   FrameField(const Positions& neutral, std::span<const std::uint32_t> skin, double extent,
              std::span<const std::uint32_t> vertices);
 
-  /// The data of one face from which `map_at` interpolates the linear maps.
+  /// The motion and the linear maps that were fitted to one face (a head). `map_at` interpolates
+  /// the linear map at a vertex from these data.
   struct Frames {
     RigidMotion face_motion;                 ///< motion from the template to the face
     std::vector<Eigen::Matrix3d> node_maps;  ///< linear map at each node
@@ -54,10 +55,10 @@ class FrameField {
     Eigen::Vector3d centre;  ///< position of the node's vertex on the template
     std::uint32_t vertex;
     std::vector<Sample> samples;  ///< the vertices to which the map of the node is fitted
-    /// the matrix W in the term R·W
+    /// the matrix W in the formula of the node's map, Σ d·wᵀ + R·W (see Node)
     Eigen::Matrix3d similarity_weight_matrix;
   };
-  /// The weight of a node's map at a vertex.
+  /// The weight of a node's linear map (see Node) in the linear map of a vertex.
   struct NodeWeight {
     std::uint32_t node;
     double weight;  ///< the weights of all nodes for one vertex sum to one

@@ -45,8 +45,10 @@ constexpr double kMaxExtraClosing = 0.02;
 constexpr int kSteps = 8;
 constexpr double kClosed = 0.016;  // a gap that counts as closed
 
-/// Returns the position, in the shape, of one rim vertex of the upper or lower lid: the vertex
-/// whose coordinate along the opening is nearest to `at`.
+/// Returns the position of one rim vertex of the upper or lower lid: the vertex whose coordinate
+/// along the lid opening is nearest to `at`.
+/// \param shape  positions of the template's vertices with the blend shape applied, #V by 3
+/// \param along  unit vector along the lid opening
 Eigen::Vector3d rim_at(const TemplateEye& eye, const Positions& shape, bool upper, double at,
                        const Eigen::Vector3d& along) {
   double nearest = std::numeric_limits<double>::max();
@@ -127,8 +129,8 @@ LidClosure::LidClosure(const TemplateEye& eye, const Adjacency& adjacency, const
   }
 }
 
-/// Moves the lid vertices that belong to profiles to the front of lid_vertices_. The search
-/// for the gains in `fit_lids` moves only these vertices.
+/// Moves the lid vertices that belong to profiles to the front of lid_vertices_. While `fit_lids`
+/// searches for the sections' gains (see move_lids), it moves only these vertices.
 void LidClosure::move_profile_vertices_to_front() {
   std::set<std::uint32_t> rows;
   for (const LidSection& section : sections_) {
@@ -366,9 +368,10 @@ void LidClosure::fit_lids(const Positions& face, const FaceEye& eye, const Rigid
   const Positions unscaled_moves = moves;
   std::vector<double> gains(sections_.size(), 0.0);
   double sure = 0;
-  // Find each section's gain: the relative increase of the lids' vertical movement (see move_lids)
-  // that closes the gap there. Chord method (Newton with a fixed slope): a gain of one is assumed
-  // to narrow the gap as much as the shape does on the template.
+  // For each section, find the gain that closes the gap between the lids at this section. A gain is
+  // a relative increase of the lids' vertical movement (see move_lids). The iteration is the chord
+  // method (Newton's method with a fixed slope). The slope follows from an assumption: a gain of 1
+  // narrows the gap as much as the shape does on the template.
   for (int step = 0; step < kSteps; ++step) {
     if (step > 0) move_lids(profile_vertex_count_, axes.up, unscaled_moves, gains, moves);
     keep_outside_eyeball(profile_vertex_count_, face, eye, face_motion.scale, targets, moves);

@@ -21,11 +21,11 @@ struct TemplateEye {
   std::vector<std::uint32_t> skin_vertices;  ///< indices of skin vertices around the eye, ascending
 };
 
-/// An eyeball of a face. The eyeball is a copy of the eyeball of one input head: `motion` carries it
-/// from the head to the face.
+/// An eyeball of a face. The eyeball is a copy of the eyeball of one input head: `motion` carries
+/// it from the head to the face.
 struct FaceEye {
   const BallRadii* ball;  ///< radii of the head's eyeball
-  RigidMotion motion;     ///< motion of the eyeball from the head to the face
+  RigidMotion motion;     ///< moves the eyeball from its position in the head to that in the face
   /// distance of each of TemplateEye::skin_vertices from the eyeball on the face at rest
   std::vector<double> rest_gaps = {};
 
@@ -66,25 +66,28 @@ class LidClosure {
     /// vertical distance from the section's point on the upper rim down to the lower rim
     double vertical_gap;
   };
-  /// The lengths that the lids of a face should have in the shape: gaps between the lids, and
-  /// distances of the lids from the eyeball. measure_targets measures these lengths on a mesh for
-  /// which the shape was made (the template or a head), and divides them by the scale of this mesh
-  /// relative to the template.
+  /// The lengths that the lids of a face should have while the shape is applied: gaps between the
+  /// lids, and distances of the lids from the eyeball. measure_targets measures these lengths on a
+  /// mesh for which the shape was made (the template or a head), and divides them by the scale of
+  /// this mesh relative to the template.
   struct LidTargets {
     std::vector<Gap> gaps;  ///< the gap between the lids at each section
     /// One entry per lid vertex. `ball_distances`: distance from the eyeball with the shape
     /// applied. `distance_changes`: the distance with the shape applied minus the distance at rest.
     std::vector<double> ball_distances, distance_changes;
   };
-  /// Measures the targets on a mesh for which the shape was made: on the template or on a head.
+  /// Measures LidTargets on a mesh for which the blend shape was made: on the template or on a
+  /// head.
   ///
   /// \param mesh   The template or the head at rest, #V by 3.
   /// \param face_motion  Motion from the template to the mesh.
-  /// \param moves  The mesh's displacements in the shape, one row for each vertex of the shape.
+  /// \param moves  The displacements by which the shape moves the mesh, one row for each moved
+  ///               vertex.
   LidTargets measure_targets(const Positions& mesh, const FaceEye& eye,
                              const RigidMotion& face_motion, const Positions& moves) const;
-  /// Returns the weighted mean of the targets measured for several sets of shapes: for the shapes
-  /// of several heads.
+  /// Returns the weighted mean of targets. Each head may have its own set of shapes; `targets` are
+  /// the targets that were measured for each set.
+  /// \param shares  the sets, and their weights.
   static LidTargets mean_targets(std::span<const LidTargets> targets,
                                  std::span<const ShapeSetShare> shares);
   /// Returns whether the shape closes the lids.
@@ -101,8 +104,8 @@ class LidClosure {
   void restore_closure(const Positions& face, const RigidMotion& face_motion,
                        const LidTargets& targets, Positions& moves) const;
 
-  /// Adjusts the displacements of a face in the shape until its lids have the gaps and distances in
-  /// `targets`.
+  /// Adjusts the displacements by which the shape moves a face. Afterwards, the gaps between the
+  /// lids and the distances of the lids from the eyeball are about equal to `targets`.
   ///
   /// \param face   #V by 3, at rest.
   /// \param face_motion  Motion from the template to the face.
@@ -117,11 +120,11 @@ class LidClosure {
                            Positions& moves) const;
 
  private:
-  /// A point of a lid's profile, on an edge of the mesh. `row_a` and `row_b` are the rows of the
-  /// edge's two ends in the shape's displacements; kNoIndex for an end that the shape does not
-  /// move.
+  /// A point of a lid's profile, on an edge of the mesh.
   struct ProfilePoint {
     EdgePoint edge;
+    /// row of each of the edge's two ends in the shape's displacements; kNoIndex for an end that
+    /// the shape does not move
     std::uint32_t row_a, row_b;
   };
   /// A section across the eye's opening, where a plane cuts both lids. A profile is the curve that
@@ -142,7 +145,7 @@ class LidClosure {
     double along_opening;  ///< coordinate along EyeAxes::along
     double height;         ///< coordinate along EyeAxes::up
   };
-  /// A vertex of the skin around the eye that the shape moves.
+  /// A vertex of the skin around the eye. The shape moves this vertex.
   struct LidVertex {
     std::uint32_t row, vertex;  ///< row in the shape's displacements, and the vertex of this row
     std::uint32_t skin_index;   ///< index into TemplateEye::skin_vertices
@@ -158,29 +161,34 @@ class LidClosure {
                     const Displacements& shape, const HeadAxes& axes);
   /// Reorders lid_vertices_: the vertices of the sections' profiles come first.
   void move_profile_vertices_to_front();
-  /// Returns, for each section, the weight with which the vertical movement of `lid_vertices_[lid]`
-  /// follows the section's gain.
+  /// Returns the weights of `lid_vertices_[lid]`, one for each of `sections_`: how much the gain of
+  /// the lids at this section changes the vertical movement of the vertex (see move_lids).
   std::span<const double> section_weights(std::size_t lid) const {
     return {section_weights_.data() + lid * sections_.size(), sections_.size()};
   }
-  /// Scales the vertical movement of each of the first `count` lid vertices by 1 + the weighted sum
-  /// of the sections' gains.
-  /// \param unscaled_moves  displacements before scaling, one row for each vertex of the shape.
-  /// \param gains    relative increase of the vertical movement at each section.
+  /// Multiplies the vertical movement of each of the first `count` lid vertices by 1 + Σ w_s g_s.
+  /// Here, g_s is the gain of the lid section s, and w_s is the vertex's weight for this section
+  /// (see section_weights).
+  /// \param up              unit vector from the lower lid to the upper lid.
+  /// \param unscaled_moves  displacements before scaling, one row for each vertex that the shape
+  ///                        moves.
+  /// \param gains           relative increase of the vertical movement at each of `sections_`.
+  /// \param moves           receives the displacements after scaling.
   void move_lids(std::size_t count, const Eigen::Vector3d& up, const Positions& unscaled_moves,
                  std::span<const double> gains, Positions& moves) const;
   /// Returns the smallest allowed distance of a lid vertex from the eyeball; negative inside. This
   /// is the smallest of three distances: the vertex's distance at rest, the vertex's target
   /// distance, and a small margin. A target distance deep inside the eyeball is replaced by the
   /// distance at the largest allowed depth.
+  /// \param lid            index of the vertex in lid_vertices_.
   /// \param rest_distance  the vertex's distance on the face at rest.
   /// \param scale          scale of the face relative to the template.
   double min_ball_distance(std::size_t lid, double rest_distance, double scale,
                            const LidTargets& targets) const;
-  /// Moves each of the first `count` lid vertices along the eyeball's normal, towards a wanted
-  /// distance from the eyeball. The vertex moves by the wanted distance minus the current distance,
-  /// times `eyeball_weight`. The wanted distance is the larger of two distances: the distance at
-  /// rest plus its target change, and min_ball_distance.
+  /// Moves each of the first `count` lid vertices along the eyeball's normal. The vertex's wanted
+  /// distance from the eyeball is the larger of two distances: min_ball_distance, and the vertex's
+  /// distance at rest plus its change in LidTargets::distance_changes. The vertex moves by
+  /// LidVertex::eyeball_weight times (wanted distance − current distance).
   void keep_outside_eyeball(std::size_t count, const Positions& face, const FaceEye& eye,
                             double scale, const LidTargets& targets, Positions& moves) const;
   /// Returns the axes of the eye on the face that `face_motion` belongs to.
@@ -201,12 +209,14 @@ class LidClosure {
   HeadAxes axes_;
   double radius_ = 0;                 ///< radius of the template's eyeball
   std::vector<LidSection> sections_;  ///< the sections at which the shape closes the lids
-  /// the vertices around the eye that the shape moves; those of profiles come first
+  /// The skin vertices around the eye that the shape moves. The vertices on whose edges the points
+  /// of the lid profiles lie (see LidSection) come first.
   std::vector<LidVertex> lid_vertices_;
   /// number of lid vertices that belong to profiles; these come first in lid_vertices_
   std::size_t profile_vertex_count_ = 0;
-  /// #lid_vertices_ by #sections_: weights with which each lid vertex follows the sections. The
-  /// vertical movement of the vertex grows by the weighted sum of the sections' gains.
+  /// #lid_vertices_ by #sections_: for each lid vertex, a weight for each section. The vertical
+  /// movement of the vertex is multiplied by 1 + the weighted sum of the sections' gains (see
+  /// move_lids).
   std::vector<double> section_weights_;
 };
 

@@ -44,17 +44,17 @@ struct PlacedPart {
              const RigidMotion& face_motion, const Eigen::Matrix3d& map);
 
   Eigen::Vector3d centre;          ///< RigidPart::centre, moved to the face
-  const Positions& mesh;           ///< the face at rest, #V by 3
+  const Positions& mesh;           ///< positions of the whole face at rest, #V by 3
   const RigidMotion& face_motion;  ///< motion from the template to the face
-  /// local linear map from the template to the face, averaged over the vertices of the part that
-  /// the shape moves
+  /// The local linear map from the template to the face: its mean over some vertices of the part.
+  /// These are the vertices that the shape moves.
   const Eigen::Matrix3d& map;
 };
 
 /// Measures how a shape moves a rigid part of a mesh, and transforms this motion to the template.
 ///
-/// \param vertices  Vertices of the part that the shape moves.
-/// \param rows      Row of each of these vertices in `moves`.
+/// \param vertices  Those vertices of the part that are moved by the shape.
+/// \param rows      Row of each of `vertices` in `moves`.
 /// \param moves     Displacements of the shape.
 PartMotion find_part_motion(const RigidPart& part, const PlacedPart& placed,
                             std::span<const std::uint32_t> vertices,

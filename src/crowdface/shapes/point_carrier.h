@@ -68,7 +68,8 @@ class PointCarrier {
                                        const PartList& parts, std::span<const std::uint32_t> skin);
 
   const PointSet& points_;
-  /// what each point of each mesh follows, #meshes by #names
+  /// anchors_[m][p]: what the point number p of mesh m follows. There is one mesh, or one for each
+  /// head.
   std::vector<std::vector<Anchor>> anchors_;
 };
 

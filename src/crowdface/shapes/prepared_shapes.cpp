@@ -105,7 +105,7 @@ PreparedShapes::PreparedShapes(const HeadSet& all_heads, const Adjacency& adjace
   std::vector<const CrossingSearch*> searches;
   for (const PreparedShape& shape : shapes) searches.push_back(&shape.searched_skin.search);
   resting_face_search = crossings.merge_searches(shape_set.neutral, searches);
-  add_shape_sets();
+  add_data_of_sets();
 }
 
 void PreparedShapes::add_part(const Part& part, const PartList& parts, const Positions& mean) {
@@ -168,7 +168,7 @@ void PreparedShapes::look_up_regions(const RegionWeights& regions) {
     vertex_region_weights.row(static_cast<Index>(i)) =
         regions.alpha.row(nearest(moved_vertices[i]));
   });
-  contact_region_weights = regions.alpha(gap_preserver.contact_vertices(), kAllColumns);
+  gap_region_weights = regions.alpha(gap_preserver.contact_vertices(), kAllColumns);
   for (const RigidPart& part : rigid_parts) {
     std::vector<double> mean(static_cast<std::size_t>(regions.alpha.cols()), 0.0);
     for (const std::uint32_t v : part.fitted_vertices) {
@@ -197,7 +197,7 @@ void PreparedShapes::prepare_shape(const Displacements& moves, const Adjacency& 
     if (!part.moved_vertices.empty()) prepared.parts.push_back(std::move(part));
   }
   prepare_lids(moves, adjacency, prepared);
-  prepared.moves_contacts = gap_preserver.is_affected_by(moves.vertices);
+  prepared.moves_gaps = gap_preserver.is_affected_by(moves.vertices);
   prepared.searched_skin = find_searched_skin(moves, prepared);
   Positions shaped = shape_set.neutral;
   if (prepared.prerequisite) shape_set.shapes[*prepared.prerequisite].moves.add_to(shaped);
@@ -280,7 +280,7 @@ Eigen::Matrix3d PreparedShapes::mean_map_of_part(const PreparedPart& part,
   return map / static_cast<double>(part.displacement_rows.size());
 }
 
-void PreparedShapes::add_shape_sets() {
+void PreparedShapes::add_data_of_sets() {
   const std::size_t heads = shape_set.head_shapes.size();
   for (std::size_t h = 0; h < std::max<std::size_t>(heads, 1); ++h) {
     const FaceFrames face_frames =
@@ -330,7 +330,7 @@ void PreparedShapes::add_data_of_set(const FaceFrames& face_frames, const Positi
   if (!shape_set.head_shapes.empty() && !prepared.searched_skin.search.triangles().empty()) {
     crossings.allow_intersections_of(moved, prepared.searched_skin);
   }
-  if (!prepared.moves_contacts) return;
+  if (!prepared.moves_gaps) return;
   std::vector<double>& gap_changes =
       prepared.gap_changes.emplace_back(gap_preserver.measure_gaps(moved));
   for (std::size_t p = 0; p < gap_changes.size(); ++p) {

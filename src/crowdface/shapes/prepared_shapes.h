@@ -75,17 +75,20 @@ struct PreparedShape {
   std::optional<std::size_t> prerequisite;
   /// one per row of the shape's displacements: index into PreparedShapes::moved_vertices
   std::vector<std::uint32_t> vertex_indices;
-  /// #heads by #rows: displacements of each head's own shape, normalised to the mean head; empty if
-  /// all heads use one set
+  /// #heads by #rows: displacements of each head's own version of the shape, normalised to the mean
+  /// head; empty if all heads use the same set of shapes
   std::vector<FloatPositions> head_moves;
   std::vector<PreparedPart> parts;  ///< for each rigid part that the shape moves: how it moves
   std::vector<PreparedLids> lids;   ///< for each eye of the template: how the shape moves its lids
   std::vector<LidFollower> lid_followers;  ///< vertices, such as those of lashes, that follow lids
   SkinOverParts skin_over_parts;           ///< keeps skin in front of gums and teeth
+  /// the part of the skin in which the shape may cause self-intersections
   SkinCrossings::SearchedSkin searched_skin;
-  bool moves_contacts = false;  ///< whether the shape moves skin at a gap, see GapPreserver
+  /// whether the shape moves skin at one of the gaps that GapPreserver preserves, such as the gap
+  /// between the lips
+  bool moves_gaps = false;
   /// #sets by #gaps: by how much the shape widens each gap, divided by the scale of the mesh
-  /// relative to the template; empty unless `moves_contacts`
+  /// relative to the template; empty unless `moves_gaps`
   std::vector<std::vector<double>> gap_changes;
 };
 
@@ -112,15 +115,16 @@ struct PreparedShapes {
   RegionWeights::Alpha vertex_region_weights;
   /// preserves gaps between skin surfaces that almost touch, such as the lips
   GapPreserver gap_preserver;
-  RegionWeights::Alpha contact_region_weights;  ///< region weights at each gap, #gaps by #regions
+  /// #gaps by #regions: region weights at one skin vertex of each gap of `gap_preserver`
+  RegionWeights::Alpha gap_region_weights;
   FrameField frame_field;
   double extent = 0;  ///< diagonal of the bounding box of the template's skin
   /// indices of the vertices behind the skin of lips and cheeks, such as gums and teeth: the
   /// vertices of all parts except eyeballs, without the vertices near an eye
   std::vector<std::uint32_t> inner_vertices;
   SkinCrossings crossings;  ///< removes self-intersections of the skin from shapes
-  /// Finds intersections on the face at rest, in the skin that at least one shape may bring into
-  /// contact.
+  /// Finds intersections of the skin with itself on a face at rest. Searches only the skin in which
+  /// at least one shape may cause such intersections.
   CrossingSearch resting_face_search;
   std::vector<PreparedShape> shapes;
 
@@ -153,7 +157,7 @@ struct PreparedShapes {
   /// Looks up the region weights of skin and parts. Masks do not cover lashes and eyeballs, so
   /// these get the weights of the nearest skin.
   void look_up_regions(const RegionWeights& regions);
-  /// Fills all members of `prepared` except those that add_shape_sets measures.
+  /// Fills all members of `prepared` except those that add_data_of_sets measures.
   /// \param moves  Displacements of the shape.
   void prepare_shape(const Displacements& moves, const Adjacency& adjacency,
                      PreparedShape& prepared) const;
@@ -163,9 +167,9 @@ struct PreparedShapes {
   /// Returns the part of the skin in which the shape may cause intersections on blended heads.
   SkinCrossings::SearchedSkin find_searched_skin(const Displacements& moves,
                                                  const PreparedShape& prepared) const;
-  /// Measures how each set of shapes moves parts and lids, and normalises the heads' own shapes by
-  /// removing the local rotation and stretch of each head.
-  void add_shape_sets();
+  /// Adds to `shapes` the data that depend on the sets of shapes: how the shapes of each set move
+  /// parts, lids and lips (see add_data_of_set), and the heads' own shapes (see normalised_moves).
+  void add_data_of_sets();
   /// Returns the displacements of one shape in one set of shapes.
   Displacements shape_of_set(std::size_t set, std::size_t shape) const;
   /// Adds to `prepared` the data of this shape in one set of shapes: how the shape moves parts,
@@ -175,8 +179,8 @@ struct PreparedShapes {
   void add_data_of_set(const FaceFrames& face_frames, const Positions& rest,
                        const Displacements& shape, std::span<const FaceEye> face_eyes,
                        PreparedShape& prepared) const;
-  /// Returns a head's displacements without the head's local rotation and stretch, relative to the
-  /// mean head.
+  /// Transforms a head's displacements to the mean head: undoes the local rotation and stretch by
+  /// which the head differs from the mean head.
   FloatPositions normalised_moves(const FaceFrames& face_frames, const PreparedShape& prepared,
                                   const Positions& moves) const;
 };

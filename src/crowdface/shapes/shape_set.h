@@ -36,7 +36,7 @@ struct ShapeSet {
 
 /// Returns the memory, in bytes, of one face's displacements for all shapes.
 std::size_t displacement_bytes(const ShapeSet& shapes);
-/// Returns the memory, in bytes, of the shapes of all heads.
+/// Returns the memory, in bytes, of ShapeSet::head_shapes: of the heads' own shapes.
 std::size_t own_shape_bytes(const ShapeSet& shapes);
 
 /// Computes a blend shape from a mesh with this expression and the mesh at rest. Vertices that move

@@ -61,7 +61,7 @@ class FaceShape {
     move_parts();
     const Positions uncorrected_skin = skin_of_followers();
     fit_lids();
-    if (shape_.moves_contacts) correct_gaps();
+    if (shape_.moves_gaps) correct_gaps();
     shape_.skin_over_parts.keep_in_front(rest_, face_frames_.frames.face_motion,
                                          shape_.searched_skin.skin_displacements, mesh_, result_);
     remove_crossings();
@@ -176,7 +176,7 @@ void FaceShape::correct_gaps() {
   for (std::size_t p = 0; p < gap_changes.size(); ++p) {
     ShapeSetShares here = {{0, 1}};
     if (has_own_sets()) {
-      const auto& weights = prepared_.contact_region_weights;
+      const auto& weights = prepared_.gap_region_weights;
       here = shape_set_weights_at(
           {&weights(static_cast<Index>(p), 0), static_cast<std::size_t>(weights.cols())}, shares_);
     }

@@ -14,9 +14,10 @@
 namespace crowdface {
 namespace {
 
-// Lengths are fractions of the skin's extent, about 430 mm. Two triangles may intersect on a face
-// if their distance on the template with the shape applied is at most kMaxTemplateGap, or
-// kMaxFacingTemplateGap if the triangles face each other.
+// The search for intersections on a face tests only pairs of triangles that are close together on
+// the template with the face's blend shape applied. There, the distance of the two triangles is at
+// most kMaxTemplateGap, or kMaxFacingTemplateGap if they face each other. Both lengths are
+// fractions of the skin's extent, about 430 mm.
 constexpr double kMaxTemplateGap = 0.008, kMaxFacingTemplateGap = 0.02;
 // number of rings of triangles to search around skin that may touch
 constexpr int kRings = 2;
@@ -35,8 +36,9 @@ constexpr double kArrangeFactor = 0.7;
 /// Averaging the displacements also changes the displacements of the lids. The vertical component
 /// of this change is multiplied by kLidHeightFactor, so that the eye stays closed.
 constexpr double kLidHeightFactor = 0.3;
-// Fractions of the skin's extent. kPushLength: length of the push in each round. kPushRadius: skin
-// is pushed up to this distance from intersections, measured at rest.
+// Fractions of the skin's extent. kPushLength: in each round, skin near intersections is pushed by
+// this length. kPushRadius: a round pushes the skin whose distance from an intersection, on the
+// face at rest, is at most this radius.
 constexpr double kPushLength = 0.00015, kPushRadius = 0.004;
 constexpr int kRounds = 30;
 constexpr int kPatience = 6;  // rounds without improvement after which the repair of lids ends
@@ -216,9 +218,11 @@ class SkinCrossings::Repair {
     }
   }
 
-  /// Arranges the skin near the intersections as on the template with the blend shape applied.
-  /// Averages the difference between face and template over skin that is close together on the
-  /// template with the blend shape applied.
+  /// Gives the skin near the intersections the arrangement that the skin has on the "shaped
+  /// template": the template with the blend shape applied. Each skin vertex has a difference: its
+  /// position on the face minus its position on the shaped template. The function replaces each
+  /// difference by the mean of the differences of vertices that are close together on the shaped
+  /// template.
   void arrange_as_template(const std::vector<Pair>& meeting, double grown) {
     const double unit = kArrangeFactor * grown * skin_.extent_;
     const std::vector<std::uint32_t> crossing = vertices_of(meeting, searched_skin_.search);
@@ -328,7 +332,8 @@ SkinCrossings::SearchedSkin SkinCrossings::find_searched_skin(const Positions& n
     searched_skin.shaped_positions.row(static_cast<Index>(i)) =
         shaped.row(searched_skin.skin_displacements[i].vertex);
   }
-  // Search skin that may touch, and a few rings of triangles around this skin.
+  // The search for intersections covers the skin that may touch other skin, and kRings rings of
+  // triangles around this skin.
   std::vector<bool> meets = skin_that_may_touch(skin_, neutral, shaped, extent_);
   for (int ring = 0; ring < kRings; ++ring) {
     std::vector<bool> wider = meets;

@@ -29,15 +29,16 @@ class SkinCrossings {
   /// Returns all triangles of the skin.
   const SkinTriangles& mesh() const { return skin_; }
 
-  /// The skin in which to search for intersections of a shape, see skin_that_may_touch.
+  /// The skin in which one shape may cause intersections of the skin with itself, see
+  /// skin_that_may_touch.
   struct SearchedSkin {
     CrossingSearch search;  ///< searches the triangles of the skin that may touch other skin
     /// for each triangle of `search`: whether the triangle is at an intersection that the template,
     /// or a head, already has in this shape. Intersections between two of these triangles are
     /// ignored on faces.
     std::vector<bool> may_intersect;
-    /// For each vertex: 1 for the upper lid and −1 for the lower lid if the shape closes this eye,
-    /// 0 for other skin. Empty if the shape closes no eye.
+    /// For each vertex: 1 on the upper lid and −1 on the lower lid of an eye that the shape closes;
+    /// 0 on all other skin. Empty if the shape closes no eye.
     std::vector<signed char> lid_sides;
     /// the rows of the shape's displacements whose vertices are skin
     std::vector<DisplacementRow> skin_displacements;
@@ -82,14 +83,16 @@ class SkinCrossings {
   /// A function that returns a cost of a shape's displacements, `moves`. This cost does not depend
   /// on intersections.
   using ExtraCost = std::function<double(const Positions& moves)>;
-  /// Removes intersections from a shape of a face. Around intersections, displacements are averaged
-  /// over skin that is close together at rest, so that the skin keeps its front-to-back order.
-  /// Eyelids are pushed apart, or get the front-to-back order of the template's lids.
+  /// Removes intersections from a shape of a face, in several rounds. Around intersections,
+  /// displacements are averaged over skin that is close together at rest, so that the skin keeps
+  /// its front-to-back order. Eyelids are pushed apart, or get the front-to-back order of the
+  /// template's lids. The result is the round with the lowest cost: the number of intersecting
+  /// triangles plus `extra_cost`.
   ///
   /// \param mesh   Equal to `face.rest`; modified during the call and restored.
   /// \param shape  Displacements of the face; adjusted.
-  /// \param extra_cost  Cost of displacements in addition to intersections, in units of one
-  ///                    intersecting triangle. The round with the lowest total cost is kept.
+  /// \param extra_cost  Additional cost of the displacements; 1 is the cost of one intersecting
+  ///                    triangle.
   /// \return       Number of triangles that still intersect other triangles.
   Index repair(const Face& face, const SearchedSkin& searched_skin, Positions& mesh,
                Displacements& shape, const ExtraCost& extra_cost = {}) const;

@@ -24,14 +24,14 @@ namespace {
 // the target.
 constexpr double kDepth = 0.001;
 constexpr double kFrontReach = 0.025;  // largest depth of a covered vertex on the template
-// Largest distance of a vertex behind the skin, as a fraction of the skin's extent. Vertices
-// farther behind the skin need no check.
+// Vertices of gums and teeth need a check only if their distance behind the skin is at most this
+// fraction of the skin's extent.
 constexpr double kNear = 0.008;
 constexpr double kPushedAround = 0.02;  // radius of the skin that a push moves
 // Only one vertex in each grid cell is checked. Size of a cell, as a fraction of the skin's extent.
 constexpr double kFrontCell = 0.0025;
-// skin is pushed only if its distance from the vertex is less than this fraction of the wanted
-// depth
+// A covered vertex should lie at CoveredVertex::depth below the skin. The skin in front of the
+// vertex is pushed only if the vertex lies at less than this fraction of that depth.
 constexpr double kTooNear = 0.25;
 // Only skin that faces the front covers vertices: smallest cosine between the skin's normal and the
 // head's front axis. Excludes the rims of the lips.
@@ -167,7 +167,8 @@ SkinOverParts::SkinOverParts(const Positions& shaped, const SkinTriangles& skin,
     if (facing < kMinFrontCosine || depth > kFrontReach * extent) continue;
     if (std::ranges::none_of(around[hit->triangle], is_moved)) continue;
     taken.insert(at);
-    // Collect the rings of triangles that may be in front of this vertex on a face.
+    // On a face, another triangle of the skin may be in front of this vertex. Collect the
+    // candidates: `rings` rings of triangles around the triangle that was hit on the template.
     std::vector<std::uint32_t> near = {numbers[hit->triangle]};
     for (int ring = 0; ring < rings; ++ring) {
       std::vector<std::uint32_t> wider;
@@ -191,9 +192,9 @@ void SkinOverParts::keep_in_front(const Positions& rest, const RigidMotion& face
                                   std::span<const DisplacementRow> rows, Positions& mesh,
                                   Displacements& shape) const {
   shape.add_to(mesh);
-  // For each covered vertex: largest distance by which the vertex may still push skin out of the
-  // way. At the start, this is the smallest distance by which the shape moves the covering
-  // triangle.
+  // For each covered vertex: a limit for the sum of the distances by which the vertex pushes skin
+  // forward in all rounds. Each round subtracts its push. The limit at the start is the smallest
+  // displacement of the covering triangle's three corners in the shape.
   std::vector<double> max_push;
   for (const CoveredVertex& covered : covered_vertices_) {
     double least = HUGE_VAL;

@@ -51,7 +51,9 @@ class SkinOverParts {
     Triangle covering_triangle;
     /// triangles near `covering_triangle`; on a generated face, any of them may cover the vertex
     std::vector<Triangle> candidates;
-    double depth;  ///< depth below the skin that the vertex should have, on the template's scale
+    /// How far the vertex should lie below the skin, in the unit of the template. On a face, this
+    /// depth is multiplied by the scale of the face relative to the template.
+    double depth;
   };
 
   /// A point of the skin, and the displacement by which to push the skin there.
@@ -69,7 +71,7 @@ class SkinOverParts {
                     Displacements& shape) const;
 
   HeadAxes axes_;
-  double extent_ = 0;
+  double extent_ = 0;  ///< diagonal of the bounding box of the template's skin
   /// the vertices of gums and teeth that the skin covers in this shape
   std::vector<CoveredVertex> covered_vertices_;
 };

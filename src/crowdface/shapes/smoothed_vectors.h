@@ -36,7 +36,8 @@ class SmoothedVectors {
     std::uint32_t index;  ///< Sample::index of the sample
     Eigen::Vector3d displacement;
   };
-  /// Returns the changes for all samples whose distance to a centre is less than `outer_radius`.
+  /// Smooths the values of the samples. Returns one change for each sample that is nearer than
+  /// `outer_radius` to one of the constructor's `centres`, in the order of the samples.
   ///
   /// \param samples  The samples. `affects` must be true for the position of each sample.
   std::vector<Change> changes(std::span<const Sample> samples) const;

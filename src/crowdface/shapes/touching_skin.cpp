@@ -28,8 +28,10 @@ constexpr double kFoldStrain = 0.5;
 // normals, only one of them is checked.
 constexpr double kContactCell = 0.003;
 
-/// Returns, for each vertex of the skin, one vertex that represents all vertices with similar
-/// normals in the same cell. Returns kNoIndex for vertices that are not skin.
+/// Groups the vertices of the skin: a group has the vertices with similar normals in one cell of a
+/// grid. Returns, for each vertex of the skin, the vertex that represents its group; kNoIndex for
+/// vertices that are not skin.
+/// \param cell  side of a grid cell
 std::vector<std::uint32_t> representatives(const SkinTriangles& skin, const Positions& shaped,
                                            const Positions& normals, double cell) {
   using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t, Index, bool>;

@@ -127,8 +127,8 @@ class Recurrence {
   Index terms_ = 1;
 };
 
-/// Stores which probes (vertices to record) lie in each tile, and copies the terms T_k(W) x at the
-/// probes into RecordedTerms.
+/// Stores which probes (vertices to record) lie in each tile, and copies the filter's Chebyshev
+/// terms at the probes into RecordedTerms.
 class ProbeRows {
  public:
   ProbeRows(const Tiling& tiling, RecordedTerms& probes)

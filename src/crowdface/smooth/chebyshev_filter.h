@@ -18,15 +18,19 @@ namespace crowdface {
 template <class T>
 struct FilterInput {
   std::vector<Row<T>> values;  ///< the vector field x, #V rows
-  /// coefficients a_k of each polynomial Σ_k a_k T_k(W) x to evaluate
+  /// Coefficients a_k of each polynomial Σ_k a_k T_k(W) x to evaluate. T_k is the k-th Chebyshev
+  /// polynomial, W is the matrix of ChebyshevFilter, and x is the vector field `values`.
   std::vector<ChebyshevSeries> series;
 };
 
-/// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. The positions of the
-/// probes at any level are linear combinations of the terms, so they need no further filter pass.
+/// The Chebyshev terms T_k(W) x at a few vertices (the probes), for every k. W is the matrix of
+/// ChebyshevFilter, and x is the filtered vector field. The positions of the probes at any
+/// smoothing level are linear combinations of the terms, so computing these positions takes no
+/// further pass of the filter.
 struct RecordedTerms {
   std::vector<std::uint32_t> vertices;  ///< vertex indices of the probes
-  Columns terms;  ///< #terms by 3·#vertices: row k receives T_k(W) x at the vertices
+  /// #terms by 3·#vertices: the filter writes the Chebyshev term T_k(W) x at the probes to row k
+  Columns terms;
 };
 
 /// Evaluates polynomials of the matrix W (the mean over a vertex's edge-neighbours) of one topology
@@ -66,8 +70,8 @@ class ChebyshevFilter {
   Tiling tiling_;  ///< the tiles of the mesh, which determine the order of the rows
 };
 
-/// Evaluates several polynomials of one vector field in one pass, in double precision:
-/// result[o] = Σ_k series[o][k] T_k(W) x.
+/// Evaluates several polynomials of the filter's matrix W (see ChebyshevFilter), applied to one
+/// vector field x, in one pass and in double precision: result[o] = Σ_k series[o][k] T_k(W) x.
 /// \param x  #V by 3.
 /// \throws BrokenPrecondition if x does not have one row per vertex of the filter.
 std::vector<Positions> filter_many(const ChebyshevFilter& filter,

@@ -31,8 +31,9 @@ ChebyshevSeries power_series(OperatorKind kind, std::uint64_t level,
 ChebyshevSeries displacement_series(OperatorKind kind, std::uint64_t level,
                                     double tolerance = kSeriesTolerance);
 
-/// The sum of the coefficients. The series multiplies the value of a fixed vertex by this sum. Sums
-/// within rounding of 0 or 1 are returned as exactly 0 or 1.
+/// The sum of the coefficients. At a vertex that smoothing leaves fixed, every Chebyshev term
+/// equals the vertex's value, so the series multiplies the value by this sum. If the sum differs
+/// from 0 or 1 only by rounding, the function returns exactly 0 or 1.
 double coefficient_sum(const ChebyshevSeries& series);
 
 }  // namespace crowdface

@@ -23,10 +23,12 @@ CubicFit fit_cubic(const ChebyshevFilter& filter, const Positions& positions,
     const auto basis = cubic_basis(levels[static_cast<std::size_t>(l)], max_level);
     for (Index p = 0; p < CubicFit::kRank; ++p) design(l, p) = basis[static_cast<std::size_t>(p)];
   }
-  // Least squares is linear in the data: c_p = Σ_l P_pl (S_{L_l} x − x), where P is the
-  // pseudo-inverse of the design matrix. With fewer than four levels, P gives the smallest
-  // coefficients that interpolate the levels. Because the fit is linear, the Chebyshev series of
-  // all levels can be combined into one series per field.
+  // The least-squares fit is linear in the data. With the levels L_l numbered by l, and the
+  // displacements S_{L_l} x − x by the smoothing to these levels, field c_p of the fit is
+  //   c_p = Σ_l P_pl (S_{L_l} x − x),
+  // where P is the pseudo-inverse of the design matrix. If there are fewer than four levels, P
+  // gives the smallest coefficients that interpolate the levels. Because the fit is linear, the
+  // Chebyshev series of all levels can be combined into one series for each field.
   const Eigen::MatrixXd fit =
       design.completeOrthogonalDecomposition().solve(Eigen::MatrixXd::Identity(count, count));
   std::vector<ChebyshevSeries> combined(CubicFit::kRank);

@@ -9,18 +9,22 @@
 
 namespace crowdface {
 
-/// The paper's approximation of the levels (§5.1): each coordinate is a cubic in t = L/L_max, S_L x
-/// − x ≈ c_0 + c_1 t + c_2 t² + c_3 t³, fitted by least squares to about 40 levels. The error is
-/// millimetres where the head moves by centimetres (docs/method.md), so this fit only serves
-/// comparisons.
+/// The approximation of smoothed heads in the paper on which crowdface is based (§5.1, see
+/// docs/method.md). S_L x are the positions x of a head after L smoothing iterations (level L).
+/// With t = L/L_max, each coordinate of the displacement is a cubic in t:
+///
+///     S_L x − x ≈ c_0 + c_1 t + c_2 t² + c_3 t³
+///
+/// The cubic is fitted by least squares to about 40 levels. The error is millimetres where the head
+/// moves by centimetres, so this fit only serves comparisons.
 struct CubicFit {
-  static constexpr int kRank = 4;  ///< number of fields c_p
+  static constexpr int kRank = 4;  ///< number of vector fields, the coefficients of the cubic
   std::uint64_t max_level = 1;     ///< L_max, the highest fitted level
   LevelFields fields;              ///< the fields c_0 … c_3
 };
 
-/// The fit uses the levels that levels_dense_at_start returns for this number of steps, as in the
-/// paper.
+/// The cubic is fitted to the smoothing levels that levels_dense_at_start returns for this number
+/// of steps. The paper (docs/paper.md) uses the same number.
 inline constexpr int kCubicFitSteps = 40;
 
 /// Fits the cubic functions to one head. The recurrence accumulates the fields c_0 … c_3 directly,

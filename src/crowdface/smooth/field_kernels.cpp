@@ -34,10 +34,10 @@ void round_to_int16(const float* from, std::size_t count, float scale, std::int1
   for (; i < count; ++i) to[i] = static_cast<std::int16_t>(std::nearbyint(from[i] * scale));
 }
 
-/// Multiplies and adds with separate rounding (no FMA), so that the number of fields kept does not
-/// depend on the instruction set. For each level, adds up the fields from the last to the first
-/// until the sum exceeds the limit. The tile must keep the field at which this happens and all
-/// fields before it.
+/// For each level, adds up the fields with descending index p, each multiplied by its level
+/// function, until the sum exceeds the limit at one vertex. If this happens at field p, the tile
+/// must keep the fields 0 … p. Multiplies and adds with separate rounding (no FMA), so that the
+/// number of fields kept does not depend on the instruction set.
 TruncationError choose_fewest_fields(const float* fields, std::size_t count, const float* functions,
                                      std::size_t stride, std::size_t levels, float most) {
   const Lanes lanes;

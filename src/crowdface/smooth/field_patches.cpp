@@ -16,9 +16,13 @@ namespace {
 
 constexpr std::size_t kPatchesPerTask = 16;
 
-/// Returns weights w_p that bound the error of a sum: |Σ_p φ_p(L) e_p| ≤ √Σ_p |w_p e_p|² for each
-/// of the levels L and any error vectors e_p. With m_p = max_L |φ_p(L)|, the Cauchy–Schwarz
-/// inequality gives w_p = m_p √(max_L Σ_q (φ_q(L) / m_q)²).
+/// Returns a weight w_p for each vector field of a head. The weights turn errors e_p of the fields
+/// at a vertex into an upper bound for the vertex's error at every level L in `levels`:
+///
+///     |Σ_p φ_p(L) e_p| ≤ √(Σ_p w_p² |e_p|²)
+///
+/// φ_p are the level functions of the head (see HeadSmoothing). With m_p = max_L |φ_p(L)|, the
+/// Cauchy–Schwarz inequality gives w_p = m_p √(max_L Σ_q (φ_q(L) / m_q)²).
 std::vector<double> error_weights(const HeadSmoothing& head,
                                   std::span<const std::uint64_t> levels) {
   std::vector<std::vector<double>> functions;
@@ -144,14 +148,15 @@ class PatchMaker {
       skeleton_.push_back(pivot);
       for (const std::size_t chosen : skeleton_) left[chosen] = 0;
     }
-    // The patch does not compress: keep all vertices.
+    // Interpolation from fewer vertices would not save memory in this patch: store all vertices.
     skeleton_.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) skeleton_[i] = i;
   }
 
-  /// Appends the interpolation weights, #skeleton by kPatchVertices. For each vertex, back
-  /// substitution finds the linear combination of the factor's rows at the skeleton vertices that
-  /// equals the factor's row at this vertex.
+  /// Appends the interpolation weights, #skeleton by kPatchVertices. `factor_` is a Cholesky factor
+  /// with one row for each vertex of the patch. The row of any vertex is a linear combination of
+  /// the skeleton vertices' rows. The coefficients, found by back substitution, are the vertex's
+  /// weights.
   void add_weights(std::vector<float>& to) const {
     const std::size_t size = skeleton_.size();
     std::vector<PatchColumn> weights(size);
@@ -204,8 +209,9 @@ class PatchMaker {
   /// for each head: number of its leading fields that the patch stores
   std::vector<std::uint32_t> counts_;
   std::vector<float> columns_, values_;
-  std::vector<PatchColumn> factor_;    ///< columns of the Cholesky factor, one per skeleton vertex
-  std::vector<std::size_t> skeleton_;  ///< indices of the skeleton vertices within the patch
+  std::vector<PatchColumn> factor_;  ///< columns of the Cholesky factor, one per skeleton vertex
+  /// the skeleton vertices, as indices into the vertices of the patch
+  std::vector<std::size_t> skeleton_;
 };
 
 /// Owns the memory that the spans of PatchArrays refer to.

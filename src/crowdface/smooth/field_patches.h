@@ -15,11 +15,16 @@
 namespace crowdface {
 
 /// An approximation of one head's shape after any number L of smoothing iterations:
-/// S̃_L x = x + Σ_p φ_p(L)·c_p. The vector fields c_p and the level functions φ_p come from a
-/// LevelBasis or the paper's CubicFit.
+///
+///     S̃_L x = x + Σ_p φ_p(L)·c_p
+///
+/// Here, x are the head's positions, and S̃_L x approximates the positions after L iterations. The
+/// vector fields c_p and the level functions φ_p, both numbered by p, come from a LevelBasis or a
+/// CubicFit.
 struct HeadSmoothing {
-  LevelFields fields;  ///< the vector fields c_p: an offset for each vertex
-  /// returns φ_0(L), φ_1(L), … for a level L
+  LevelFields fields;  ///< the vector fields c_p, numbered by p; each has a vector at each vertex
+  /// For a level (number of smoothing iterations), returns one factor for each of the fields: the
+  /// values φ_0(L), φ_1(L), … of the level functions.
   std::function<std::vector<double>(std::uint64_t level)> functions;
 };
 
@@ -43,12 +48,12 @@ struct FieldPatch {
   /// of `vertices`.
   const float* weights = nullptr;
 
-  /// Whether all vertices of the patch belong to the skeleton, so that no interpolation is needed.
+  /// Whether the patch stores the fields at all its vertices, so that no interpolation is needed.
   bool stores_all_vertices() const { return stored_vertex_count == vertices.size(); }
   /// Number of 16-bit values stored for each field: 3 coordinates at each of the
   /// `stored_vertex_count` vertices, rounded up to a multiple of kPatchPadding.
   std::size_t values_per_field() const { return values_per_field(stored_vertex_count); }
-  /// Like values_per_field(), for a given number of skeleton vertices.
+  /// Like values_per_field(), for a given number of vertices at which fields are stored.
   static std::size_t values_per_field(std::size_t stored_vertex_count) {
     return (3 * stored_vertex_count + kPatchPadding - 1) / kPatchPadding * kPatchPadding;
   }

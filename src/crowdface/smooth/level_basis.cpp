@@ -90,10 +90,10 @@ class TileFitter {
     }
   }
 
-  /// The fields that a sequence of tiles keeps, and the largest error of the tiles' vertices at any
-  /// level.
+  /// The result of fitting consecutive tiles of vertices.
   struct FittedTiles {
-    QuantizedTiles fields;
+    QuantizedTiles fields;  ///< for each tile: the leading vector fields that the tile stores
+    /// largest distance of any vertex of the tiles, at any tested level, from its exact position
     double max_error = 0;
     /// index, in the list of tested levels, of the level at which `max_error` occurs
     std::size_t level = 0;
@@ -123,13 +123,15 @@ class TileFitter {
         rounding_bounds.push_back(rounding_bounds.back() +
                                   max_magnitudes_[p] * std::sqrt(3.0) * half_a_step);
       }
-      // Keep as few of the remaining fields as the tolerance allows.
-      const double most =
+      // Of the tile's significant fields, keep the fewest leading fields whose truncation error is
+      // at most `max_truncation_error`.
+      const double max_truncation_error =
           std::min(tolerance_ - rounding_bounds.back(), kTruncationShare * tolerance_) - skipped;
-      const TruncationError left_out =
-          choose_fewest_fields(by_coordinate.data(), significant_field_count, functions_.data(),
-                               count_, static_cast<std::size_t>(directions_.level_functions.rows()),
-                               most > 0 ? static_cast<float>(most * most) : 0.0F);
+      const TruncationError left_out = choose_fewest_fields(
+          by_coordinate.data(), significant_field_count, functions_.data(), count_,
+          static_cast<std::size_t>(directions_.level_functions.rows()),
+          max_truncation_error > 0 ? static_cast<float>(max_truncation_error * max_truncation_error)
+                                   : 0.0F);
       fitted.fields.add(by_vertex, left_out.kept_fields);
       const double missed = std::sqrt(static_cast<double>(left_out.squared_error)) + skipped +
                             rounding_bounds[left_out.kept_fields];
@@ -195,10 +197,14 @@ class TileFitter {
   const ChebyshevFilter& filter_;
   const std::vector<FieldRows>& displacements_;
   const PrincipalDirections& directions_;
-  std::size_t count_;  ///< number of directions, equal to the number of nodes
+  /// number of principal directions, which is the number of nodes of LevelNodes
+  std::size_t count_;
   double tolerance_;
-  std::vector<float> functions_;           ///< #levels by #directions: φ_p at the tested levels
-  std::vector<double> max_magnitudes_;     ///< largest |φ_p| over the tested levels
+  /// #levels by #directions: the level function φ_p of each direction p (see LevelBasis) at each of
+  /// the levels in directions_.level_functions
+  std::vector<float> functions_;
+  /// for each direction: largest absolute value of its level function over the levels of functions_
+  std::vector<double> max_magnitudes_;
   std::vector<float> field_coefficients_;  ///< #nodes by #directions, see PrincipalDirections
 };
 

@@ -10,11 +10,13 @@
 
 namespace crowdface {
 
-/// Distances between vertex positions from a basis and from the exact filter, in the unit of the
-/// positions.
+/// The error of a basis: distances between smoothed vertex positions from the basis and from the
+/// exact filter, in the unit of the positions.
 struct BasisError {
-  /// Largest distance: the largest error of the fields at any vertex and tested level, plus the
-  /// largest error of the interpolation between nodes, measured at the probes.
+  /// Upper bound for the distance at any vertex and any tested level. It is the sum of two errors.
+  /// The first is the largest error, at any vertex, from keeping only a few vector fields. The
+  /// second is the largest error of the interpolation between the nodes of LevelNodes; it is
+  /// measured only at a few vertices (the probes).
   double max = 0;
   double rms = 0;  ///< root mean square of the distances, over the probes and the tested levels
   std::uint64_t level = 0;  ///< the level at which `max` occurs
@@ -24,14 +26,16 @@ struct BasisError {
 /// Level L is the head after L smoothing iterations; level 0 is the head itself.
 struct LevelBasis {
   std::uint64_t max_level = 1;  ///< L_max, the highest level that the basis represents
-  /// #nodes by rank, coefficients of the level functions:
-  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the interpolation weights of
-  /// LevelNodes
+  /// #nodes by rank: row n belongs to node n of LevelNodes, column p to the vector field c_p.
+  /// Column p gives the level function by which c_p is multiplied at level L:
+  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p). Here, w_n(L) are the interpolation weights of
+  /// LevelNodes.
   Eigen::MatrixXd function_coefficients;
-  LevelFields fields;  ///< the vector fields c_p, with a vector at each vertex of the mesh
-  BasisError error;    ///< measured distances between this basis and the exact filter
+  /// the vector fields c_p (p = 0 … rank() − 1), each with a vector at each vertex of the mesh
+  LevelFields fields;
+  BasisError error;  ///< measured distances between this basis and the exact filter
 
-  /// Number of vector fields c_p.
+  /// Number of vector fields of the basis.
   Index rank() const { return function_coefficients.cols(); }
 };
 

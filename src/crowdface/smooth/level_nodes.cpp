@@ -13,9 +13,10 @@ namespace crowdface {
 namespace {
 
 constexpr std::size_t kMaxNodes = 48;
-/// Weight of negative eigenvalues in the least-squares fit of the interpolation weights. Negative
-/// eigenvalues belong to checkerboard modes. The weight is the typical relative amplitude of these
-/// modes in the shape of a head.
+/// Weight of the smoothing operator's negative eigenvalues in the least-squares fit of the
+/// interpolation weights. Negative eigenvalues belong to checkerboard modes. In the shape of a
+/// head, the typical amplitude of these modes is this fraction of the amplitude of the smoothest
+/// modes.
 constexpr double kNegativeWeight = 1e-2;
 
 /// Exponentiation by squaring, because std::pow differs between C libraries.
@@ -27,9 +28,10 @@ double power(double base, std::uint64_t exponent) {
   return result;
 }
 
-/// The levels that may become nodes. If max_level is small, these are all levels. Otherwise they
-/// are the levels up to 64, and further levels that are dense near 0, each with its successor, so
-/// that even and odd levels occur.
+/// The levels that may become nodes. If max_level is at most kAll, these are all levels up to
+/// max_level. Otherwise, these are all levels up to 64, and a selection of the higher levels. The
+/// distance between selected levels grows with the level. The successor of each selected level is
+/// also a candidate, so that even and odd levels occur.
 std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
   constexpr std::uint64_t kAll = 1024;
   constexpr int kSteps = 768;
@@ -56,9 +58,10 @@ std::vector<std::uint64_t> node_candidates(std::uint64_t max_level) {
 LevelNodes::LevelNodes(OperatorKind kind, std::uint64_t max_level, double max_residual)
     : max_level_(max_level) {
   require(max_level > 0, "nodes of levels need a largest level of at least 1");
-  // Build the grid of eigenvalues λ: s = 1 − |λ| falls geometrically from 1 until s is too small to
-  // matter at any level up to L_max. In the shape of a head, the amplitude of a mode grows with the
-  // mode's wavelength, which is proportional to 1/√s.
+  // Build a grid of eigenvalues λ of the smoothing operator. On this grid, s = 1 − |λ| falls
+  // geometrically from 1, until s is too small to matter at any level up to max_level. The weight
+  // of a grid point is the typical amplitude of the modes with this eigenvalue in the shape of a
+  // head. This amplitude grows with the mode's wavelength, which is proportional to 1/√s.
   constexpr double kRatio = 1.1;
   const double least = 0.3 / static_cast<double>(max_level);
   for (double s = 1; s > least; s /= kRatio) {
@@ -134,8 +137,9 @@ std::vector<double> LevelNodes::interpolation_weights(std::uint64_t level) const
     result[static_cast<std::size_t>(node - levels_.begin())] = 1;
     return result;
   }
-  // Find the weights by least squares over the grid: project the level onto the orthonormal
-  // directions, then solve the triangular system for the weights of the nodes.
+  // Find the weights of the nodes by least squares over the grid of eigenvalues: project the
+  // displacement at this level onto the orthonormal basis of the nodes' displacements. Then solve
+  // the triangular system for the weights of the nodes.
   const Spectrum level_displacement = displacement(level);
   std::vector<double> share;
   share.reserve(orthonormal_basis_.size());

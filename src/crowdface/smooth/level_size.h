@@ -15,8 +15,9 @@ inline constexpr double kWavelengthPerSigma = 5.336446256636997;
 inline constexpr std::uint64_t kMaxLevel = 1'000'000'000;
 
 /// The number of smoothing iterations whose half-amplitude wavelength is nearest to `wavelength`,
-/// for a mesh with the given edge length. L iterations act like a Gaussian of σ = h·√(L/2) (lazy:
-/// h·√L/2) with h = edge_length. The Gaussian halves the amplitude of waves of length
+/// for a mesh with the given edge length. L iterations act like a Gaussian filter. With h =
+/// edge_length, its standard deviation is σ = h·√(L/2) for the umbrella operator and σ = (h/2)·√L
+/// for the lazy operator. The Gaussian halves the amplitude of waves of length
 /// kWavelengthPerSigma·σ.
 /// \param wavelength   half-amplitude wavelength, the wavelength whose amplitude the filter halves.
 /// \param edge_length  in the unit of `wavelength`.

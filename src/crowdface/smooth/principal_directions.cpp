@@ -77,10 +77,11 @@ Eigen::MatrixXd second_moments(const NodeDisplacements& sample) {
 PrincipalDirections weighted_directions(const TestedLevels& tested,
                                         const Eigen::VectorXd& importance,
                                         const Eigen::MatrixXd& moments) {
-  // Let Q·T be the QR factorization of the node weights at the tested levels, scaled by
-  // `importance`. Let C be the displacements at the nodes. With Z = T·C the trajectories are Q·Z.
-  // Their principal directions are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and
-  // Q·Z = (Q·U)·(Uᵀ·T·C).
+  // A trajectory is the displacement of a sampled vertex at all tested levels. C are the
+  // displacements at the nodes. With the node weights N (tested.node_weights), the trajectories are
+  // the columns of N·C. Multiply row l of N by importance(l), and let Q·T be the QR factorization
+  // of this product. With Z = T·C, the weighted trajectories are Q·Z. Their principal directions
+  // are the eigenvectors U of Z·Zᵀ = T·C·Cᵀ·Tᵀ, and Q·Z = (Q·U)·(Uᵀ·T·C).
   const Eigen::MatrixXd t = triangular_factor(importance.asDiagonal() * tested.node_weights);
   const Eigen::MatrixXd u =
       symmetric_eigen(product(product(t, moments), t.transpose())).eigenvectors;
@@ -120,8 +121,9 @@ void combine_fields(const PrincipalDirections& directions, const NodeDisplacemen
   }
 }
 
-/// The largest error over the sampled vertices, for each tested level and each number of kept
-/// directions: #levels by #nodes + 1. Single precision is accurate enough for choosing a rank.
+/// Returns PrincipalDirections::max_errors: the largest distance of a sampled vertex from its exact
+/// position, for each tested level and each number of kept directions (0 to #nodes). The function
+/// computes in single precision, which is accurate enough for choosing a rank.
 Eigen::MatrixXd max_errors(const PrincipalDirections& directions, const NodeDisplacements& sample) {
   const Index nodes = sample.node_count, levels = directions.level_functions.rows();
   // Transpose the matrix, so that the functions of one level are contiguous.

@@ -8,9 +8,10 @@
 
 namespace crowdface {
 
-/// The levels at which a basis is tested, and the weights of the nodes at these levels. The levels
-/// are: 129 levels evenly spaced in √L, the successor of each of these levels (so that even and odd
-/// levels occur), and the nodes.
+/// The smoothing levels at which a basis is tested, and the interpolation weights of the nodes of
+/// LevelNodes at these levels. The tested levels are: 129 levels evenly spaced in √level, the
+/// successor of each of these levels (so that even and odd levels occur), and the levels of the
+/// nodes.
 struct TestedLevels {
   std::vector<std::uint64_t> levels;  ///< the tested levels, ascending
   /// #levels by #nodes: LevelNodes::interpolation_weights of each tested level
@@ -19,8 +20,8 @@ struct TestedLevels {
 /// Makes the list of the tested levels for these nodes.
 TestedLevels make_tested_levels(const LevelNodes& nodes);
 
-/// Displacements of some vertices at the node levels (LevelNodes): coordinate c of vertex v at node
-/// n is displacements[(v·#nodes + n)·3 + c].
+/// Displacements of some vertices (the sample) at the levels of the nodes of LevelNodes. Coordinate
+/// c of vertex number v of the sample at node n is displacements[(v·#nodes + n)·3 + c].
 struct NodeDisplacements {
   Index node_count = 0;
   std::vector<double> displacements;  ///< the displacements in one list: #vertices by #nodes by 3
@@ -28,14 +29,18 @@ struct NodeDisplacements {
 };
 
 /// Orthogonal directions in the space of vertex trajectories, most important first. A trajectory is
-/// the displacement of a vertex as a function of the level. All directions together reproduce the
-/// displacements at the node levels exactly; the first few directions reproduce them approximately.
+/// the displacement of a vertex as a function of the smoothing level (number of smoothing
+/// iterations). All directions together reproduce the displacements at the levels of the nodes (see
+/// LevelNodes) exactly; the first few directions reproduce them approximately.
 struct PrincipalDirections {
-  /// #nodes by #nodes, coefficients of the level functions:
-  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p), where w_n are the weights of LevelNodes
+  /// #nodes by #nodes: row n belongs to node n, column p to direction p. Column p gives the level
+  /// function of direction p, by which the direction's vector field is multiplied at level L:
+  /// φ_p(L) = Σ_n w_n(L) function_coefficients(n, p). Here, w_n(L) are the interpolation weights of
+  /// LevelNodes.
   Eigen::MatrixXd function_coefficients;
-  /// #nodes by #nodes, coefficients of the vector fields: c_p = Σ_n field_coefficients(n, p) d_n.
-  /// d_n holds the displacements of all vertices at the smoothing level of node n.
+  /// #nodes by #nodes: column p gives the vector field of direction p,
+  /// c_p = Σ_n field_coefficients(n, p) d_n. Here, d_n are the displacements of all vertices at the
+  /// smoothing level of node n.
   Eigen::MatrixXd field_coefficients;
   Eigen::MatrixXd level_functions;  ///< #levels by #nodes: φ_p at the tested levels
   /// #levels by (#nodes + 1): entry (l, r) is the largest error of any sampled vertex at the tested

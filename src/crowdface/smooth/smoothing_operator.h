@@ -14,10 +14,10 @@ enum class Boundary {
   kFree,   ///< boundary vertices are averaged like all other vertices
 };
 
-/// The linear map that one smoothing iteration applies.
+/// The linear map that one smoothing iteration applies to the positions x.
 enum class OperatorKind {
-  kUmbrella,  ///< W replaces each vertex by the mean of its edge-neighbours (Eq. 1)
-  kLazy,      ///< (x + W x)/2, which removes checkerboard modes on quad meshes
+  kUmbrella,  ///< the map W: W x has, for each vertex, the mean of its edge-neighbours (Eq. 1)
+  kLazy,      ///< the map (x + W x)/2 with the W of kUmbrella; removes checkerboards of quad meshes
 };
 
 /// The linear map of one smoothing iteration (Eq. 1), stored as neighbour lists. Fixed vertices

@@ -35,9 +35,10 @@ class RowArray {
   std::size_t size_ = 0;
 };
 
-/// One step of the Chebyshev recurrence, in place, on the rows that the runs cover: previous ←
-/// scale·(mean of the neighbours in `now`) − previous. With scale 2 this is T_{k+1}(W) x = 2 W
-/// T_k(W) x − T_{k−1}(W) x; with scale 1 and previous = 0 it is the first step, W x. Neighbours are
+/// One step of the Chebyshev recurrence of ChebyshevFilter, in place, on the rows that the runs
+/// cover: previous ← scale · (mean of the neighbours in `now`) − previous. With scale = 2, this is
+/// a step from the terms k − 1 (`previous`) and k (`now`) to the term k + 1. With scale = 1 and
+/// previous = 0, this is the first step, which computes the mean of the neighbours. Neighbours are
 /// added in list order, so that the bits of the result do not depend on the order of computation of
 /// the rows.
 template <class T>

@@ -42,8 +42,8 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, 3> cell) {
 }
 
 /// Orders a tile's own vertices breadth first (Cuthill & McKee 1969), then sorts them by valence
-/// with a stable sort. With this order, the neighbours of consecutive rows lie in few short ranges
-/// of rows.
+/// with a stable sort. The filter stores the vertices in this order, one row for each vertex. With
+/// this order, the mesh neighbours of vertices in consecutive rows lie in few short ranges of rows.
 void order_within(const Tile& tile, const SmoothingOperator& smoothing,
                   const std::vector<std::uint32_t>& tile_of, std::uint32_t tile_index,
                   std::vector<bool>& seen, std::vector<std::uint32_t>& order) {

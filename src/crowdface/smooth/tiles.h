@@ -54,10 +54,10 @@ struct Tiling {
 /// index.
 std::vector<std::uint32_t> hilbert_order(const Positions& positions);
 
-/// Cuts the mesh into tiles of equal size along the order of hilbert_order. This makes each tile a
-/// compact piece of the surface.
+/// Cuts the mesh into tiles. Each tile gets a range of consecutive vertices in the order that
+/// hilbert_order returns, so that the tile is a compact piece of the surface.
 /// \param positions   #V by 3, any head of the topology.
-/// \param tile_rows   largest number of own rows in each tile.
+/// \param tile_rows   largest number of vertices that a tile owns (its own rows).
 /// \param ring_count  number of recurrence steps that a tile can run on its own.
 Tiling cut_into_tiles(const SmoothingOperator& smoothing, const Positions& positions,
                       Index tile_rows, int ring_count);

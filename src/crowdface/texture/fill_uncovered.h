@@ -16,7 +16,8 @@ namespace crowdface {
 /// \param values  height by width by #channels.
 template <class Value>
 void fill_uncovered(const SurfaceTexels& texels, std::span<const Value> fill, Value* values) {
-  // How many rows and how many gutter texels one parallel task fills.
+  // A parallel task of the first loop fills kRowsPerBlock rows; a parallel task of the second loop
+  // fills kGutterTexelsPerBlock gutter texels.
   constexpr int kRowsPerBlock = 16;
   constexpr std::size_t kGutterTexelsPerBlock = 1 << 14;
   const std::size_t channels = fill.size();

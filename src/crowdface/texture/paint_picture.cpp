@@ -46,7 +46,8 @@ void blend_row(const SurfaceTexels& texels, int y, const VertexFactorsOfImage& f
       buffer.heads[h][c] = maps[fields.heads[h]]->row(static_cast<int>(c), y);
     }
   }
-  // Kernels may read texels of the next row, which the last row does not have.
+  // The SIMD kernels may read up to kRowSlack texels beyond the end of a row, which belong to the
+  // next row. After the last row of the image, there are no such texels.
   const auto width = static_cast<std::size_t>(texels.width());
   const std::size_t readable = y + 1 < texels.height() ? width + kRowSlack : width;
   const auto row = static_cast<float>(y);
@@ -71,10 +72,11 @@ std::uint16_t word_of(float share) {
   return static_cast<std::uint16_t>(std::clamp(65535 * share + 0.5F, 0.0F, 65535.0F));
 }
 
-/// Writes the colours of covered texels as sRGB bytes. Returns the sum of the written values of
-/// each channel.
-/// \param sums  densities, one row per channel.
+/// Writes the colours of the covered texels of one row as sRGB bytes.
+/// \param sums  the blended optical densities of the texels (base + Σ_h factor_h · map_h), one row
+///              per channel.
 /// \param out   the row of bytes.
+/// \return for each channel: the sum of the written bytes.
 RowSums write_colours(std::span<const SurfaceTexels::Span> spans, std::span<float* const> sums,
                       std::uint8_t* out) {
   static const std::uint8_t* const srgb8 = srgb8_by_density().data();

@@ -26,10 +26,12 @@ struct VertexFactorsOfImage {
   std::size_t values_per_vertex() const { return channels + heads.size(); }
 };
 
-/// Computes a texture image of a face: the value of a covered texel is base + Σ_h factor_h ·
-/// (stored value of head h's map). Texels beyond the gutter get the mean of the covered texels.
+/// Computes a texture image of a face. The value of a texel that the mesh covers is the base value
+/// plus Σ_h (factor of head h) · (stored value of head h's map). Texels beyond the gutter get the
+/// mean of the covered texels.
 /// \param coding  content of the image, and the range to which its values are clamped.
 /// \param maps    one map per head, each with the size of the picture.
+/// \param fields  the base values and the factors of the heads.
 BlendedPicture paint_picture(const SurfaceTexels& texels, const MapCoding& coding,
                              const std::vector<std::shared_ptr<const TextureMap>>& maps,
                              const VertexFactorsOfImage& fields);

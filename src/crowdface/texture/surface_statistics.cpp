@@ -206,9 +206,11 @@ void multiply_details(const CompressedRows<Sample>& samples, const HeadMaps& map
   });
 }
 
-/// Divides the pairs of heads into groups of one to three consecutive pairs, so that the products
-/// of a group can be smoothed as one row. All pairs of a group have products at the same vertices:
-/// for each texture image, either every pair of the group has the maps of both heads, or none has.
+/// Divides the pairs of heads into groups of one to three consecutive pairs. For each pair, the
+/// product of both heads' details is smoothed over the mesh. The filter smooths three numbers per
+/// vertex, so it smooths the products of a whole group together. All pairs of a group have products
+/// at the same vertices: for each texture image, either every pair of the group has the maps of
+/// both heads, or none has.
 /// \return for each group: the index of its first pair, and the index after its last pair.
 std::vector<std::pair<std::size_t, std::size_t>> group_pairs(const HeadMaps& maps) {
   std::vector<std::vector<bool>> known;  // for each pair and picture: whether both heads have a map

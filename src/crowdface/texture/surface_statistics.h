@@ -17,8 +17,10 @@ struct SurfaceStatistics {
 
   /// for each head, #V by 3: values of the head's maps, smoothed over the mesh
   std::vector<Colours> coarse_values;
-  /// The covariance of the details of heads a and b around a vertex, summed over the channels: the
-  /// mean product of both heads' differences between map and `coarse_values`.
+  /// The covariance of the details of heads a and b around a vertex. The detail of a head at a
+  /// point is the value of the head's map minus the head's `coarse_values`. The function returns
+  /// the mean, over the points around the vertex, of the dot product of both details (the sum over
+  /// the channels).
   float covariance(std::size_t vertex, std::size_t a, std::size_t b) const {
     return covariances[vertex * pair_count + pair_index(a, b)];
   }

@@ -37,6 +37,8 @@ class SurfaceTexels {
   /// corner has the barycentric coordinate t[0] + x · t[1] + y · t[2] with t = third_barycentric.
   struct Triangle {
     std::array<std::uint32_t, 3> corners;  ///< indices into `vertices()`
+    /// coefficients of the barycentric coordinates of the second and the third corner, as linear
+    /// functions of the texel: constant, factor of x, factor of y
     std::array<float, 3> second_barycentric, third_barycentric;
     std::uint32_t face = 0;  ///< index of the polygon in the topology
   };
@@ -59,7 +61,7 @@ class SurfaceTexels {
   int height() const { return size_.height; }  ///< in texels
   /// Vertices of the triangles in this texture image, ascending.
   const std::vector<std::uint32_t>& vertices() const { return vertices_; }
-  /// The triangle with the index of a Span.
+  /// Returns a triangle. \param t  index of the triangle, such as Span::triangle
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   /// The covered texels of row y, from left to right.
   std::span<const Span> row(int y) const {

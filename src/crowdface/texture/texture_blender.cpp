@@ -219,7 +219,8 @@ VertexFactorsOfImage TextureBlender::vertex_factors_of_image(std::size_t picture
   VertexFactorsOfImage fields;
   fields.channels = static_cast<std::size_t>(codings_[picture].channels);
   for (std::size_t h = 0; h < weights.of_face.size(); ++h) {
-    // Keep the head only if its weight is positive in at least one region or in the target colours.
+    // Leave out heads whose weights are all zero. A head has a weight in each region, and a weight
+    // in the target's colours (see shares_by_head), which are the colours of eyes and teeth.
     double most = options_.uses_target_colours_only.empty() ? 0.0 : weights.of_target[h];
     for (const HeadWeights& of_region : weights.of_region) most = std::max(most, of_region[h]);
     if (most > 0) fields.heads.push_back(h);

@@ -18,7 +18,8 @@ namespace crowdface {
 struct TextureBlendOptions {
   /// how far the statistics of the heads' maps are smoothed over the mesh
   StatisticsScale statistics_scale;
-  /// for each vertex: the vertex's weight in means over the face; not all weights may be zero
+  /// for each vertex: the area of the skin around it, in any unit; zero for vertices that do not
+  /// count in the regions' shares of the face's area. Not all areas may be zero.
   std::vector<double> vertex_areas;
   /// For each vertex, whether it gets only the target's colours, as eyes and teeth do; may be
   /// empty.
@@ -27,19 +28,23 @@ struct TextureBlendOptions {
 
 /// Blends a texture for each face from the textures of the heads (docs/textures.md). The map of
 /// head h has the values D_h: optical densities of colours, slopes of normals, or plain values. C_h
-/// is the coarse part of D_h. The blended value is
+/// is the coarse part of D_h. The blended value D is given by this formula:
 ///
 ///     D = Σ W_h C_h + g Σ v_h (D_h − C_h)
 ///
+/// The sums are over all heads h. The symbols have these meanings:
+///
 /// - W_h, the weight of the coarse part, is the same at all points of a face. W_h is the mean of
 ///   two weights of head h: the head's weight in the target's colours, and the area-weighted mean
-///   of the head's weights in all regions (see colour_weights).
+///   of the head's weights in all regions (see colour_weights). The weights in the target's colours
+///   are the recipe's colour weights if given; otherwise, they are the heads' weights in the target
+///   (1 for the target head, or the weights of a mixture).
 /// - v_h, the weight of the detail, varies over the face. v_h is the mean of W_h and the weight of
 ///   head h in the region at the point.
 /// - The gain g restores the contrast of detail that averaging removes:
-///   g² = Σ v_h c_hh / ΣΣ v_h v_i c_hi with the covariances c of detail. If the details of all
-///   heads agree, g is 1. The largest value of g is 1/√Σ v_h², the gain for uncorrelated details
-///   (after Heitz & Neyret 2018).
+///   g² = Σ_h v_h c_hh / Σ_h Σ_i v_h v_i c_hi, where c_hi is the covariance of the details of heads
+///   h and i. If the details of all heads agree, g is 1. The largest value of g is 1/√Σ v_h², the
+///   gain for uncorrelated details (after Heitz & Neyret 2018).
 ///
 /// If a head has no texture, the weight of this head goes to the heads that have textures. Results
 /// are bit-identical on any number of threads.
@@ -49,10 +54,11 @@ class TextureBlender {
   using FindStatistics =
       std::function<SurfaceStatistics(const std::function<SurfaceStatistics()>& make)>;
   /// \param texels             the mesh rasterized into the layout of `textures`.
-  /// \param filter             a smoothing filter of the mesh, with the umbrella or the lazy
-  ///                           operator.
+  /// \param filter             a smoothing filter of the mesh; its operator may be
+  ///                           OperatorKind::kUmbrella or OperatorKind::kLazy.
   /// \param regions, textures  these objects and the textures' maps must outlive the blender.
-  /// \param find_statistics    a function that may look up the statistics in a cache.
+  /// \param find_statistics    a function that returns the statistics of the heads' maps; it may
+  ///                           look them up in a cache.
   TextureBlender(
       const Topology& topology, std::shared_ptr<const LayoutTexels> texels,
       const ChebyshevFilter& filter, const RegionWeights& regions, const CrowdTextures& textures,
@@ -60,11 +66,13 @@ class TextureBlender {
       const FindStatistics& find_statistics = [](const auto& make) { return make(); });
 
   /// Blends one texture image of a face. Thread-safe.
-  /// \throws IoError if a map lies in a file that another process has truncated.
+  /// \throws IoError if a head's texture map is in a mapped cache file that another process has
+  ///         truncated.
   /// \param picture  index of an image (picture) of the layout.
   BlendedPicture blend(const Recipe& recipe, std::size_t picture) const;
 
-  /// The low-frequency statistics of the heads' maps: C_h and the covariances c.
+  /// The low-frequency statistics of the heads' maps: the coarse parts and the covariances of the
+  /// details.
   const SurfaceStatistics& statistics() const { return statistics_; }
 
   const TextureLayout& layout() const { return textures_.layout; }
@@ -92,13 +100,13 @@ class TextureBlender {
 };
 
 /// For each region, the fraction of the face's area that the region covers.
-/// \param vertex_areas  #V: weight of each vertex.
+/// \param vertex_areas  see TextureBlendOptions::vertex_areas.
 std::vector<double> region_area_fractions(const RegionWeights& regions,
                                           const std::vector<double>& vertex_areas);
 
 /// Colour weights of the heads in one face. Each list has #heads weights, which sum to one. The
 /// weights for skin are the weights W_h of TextureBlender. The weights for eyes and teeth are the
-/// heads' weights in the target's colours.
+/// heads' weights in the target's colours, which TextureBlender defines.
 struct FaceColourWeights {
   std::vector<double> weights_for_skin, weights_for_eyes_and_teeth;
 };

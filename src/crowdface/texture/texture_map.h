@@ -94,9 +94,9 @@ struct TextureMap {
 struct ImageRows {
   int width = 0;
   int height = 0;
-  /// Writes the `width` texels of row y.
+  /// Reads row y of the image: writes its `width` texels to `texels`.
   std::function<void(int y, std::span<Eigen::Array3f> texels)> read_row;
-  /// Optional, for images that contain linear light: a faster alternative to `read_row` that writes
+  /// Optional, for images that contain linear light: a faster alternative to `read_row` that reads
   /// row y as densities. The result equals density_of_light of each value but needs no logarithms.
   /// \param planes  red, green, blue.
   std::function<void(int y, const std::array<Density*, 3>& planes)> read_densities = {};

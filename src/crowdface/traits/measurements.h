@@ -17,7 +17,7 @@ namespace crowdface {
 struct TraitLandmark {
   std::string name;           ///< name in landmark files, such as "eye_inner_left"
   std::string_view symbol;    ///< Farkas' abbreviation, such as "en"
-  std::string_view location;  ///< description for the user
+  std::string_view location;  ///< where the landmark lies on the face, in words for the user
 };
 /// Returns all landmarks that measurements use.
 const std::vector<TraitLandmark>& trait_landmarks();

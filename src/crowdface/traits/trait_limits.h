@@ -79,7 +79,8 @@ class TraitDistributions {
  private:
   /// #measurements: for each measurement, the values of the heads, ascending
   std::vector<std::vector<double>> sorted_values_;
-  /// the table's normal distributions, which replace the heads' distributions of some measurements
+  /// Normal distributions of some measurements, from the constructor's parameter `table`. For these
+  /// measurements, they replace the distribution over the heads.
   std::vector<TraitTarget> target_distributions_;
 };
 

@@ -19,7 +19,8 @@ std::vector<TrianglePair> intersecting_pairs(const std::vector<Triangle>& triang
                                              const Positions& positions,
                                              const std::vector<TrianglePair>& pairs);
 
-/// Counts the triangles of a face that take part in intersections that the target does not have.
+/// Counts the triangles of a face that take part in intersections that the face's target does not
+/// have. The target is the head on which the face is built.
 /// Where the target already intersects itself (for example at the corner of the mouth), the face's
 /// triangles next to this intersection may intersect too. Therefore a pair of triangles is ignored
 /// if both triangles share a vertex with triangles that intersect other triangles in the target.

@@ -79,11 +79,12 @@ unsigned hit_mask(const BoxRay& ray, const LeafBoxes& boxes);
 /// Returns which boxes of two leaves overlap, as a bit mask. Bit number 8·i + j is set if box i of
 /// `a` overlaps box j of `b`.
 std::uint64_t overlap_mask(const LeafBoxes& a, const LeafBoxes& b);
-/// Returns which triangles of two leaves have a vertex in common, as a bit mask with the bit order
-/// of `overlap_mask`.
+/// Returns a bit mask over pairs of triangles, with the bit order of `overlap_mask`: bit 8·i + j is
+/// set if triangle i of `a` and triangle j of `b` have a vertex in common.
 std::uint64_t shared_vertex_mask(const LeafCorners& a, const LeafCorners& b);
-/// Returns which triangles of two leaves have similar normals, as a bit mask with the bit order of
-/// `overlap_mask`. Two normals are similar if the cosine of their angle is above `min_cosine`.
+/// Returns a bit mask over pairs of triangles, with the bit order of `overlap_mask`: bit 8·i + j is
+/// set if triangle i of `a` and triangle j of `b` have similar normals. Two normals are similar if
+/// the cosine of their angle is above `min_cosine`.
 std::uint64_t similar_normal_mask(const LeafNormals& a, const LeafNormals& b, float min_cosine);
 
 }  // namespace crowdface

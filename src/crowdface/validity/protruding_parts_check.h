@@ -20,7 +20,8 @@ class ProtrudingPartsCheck {
                        std::span<const std::uint32_t> parts, const Positions& mean,
                        ViewSetup view_setup);
 
-  /// Returns the visible area, in mm², of those triangles of the parts that pass through the skin.
+  /// Considers the triangles of teeth and other parts. Returns the visible area, in mm², of those
+  /// triangles that intersect the skin.
   double exposed_mm2(const Positions& positions) const;
 
  private:
@@ -28,7 +29,7 @@ class ProtrudingPartsCheck {
   std::vector<Triangle> triangles_;
   std::uint32_t skin_count_ = 0;  ///< number of triangles of the skin
   TriangleTree tree_;             ///< tree of `triangles_`
-  ViewSetup view_setup_;          ///< viewers that may see the parts
+  ViewSetup view_setup_;  ///< the viewers for which the visible area of the parts is measured
 };
 
 }  // namespace crowdface

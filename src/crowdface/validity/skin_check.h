@@ -10,8 +10,8 @@
 
 namespace crowdface {
 
-/// The viewers for which visible areas of a face are measured, and the length of one unit of the
-/// positions.
+/// From where visible areas of a face are measured (as for viewers who look at the face), and the
+/// length of one unit of the positions.
 struct ViewSetup {
   /// Directions towards the viewers, of any non-zero length.
   std::vector<Eigen::Vector3d> directions;
@@ -65,7 +65,7 @@ class SkinCheck {
     /// visible area of the back side of the target's skin, in the square of the positions' unit
     double exposed_back_area;
   };
-  /// Returns the data of the target that has these positions.
+  /// Computes the data of a target. \param positions  the target's positions, #V by 3
   Target prepared_target(const Positions& positions) const;
   /// Compares a face with a prepared target.
   SkinDefects compare(const Positions& positions, const Target& target) const;
@@ -74,7 +74,7 @@ class SkinCheck {
   std::vector<Triangle> triangles_;
   TriangleTree tree_;                ///< tree of `triangles_`
   VertexFaces triangles_at_vertex_;  ///< triangles at each vertex: indices into `triangles_`
-  ViewSetup view_setup_;             ///< viewers that may see the skin's back side
+  ViewSetup view_setup_;  ///< the viewers for which the visible area of the back side is measured
   std::map<Index, Target> targets_;  ///< the data of each target; the key is the head's index
 };
 

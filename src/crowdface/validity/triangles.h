@@ -12,8 +12,8 @@ namespace crowdface {
 /// Defects of single triangles of a face compared with the target's triangles.
 struct LocalDefects {
   Index compared_triangle_count = 0;  ///< number of triangles that are not degenerate in the target
-  /// number of triangles that are turned by more than 90° or shrunk below 1/50 of their area in the
-  /// target
+  /// Number of triangles that are turned by more than 90° compared with the target. Also counts
+  /// triangles whose area is less than 1/50 of the area of the target's triangle.
   Index flipped_triangle_count = 0;
   /// 99th percentile, over all triangles, of the triangle's largest stretch: the largest singular
   /// value of the linear map from the target's triangle to the face's triangle

@@ -24,11 +24,12 @@ constexpr double kHiddenStiffnessMm = 10;  // smallest stiffness where the scan 
 constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
 
-/// The point that corresponds to a vertex of the skin (or to a sampled point of the scan) on the
-/// other surface.
+/// A pair of corresponding points: one on the skin and one on the scan. Either the point of the
+/// skin is a vertex, or the point of the scan is a sampled point.
 struct Correspondence {
   bool is_found = false;
-  /// Normal of the scan at this point; vector from the skin to the scan.
+  /// `normal`: normal of the scan at its point. `offset`: vector from the skin's point to the
+  /// scan's point.
   Eigen::Vector3d normal, offset;
   double weight = 0;
 };
@@ -179,8 +180,8 @@ class Bending {
     }
   }
 
-  /// Adds data terms that pull, for each sampled point of the scan, the closest point of the skin
-  /// to the sampled point.
+  /// Adds one data term for each sampled point of the scan. Let S be the point of the skin that is
+  /// closest to the sampled point. The data term pulls S towards the sampled point.
   void add_skin_terms(const Positions& current, double reach, double tangential,
                       DataTerms& data_terms) {
     const SurfaceTree tree(current, skin_.triangles);

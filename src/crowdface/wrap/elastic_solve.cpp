@@ -128,8 +128,9 @@ struct ElasticSolver::State {
   SparseMatrix stiffness;
   Factors factors;
 
-  /// Returns (W + B) x. Reads B by columns: because B is symmetric, each column equals the row with
-  /// the same index.
+  /// Returns (W + B) x, where W is the block-diagonal matrix of the data terms and B is
+  /// `stiffness`. Reads B by columns: because B is symmetric, each column equals the row with the
+  /// same index.
   Positions times(const DataTerms& data_terms, const Positions& x) const {
     Positions y(x.rows(), 3);
     parallel_for_each(x.rows(), kElasticBlock, [&](Index i) {

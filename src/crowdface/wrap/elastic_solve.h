@@ -28,11 +28,14 @@ SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& 
 SparseMatrix bending_energy(const SparseMatrix& laplacian, const Eigen::VectorXd& areas,
                             const Eigen::VectorXd& stiffness);
 
-/// Quadratic data terms Σ (d − offset)ᵀ W (d − offset), where d is the displacement of a vertex.
-/// Each vertex has its own 3 by 3 matrix W.
+/// Quadratic data terms (d − offset)ᵀ W (d − offset). Each term belongs to one vertex, whose
+/// displacement is d, and has its own offset and its own 3 by 3 matrix W. A vertex may have several
+/// terms.
 struct DataTerms {
-  std::vector<Eigen::Matrix3d> matrices;  ///< W of each vertex: symmetric, positive semidefinite
-  Positions right_hand_side;  ///< #V by 3: W · offset of each vertex, summed over its terms
+  /// For each vertex: the sum of the matrices W of its terms; symmetric, positive semidefinite.
+  std::vector<Eigen::Matrix3d> matrices;
+  /// #V by 3. For each vertex: the sum of W · offset over its terms.
+  Positions right_hand_side;
 
   /// Creates terms that are zero, for this number of vertices.
   explicit DataTerms(Index vertices)

@@ -245,8 +245,10 @@ Positions follow_detail(const SkinMesh& skin, const Positions& rest_positions,
     even_out_folds(skin, rest_positions, result, normals, mender, along);
     move_along(normals, along, result);
   }
-  // On a regular mesh with edge length h, the value at a vertex differs from the mean of the
-  // neighbours' values by h²/4 times the Laplacian.
+  // SmoothFit penalises the squared difference between the value at a vertex and the mean of the
+  // neighbours' values. On a regular mesh with edge length h, this difference is h²/4 times the
+  // Laplacian Δ. With the scale s = kSmoothingScaleEdges · h, the factor below therefore gives the
+  // penalty (s² Δ)².
   const SmoothFit fit(skin.adjacency, 16 * std::pow(kSmoothingScaleEdges, 4));
   for (int round = 0; round < kDetailRounds; ++round) {
     if (smoothing_steps == 0) normals = vertex_normals_or_zero(skin.triangles, result);

@@ -66,7 +66,7 @@ class PatchMender {
   const SkinMesh& skin_;
   /// For each vertex of the skin, the triangles around the vertex.
   VertexFaces triangles_of_vertex_;
-  int max_rings_ = 0;  ///< maximum number of rings around the triangle of a patch
+  int max_rings_ = 0;  ///< maximum number of rings in a patch, around the triangle to repair
 };
 
 }  // namespace crowdface

@@ -42,9 +42,10 @@ ShapeFit best_fit(const SkinMesh& skin, const Positions& rest_positions, const H
   const ShapeFitOptions options{.search_radii_mm = {40, 30, 20, 12}, .steps_per_round = 4};
   ShapeFit best;
   best.median_distance_mm = 1e300;
-  // Try several scales near the ratio of the heads' widths. The ratio of the heights is
-  // unknown, because scans end at different heights. For each scale, align the tops of the heads
-  // and the foremost points of the faces, with several vertical offsets.
+  // Try several scales near the width of the scan divided by the width of the template's head. The
+  // ratio of the heights tells nothing, because scans end at different heights below the head. For
+  // each scale, align the top and the foremost point of the template's head with the top and the
+  // foremost point of the scan, with several vertical offsets.
   for (const double wider : {1.0, 0.85, 1.15}) {
     for (const double lower : kLower) {
       Similarity pose;

@@ -86,8 +86,9 @@ ReducedSkin reduce_skin(const SkinMesh& skin, const Positions& positions,
   reduced.mesh.adjacency = build_adjacency(
       topology_of(reduced.mesh.triangles, static_cast<Index>(small.vertices.size())));
   reduced.vertex_positions = find_barycentric_points(skin, positions, reduced.mesh);
-  // Choose the number of smoothing steps: one step acts over half an edge of the original skin, and
-  // all steps together must smooth creases at the longer edges of the reduced skin.
+  // Choose the number of smoothing steps. One step acts over half an edge of the original skin. All
+  // steps together must smooth creases at the edges of the reduced skin, which are longer than the
+  // edges of the original skin.
   const auto ratio = static_cast<double>(skin.vertices.size()) /
                      static_cast<double>(std::max<std::size_t>(1, small.vertices.size()));
   reduced.smoothing_steps = static_cast<int>(std::clamp(ratio, 2.0, 120.0));

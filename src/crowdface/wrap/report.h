@@ -39,7 +39,7 @@ std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_templat
 void refuse_bad_wrap(const WrapTemplate& wrap_template, const WrapResult& result,
                      const SkinRegions& regions);
 
-/// Facts for the report that WrapResult does not contain.
+/// The facts in the report of a wrap that do not come from WrapResult.
 struct WrapFacts {
   std::string template_file, scan_file;  ///< paths of the template and of the scan
   std::string inputs_digest;             ///< hash of all input files and of the options

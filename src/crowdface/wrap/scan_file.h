@@ -8,9 +8,9 @@
 
 namespace crowdface {
 
-/// Reads the geometry of a scan in any format of `read_mesh`. Merges vertices with equal positions,
-/// and keeps the vertex indices of the file (for STL: the corners in order; for glTF: the
-/// primitives one after the other).
+/// Reads the geometry of a scan in any format of `read_mesh`. Merges vertices with equal positions:
+/// the triangles use only one of them. But all vertices of the file keep their rows and indices
+/// (for STL: the corners in order; for glTF: the primitives one after the other).
 /// \throws MissingInput; InvalidInput naming file, what was expected and what was found.
 Scan read_scan(const std::filesystem::path& path);
 /// Converts a mesh read from `path` to a scan. Moves the positions and the notes (sentences about

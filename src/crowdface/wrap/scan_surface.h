@@ -32,10 +32,12 @@ class ScanSurface {
   };
   /// The closest point within the distance `reach` whose normal has a cosine of at least
   /// `min_cosine` with the unit vector `facing`.
-  /// \param guess  a triangle that is probably the closest, or kNoIndex.
+  /// \param guess  index of a triangle that is probably the closest, or kNoIndex.
   ClosestPoint nearest(const Eigen::Vector3d& point, const Eigen::Vector3d& facing,
                        double min_cosine, double reach, std::uint32_t guess = kNoIndex) const;
-  /// The closest point within the distance `reach`, regardless of the surface normal.
+  /// The closest point within the distance `reach`, whatever its surface normal. If there is none,
+  /// ClosestPoint::triangle is kNoIndex.
+  /// \param guess  index of a triangle that is probably the closest, or kNoIndex.
   ClosestPoint nearest(const Eigen::Vector3d& point, double reach,
                        std::uint32_t guess = kNoIndex) const;
 
@@ -60,7 +62,8 @@ class ScanSurface {
 /// Returns the distance to the scan above which a point counts as an outlier: three standard
 /// deviations of normally distributed noise (estimated from the median), but at least half of
 /// `reach`.
-/// \param distances  not negative; may be empty
+/// \param distances  distances of points from the scan; not negative; may be empty
+/// \param reach      largest distance of the search in which `distances` were found
 double outlier_distance(std::vector<double> distances, double reach);
 
 /// The inverse of the similarity y = s R x + t: x = Rᵀ (y − t) / s.

@@ -25,8 +25,8 @@ struct WrapLandmark {
   Eigen::Vector3d scan_position = Eigen::Vector3d::Zero();
   /// true: the program found the landmark by the shape of the surface; false: the user picked it
   bool is_found_by_program = false;
-  /// Uncertainty of `scan_position`: standard deviation along each axis. The squared distance of a
-  /// landmark has the weight 1/error_mm².
+  /// Uncertainty of `scan_position`: standard deviation along each axis. In the fit, the squared
+  /// distance between the landmark's vertex and `scan_position` has the weight 1/error_mm².
   double error_mm = kPickedErrorMm;
 
   /// The weight of this landmark relative to a picked landmark.
@@ -42,7 +42,7 @@ Similarity pose_of_landmarks(const Positions& positions,
 /// Applies a similarity to a point.
 Eigen::Vector3d apply_similarity(const Similarity& similarity, const Eigen::Vector3d& point);
 
-/// The pose of a head in a scan, and its coefficients in the shape model.
+/// The pose of a head in a scan, and the head's coefficients in the shape model.
 struct ShapeFit {
   Similarity pose;                ///< similarity from the template's frame to the scan's frame
   Eigen::VectorXd coefficients;   ///< one coefficient per mode, in standard deviations
@@ -58,8 +58,9 @@ struct ShapeFitOptions {
   /// weighted mean plus the sum of the squared coefficients. With a larger weight, the coefficients
   /// may therefore be farther from 0.
   double scan_weight = 7;
-  /// Weight of the part of a vertex's offset from the scan that lies along the surface. The part
-  /// along the normal has weight 1.
+  /// The offset of a skin vertex from the scan has two components: along the scan's normal, and
+  /// tangential to the scan's surface. This is the weight of the tangential component. The normal
+  /// component has weight 1.
   double tangential_weight = 0.1;
   /// Weight of the landmarks relative to the weight of the scan's surface.
   double landmark_weight = 0.2;

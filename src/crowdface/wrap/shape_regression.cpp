@@ -19,7 +19,8 @@ namespace {
 constexpr double kTurn = 0.05, kShiftMm = 5, kPoseGrowth = 0.02;
 constexpr Index kPose = 7;
 
-/// A measured displacement of a vertex along a direction, from the scan or a landmark.
+/// One measurement for the regression: how far a skin vertex is displaced along a direction. The
+/// measurement comes from the scan or from a landmark.
 struct Observation {
   std::uint32_t vertex = kNoIndex;
   Eigen::Vector3d direction;

@@ -16,8 +16,9 @@ struct RegressionOptions {
   /// points.
   double local_variance_fraction = 0.15;
   double correlation_length_mm = 45;  ///< correlation length of the local variation
-  /// Standard deviation, along each axis, of an additional smooth random deformation with the same
-  /// correlation length. This deformation allows shapes that a few heads do not span.
+  /// The model also has a smooth random deformation whose correlation length is
+  /// `correlation_length_mm`. It allows shapes that a few heads do not span. This is its standard
+  /// deviation along each axis.
   double smooth_deformation_deviation_mm = 1.8;
   double noise_deviation_mm = 1;  ///< standard deviation of the noise in the scan's positions
   /// Number of vertices of the skin at which displacements are measured.

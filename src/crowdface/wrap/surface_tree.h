@@ -25,8 +25,9 @@ struct SurfaceHit {
 SurfaceHit nearest_on_triangle(const Positions& positions, const Triangle& corners,
                                const Eigen::Vector3d& point);
 
-/// A bounding-volume tree over triangles for closest-point queries. Thread-safe; results are
-/// bitwise identical regardless of `guess` and threads.
+/// A bounding-volume tree over triangles for closest-point queries. Thread-safe. The parameter
+/// `guess` of the queries and the number of threads change only the speed: the results always have
+/// the same bits.
 class SurfaceTree {
  public:
   /// \param positions, triangles  must outlive the tree; triangles without area are left out.
@@ -34,8 +35,8 @@ class SurfaceTree {
 
   /// The closest point within the distance `reach`. Of equally close points, returns the point on
   /// the triangle with the smallest index.
-  /// \param guess  a triangle that is probably the closest, or kNoIndex. A good guess makes the
-  /// search much faster.
+  /// \param guess  index of a triangle that is probably the closest, or kNoIndex. A good guess
+  ///               makes the search much faster.
   SurfaceHit nearest(const Eigen::Vector3d& point, double reach,
                      std::uint32_t guess = kNoIndex) const;
   /// The closest point within `reach` on the triangles whose normal has a cosine of at least

@@ -7,8 +7,8 @@ namespace crowdface {
 
 /// Returns the indices of the triangles of a wrapped skin that are rotated by more than a right
 /// angle relative to the template, or that have lost nearly all their area.
-/// \param rest_positions  #skin by 3, of the template.
-/// \param positions  #skin by 3, wrapped.
+/// \param rest_positions  positions of the skin's vertices on the template, one row for each.
+/// \param positions       positions of the same vertices after the wrap.
 std::vector<std::uint32_t> folded_triangles(const SkinMesh& skin, const Positions& rest_positions,
                                             const Positions& positions);
 

@@ -26,8 +26,9 @@ namespace {
 
 /// A head counts as symmetric if at least this fraction of its vertices have a mirror vertex.
 constexpr double kMinMirroredFraction = 0.9;
-/// A landmark is an outlier if its final distance is larger than kMinOutlierMm, and larger than
-/// kOutlierFactor times the median of all landmarks' final distances.
+/// A landmark is an outlier if its LandmarkResidual::final_distance_mm is larger than
+/// kMinOutlierMm, and larger than kOutlierFactor times the median of the final distances of all
+/// landmarks.
 constexpr double kMinOutlierMm = 4, kOutlierFactor = 3.5;
 
 /// Converts the landmarks' vertex indices in the template to vertex indices in the skin. Drops
@@ -44,7 +45,8 @@ std::vector<WrapLandmark> landmarks_on_skin(const SkinMesh& skin,
   return result;
 }
 
-/// Distances between corresponding landmarks after a similarity.
+/// For each landmark: the distance between its position on the scan and its vertex of the
+/// template's skin, after `pose` has moved the template to the scan.
 std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similarity& pose,
                                            const std::vector<WrapLandmark>& landmarks) {
   std::vector<LandmarkResidual> result;
@@ -59,9 +61,11 @@ std::vector<LandmarkResidual> residuals_of(const Positions& skin, const Similari
   return result;
 }
 
-/// Sets the final distances and marks outliers. The scan surface and the other landmarks keep
-/// a landmark's vertex near the correct point of the scan. A large final distance therefore means
-/// that the user or the program placed the landmark wrongly on the scan.
+/// Sets the final distance of each landmark: between its vertex on the wrapped template and its
+/// position on the scan. Marks landmarks with a large final distance as outliers. The scan's
+/// surface and the other landmarks pull a landmark's vertex to the correct point of the scan. If
+/// the vertex is nevertheless far from the landmark's position on the scan, this position is
+/// probably wrong.
 void add_final(const Positions& wrapped, const std::vector<WrapLandmark>& landmarks,
                std::vector<LandmarkResidual>& residuals) {
   std::vector<double> all;

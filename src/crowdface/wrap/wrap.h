@@ -45,8 +45,8 @@ struct WrapResult {
   std::vector<LandmarkResidual> landmarks;  ///< the residuals of all landmarks used
   /// One check per feature; set by `wrap_checked`, empty after `wrap`.
   std::vector<FeatureCheck> features;
-  /// Names of automatically found landmarks that `wrap_checked` did not use, because the wrap
-  /// without them agrees better.
+  /// Names of automatically found landmarks that `wrap_checked` did not use. Without these
+  /// landmarks, the features of the face agree better before and after the wrap (see FeatureCheck).
   std::vector<std::string> dropped_landmarks;
   /// median distance between the scan and the template after the pose fit (translation, rotation
   /// and scale), before the template is bent

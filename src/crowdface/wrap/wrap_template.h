@@ -17,7 +17,7 @@ struct WrapTemplate {
   Topology topology;
   Adjacency adjacency;    ///< neighbours of each vertex along edges
   Components components;  ///< connected components of the mesh
-  PartList parts;         ///< the class of each component, and the parts that are not skin
+  PartList parts;         ///< which of the components are skin, and the other components' parts
   HeadAxes axes;          ///< up and front direction of the template's head
   Positions positions;    ///< #V by 3, in millimetres
   SkinMesh skin;

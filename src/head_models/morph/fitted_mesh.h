@@ -29,7 +29,7 @@ std::filesystem::path picture_path(const std::filesystem::path& file, const std:
 /// teeth. Each vertex is a weighted mean of three vertices of the base mesh, plus an offset. This
 /// is the content of MakeHuman's .mhclo files, which the package stores as JSON.
 struct FittedMesh {
-  /// An alternative material of the mesh.
+  /// One of the alternative materials of the mesh: a name and a picture (the colour texture).
   struct Picture {
     std::string name;            ///< name of the material, such as "brown"
     std::filesystem::path path;  ///< path of the colour texture; empty: the material has no texture

@@ -19,16 +19,19 @@ constexpr std::array<std::string_view, 3> kAmounts = {"min", "average", "max"};
 
 /// A random measure of the face, from −1 to 1. Negative values use the morph target stem + less,
 /// positive values use stem + more. '*' in `stem` stands for l and r (left and right), whose values
-/// differ slightly.
+/// differ slightly. The measure is normally distributed. Its mean is the sum of `mean` and the
+/// changes by age, body weight and sex.
 struct Control {
   std::string_view stem, less, more;
-  double spread;      ///< standard deviation of the measure
-  double aged = 0;    ///< change of the mean per 20 years of age above kUnaged
-  double weight = 0;  ///< change of the measure's mean for people with the heaviest body
-  /// Change of the mean for women: with MakeHuman's targets for sex alone, many women have the face
-  /// of a man.
+  double spread;    ///< standard deviation of the measure
+  double aged = 0;  ///< change of the measure's mean per 20 years of age above kUnaged
+  /// Change of the measure's mean for people with the largest body weight, compared with people of
+  /// average body weight. For people with the smallest body weight, the change is −`weight`.
+  double weight = 0;
+  /// Change of the measure's mean for women, compared with men. MakeHuman's own targets for sex are
+  /// not enough: with these targets only, many women have the face of a man.
   double female = 0;
-  double mean = 0;  ///< mean for men of age kUnaged with average weight
+  double mean = 0;  ///< mean of the measure for men of age kUnaged with average body weight
 };
 
 // clang-format off

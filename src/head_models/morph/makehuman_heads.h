@@ -17,8 +17,8 @@ namespace crowdface {
 struct MakeHumanMesh {
   /// all vertices of the file, in decimetres; morph targets use the row indices of this matrix
   Positions file_positions;
-  Mesh head;  ///< skin and eyeballs above the cut, decimetres
-  Mesh body;  ///< the skin below the cut, decimetres
+  Mesh head;  ///< skin and eyeballs above the edge loop, decimetres
+  Mesh body;  ///< skin below the edge loop, decimetres
   /// For each vertex of `head`, its row in `file_positions`; ascending.
   std::vector<std::uint32_t> head_rows;
   std::vector<MaterialRange> materials;  ///< polygons of the skin, of eyeball_r and of eyeball_l

@@ -55,8 +55,9 @@ const Vector3d kRimCentre(0, -16.4,
 // the lower edge, in texture coordinates.
 constexpr double kInner = 0.1, kOuter = 0.48;
 
-/// Returns the control points of the section in a horizontal direction from the axis.
-/// \param way  unit vector (x, z)
+/// Returns the control points of a section of the bust: the bust's outline in the vertical half
+/// plane that begins at the axis and extends in a horizontal direction.
+/// \param way  this direction, unit vector (x, z)
 Section section_at(const Vector2d& way) {
   const double side = way.x() * way.x();
   const double ahead = std::max(0.0, way.y());

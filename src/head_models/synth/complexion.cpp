@@ -68,7 +68,8 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   look.skin_tone =
       random_stratified({seed, index / 2, male ? "synth/tone_of_men" : "synth/tone_of_women"}, 5);
   // Women's skin is lighter than men's (Jablonski and Chaplin 2000, "The evolution of human skin
-  // coloration"), above all if it is dark.
+  // coloration"). The difference is largest for dark skin. So darken men's skin and lighten women's
+  // skin, in proportion to the skin tone (0: lightest).
   look.skin = along(skin_tones(), look.skin_tone) * (1 + (male ? -0.08 : 0.25) * look.skin_tone);
   // Light hair occurs only with light skin.
   const double darkest = smooth_step(0.15, 0.65, look.skin_tone);

@@ -43,8 +43,9 @@ struct Complexion {
   double lipstick = 0;    ///< 0 … 1: amount of lipstick; 0 for most people
 };
 
-/// Returns the random complexion of head `index`. Skin tones are stratified: the five women among
-/// heads 10k to 10k + 9 have tones in different fifths of the range, and so do the five men.
+/// Returns the random complexion of head `index`. Skin tones are stratified. Of ten successive
+/// heads (10 · n to 10 · n + 9, for any n), five are women, whose tones lie in different fifths of
+/// the range; the same holds for the five men.
 Complexion random_complexion(std::uint64_t seed, std::uint64_t index);
 
 }  // namespace crowdface::synth

@@ -90,7 +90,8 @@ Vector3d on_ring(double around, double b) {
 
 Vector3d ear_position(const LatticePoint& lattice_point) {
   if (lattice_point.patch == SkinPatch::kEar) return on_ring(lattice_point.a, lattice_point.b);
-  // The bowl: the innermost ring, lowered towards the centre.
+  // The point is in the bowl of the ear, inside the innermost ring (b = 1). Map the square patch to
+  // a disc. The height falls from the ring's height at the edge of the disc to 0.05 at its centre.
   const Vector2d square(2 * lattice_point.a - 1, 1 - 2 * lattice_point.b);
   const double m = std::max(std::abs(square.x()), std::abs(square.y()));
   if (m == 0) return ear_point({0, 0}, 0.05);

@@ -19,7 +19,8 @@ struct FacialHair {
   double brow_width = 1;          ///< for brows: factor on the thickness of the brows
   double brow_arch = 0;           ///< for brows: additional height of the brows' arch, cm
   double brow_density = 0.9;      ///< for brows: factor on the density of the hairs
-  /// beards: lengths on cheeks and jaw, on the upper lip and on the chin; see Complexion::beard
+  /// for beards: length of the hair on cheeks and jaw, on the upper lip and on the chin; on the
+  /// scale of Complexion::beard, where 1 is a short beard
   double cheek_beard = 0, lip_beard = 0, chin_beard = 0;
 };
 /// Returns all styles of brows and beards.

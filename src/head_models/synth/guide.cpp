@@ -14,6 +14,8 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr int kPlaced = 10;  // hand-placed columns: the first nine and the midline of the back
+/// A row of the lattice (see lattice.h) on the average head: the default origin of the row's rays,
+/// and the hand-placed points x, y, z of the row, in centimetres.
 struct LatticeRow {
   double origin_y, origin_z;
   std::array<std::array<double, 3>, kPlaced> points;
@@ -54,7 +56,7 @@ constexpr std::array<LatticeRow, kRows> kLattice = {{
     // throat
     {-9.2, 1.8, {{{0, -12.6, 3.6}, {0.7, -12.6, 3.55}, {1.9, -12.6, 3.2}, {3.1, -12.6, 2.4}, {4.1, -12.6, 1.3},
                   {4.8, -12.7, 0.1}, {5.1, -12.8, -1.2}, {5.2, -13.3, -3.2}, {4.7, -13.8, -5.3}, {0, -14.4, -7.7}}}},
-    // end of the neck
+    // lower end of the neck
     {-16.5, -2.7, {{{0, -16.5, 2.6}, {0.8, -16.5, 2.5}, {2.1, -16.5, 2.2}, {3.5, -16.5, 1.5}, {4.6, -16.5, 0.5},
                     {5.3, -16.5, -0.6}, {5.6, -16.5, -2.0}, {5.5, -16.5, -4.0}, {4.6, -16.5, -6.0}, {0, -16.5, -8.0}}}},
 }};

@@ -13,8 +13,9 @@ struct GuideRay {
   Eigen::Vector3d origin, point_near_skin;
 };
 
-/// Returns the ray for a lattice point (a, b) of the strip, interpolated smoothly from hand-placed
-/// lattice points.
+/// Returns the ray for a point of the skin patch SkinPatch::kStrip, which surrounds the head. The
+/// ray is interpolated smoothly between hand-placed rays at the lattice's rows and columns.
+/// \param a, b  coordinates of the point, see LatticePoint
 GuideRay strip_ray(double a, double b);
 /// Returns the ray for a lattice point (a, b) of the cap, the skin patch on top of the head.
 GuideRay cap_ray(double a, double b);

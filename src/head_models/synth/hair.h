@@ -40,8 +40,8 @@ class Hair {
 
   /// Returns whether hair may be at a point; a fast conservative test.
   bool may_cover(const Eigen::Vector3d& p) const;
-  /// Returns the brightness of the strand at a point relative to the hair colour: about −1 (darker)
-  /// … 1 (brighter).
+  /// Returns how much brighter than the hair colour the strand at a point is: from about −1
+  /// (darker) to about 1 (brighter).
   double strand_brightness(const Eigen::Vector3d& p) const;
   /// Returns the fraction of the skin that hair hides at a point, 0 … 1.
   /// \param strand_brightness  strand_brightness(p).
@@ -50,7 +50,8 @@ class Hair {
   double thickness(const Eigen::Vector3d& p) const;
 
  private:
-  /// Returns the height of a point above this person's hairline, cm; negative below.
+  /// Returns the height of a point above this person's hairline, cm; negative below. The hairline
+  /// depends on the person's hair style and on the recession of the hair.
   double height_above_style_hairline(const Eigen::Vector3d& p) const {
     return height_above_hairline(p, style_.has_low_hairline, recession_);
   }

@@ -128,8 +128,9 @@ class HairCardBuilder {
       const double swing = cut_.wave_amplitude * smooth_step(0, 0.4, t);
       next += swing * Vector3d(locks_.at(next), 0, locks_.at(next + Vector3d(0, 0, 9)));
       next = beside_face(next, fringe);
-      // A lock lies on the hair below it: the lock's distance from the head decreases slowly above
-      // the ears, and never below.
+      // A lock lies on other hair, so its distance from the head (`rest`) must not jump. Above the
+      // height of the ears, `rest` decreases slowly along the lock. Lower down, `rest` never
+      // decreases.
       rest =
           std::max(rest - kSinks * step * smooth_step(3, 6, next.y()), hair_stand_off(cut_, next));
       next = moved_off_head(next, rest + lift * smooth_step(0, 2, grown));
@@ -191,8 +192,8 @@ class HairCardBuilder {
   /// length.
   static double along(double t) { return t * (0.3 + 0.7 * t); }
 
-  /// Moves a point in front of the face sideways, to the edge of the face. Does not move the points
-  /// of a fringe.
+  /// If a point of a lock lies in front of the face, moves the point sideways to the edge of the
+  /// face. Does not move the points of a fringe.
   static Vector3d beside_face(Vector3d p, double fringe) {
     const double wide = 5.5 * smooth_step(0.5, 4, p.z()) * smooth_step(6.2, 1.5, p.y());
     if (fringe < HairCut::kNoFringe && p.y() > fringe) return p;
@@ -253,8 +254,10 @@ void add_hair_cards(const HairCut& cut, HairMesh& hair) {
       const auto unit = [&](const char* purpose) { return random_uniform({17, number, purpose}); };
       const bool is_wisp = combed && layer == kWispLayer;
       if (is_wisp && unit("wisp") > kWispFraction) continue;
-      // Hair is thin at the hairline above the forehead and, if curly, at its surface. Beside the
-      // cheeks, skin would show through thin long hair.
+      // Some cards get the texture strip with sparse hair (`is_thin`). In combed hair, these are
+      // cards near the hairline above the forehead; in curly hair, the cards of the outermost
+      // layer. Exception: in long hair, cards beside the cheeks are not sparse, because skin would
+      // show through.
       const bool shows_skin = cut.is_long() && roots[r].place.y() < 4;
       const bool is_thin = combed ? !shows_skin && roots[r].inside < 0.3 + 0.7 * unit("hairline")
                                   : layer + 1 == cut.layers;

@@ -35,6 +35,7 @@ struct HairCut {
 
   bool has_fringe() const { return fringe_y < kNoFringe; }
   bool has_parting() const { return layers == 1 && backward_combing < 0.8 && !has_fringe(); }
+  /// Whether the longest hair is longer than 10 cm.
   bool is_long() const { return std::max(top_length, side_length) > 10; }
 };
 /// Returns all haircuts.

@@ -24,7 +24,9 @@ struct Strand {
   double end = 1;     ///< where the strand ends, as a fraction of the card's length
   double light = 1;   ///< brightness of the strand relative to the hair colour
   double bend = 0;    ///< amplitude of the strand's own bends, in units of a strip's width
-  double waves = 0, phase = 0;  ///< curly hair: number of half waves, and their phase
+  /// Curly hair: number of half waves along the whole strand, and the phase of the wave at the
+  /// root, in half waves.
+  double waves = 0, phase = 0;
 };
 
 /// Draws the strands of all strips at random. The strands of a clump have similar brightness and
@@ -88,7 +90,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
         middle += kSwing * smooth_wave(phase);
         light *= 1 + 0.22 * smooth_wave(phase + 0.5);  // one half of each winding lies in shade
       }
-      // Strands become thinner towards their tips, and visible gradually at their roots.
+      // A strand becomes thinner towards its tip (`half`), and fades in at its root (`grown`).
       const double half = strand.half * (1 - 0.7 * smooth_step(0.5, 1, t / strand.end));
       const double grown = is_cap ? smooth_step(strand.end, strand.end - 0.15, t)
                                   : smooth_step(strand.start, strand.start + 0.025, t);

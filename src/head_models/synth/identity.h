@@ -11,7 +11,8 @@
 
 namespace crowdface::synth {
 
-/// Attributes of a person that determine the averages of the person's measures.
+/// Attributes of a person. The person's measures (see Measure) are random; their means depend on
+/// these attributes.
 struct Person {
   double maleness = 0;    ///< −1 (female) … 1 (male)
   double age_years = 40;  ///< years, 18 … 77
@@ -20,9 +21,9 @@ struct Person {
   /// Returns the age in units of 20 years from 40: −1.1 … 1.85.
   double scaled_age() const { return (age_years - 40) / 20; }
 };
-/// Returns the random person of head `index` of a seed. Stratified: of two successive heads (2k, 2k
-/// + 1) one is female and one male; of five successive heads (5k to 5k + 4) each has an age in a
-/// different fifth of the range.
+/// Returns the random person of head `index` of a seed. Persons are stratified. Of two successive
+/// heads (2 · n and 2 · n + 1, for any n), one is female and one is male. Of five successive heads
+/// (5 · n to 5 · n + 4), each has an age in a different fifth of the range.
 Person random_person(std::uint64_t seed, std::uint64_t index);
 
 /// The identity of a head: the attributes of the person, and random values of the person's
@@ -45,7 +46,8 @@ class Identity {
 
   std::uint64_t seed_ = 0, index_ = 0;
   Person person_;
-  /// displacements of the measures times their values, and the random asymmetry of nose and jaw
+  /// For each measure: Measure::displacement, multiplied by the person's value of the measure. And
+  /// the displacements that make nose and jaw randomly asymmetric.
   std::vector<LocalDisplacement> displacements_;
   Eigen::Vector3d scale_{1, 1, 1};  ///< factors on width, height and depth of the head
   double face_length_ = 0;          ///< relative change of the length of the face below the eyes

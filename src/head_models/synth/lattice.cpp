@@ -9,7 +9,7 @@
 namespace crowdface::synth {
 namespace {
 
-// Width of each lattice interval, in units. One unit is about one quad of the smallest layout.
+// Width of each lattice interval, in lattice units (see lattice.h).
 constexpr std::array<double, kColumns - 1> kColumnWeights = {2, 3, 4, 5, 4, 5, 6, 5, 4, 5, 4, 3, 2};
 constexpr std::array<double, kRows - 1> kRowWeights = {4, 4, 7, 3, 3, 2, 5, 3, 3, 5, 5};
 

@@ -46,13 +46,17 @@ class PatchJoiner {
     std::uint32_t vertex, uv;
   };
 
-  /// Appends the coordinates of the mesh columns (or rows) in interval k of the lattice, which they
-  /// divide evenly. Includes the start of the interval, but not its end.
-  /// \param unit  returns the coordinate at which an interval starts
+  /// Divides interval k of the lattice evenly into mesh columns (or rows), and appends the
+  /// coordinates of these columns, in lattice units. Includes the start of the interval, but not
+  /// its end.
+  /// \param quads_of  number of quads in each interval
+  /// \param start_of  returns the coordinate at which an interval starts, in lattice units
   template <class Quads>
-  static void spread(const Quads& quads_of, int k, double (*unit)(int), std::vector<double>& out) {
+  static void spread(const Quads& quads_of, int k, double (*start_of)(int),
+                     std::vector<double>& out) {
     const int n = quads_of[static_cast<std::size_t>(k)];
-    for (int i = 0; i < n; ++i) out.push_back(unit(k) + (unit(k + 1) - unit(k)) * i / n);
+    for (int i = 0; i < n; ++i)
+      out.push_back(start_of(k) + (start_of(k + 1) - start_of(k)) * i / n);
   }
   double column_at(int i) const {
     const double unit = column_units_[static_cast<std::size_t>(std::abs(i))];

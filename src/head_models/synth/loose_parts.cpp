@@ -18,12 +18,12 @@ using Eigen::Vector3d;
 /// Gap between the edges of the lids and the eyeball, cm.
 constexpr double kLidGap = 0.025;
 /// Half the width of the dental arches, and their depth, cm.
-constexpr double kArcWidth = 2.1, kArcDepth = 1.9;
+constexpr double kArcHalfWidth = 2.1, kArcDepth = 1.9;
 
 /// Maps a point (i, j) in [−1, 1]² on a side of a cube to the unit sphere.
 Vector3d point_on_ball(int side, double i, double j) {
-  // This distortion makes the quads in the middle of a side about as large as the quads at its
-  // corners.
+  // A grid of equal squares on a side of the cube would give larger quads on the sphere in the
+  // middle of the side than at its corners. This distortion makes the quads about equally large.
   const auto even = [](double x) { return x * (1.25 - 0.25 * x * x); };
   const double a = even(i), b = even(j);
   const std::array<Vector3d, 6> on_cube = {
@@ -39,7 +39,7 @@ struct Row {
 /// Returns the centre and height at one position of a row of teeth.
 /// \param t   position along the row, −1 … 1. \param up  1: upper row, −1: lower row.
 Row row_at(double t, double up) {
-  const double x = kArcWidth * t * (1.2 - 0.2 * t * t), z = 7.95 - kArcDepth * t * t;
+  const double x = kArcHalfWidth * t * (1.2 - 0.2 * t * t), z = 7.95 - kArcDepth * t * t;
   const double height = (up > 0 ? 0.95 : 0.85) * (1 - 0.25 * t * t);
   // The upper row of teeth is slightly in front of the lower row.
   return {{x * (up > 0 ? 1.0 : 0.96), -7.02 + up * (0.03 + height / 2), z - (up > 0 ? 0 : 0.12)},
@@ -96,7 +96,7 @@ LooseParts::LooseParts(double edge_cm) {
   };
   const int across = quads(kEyeRadius * 1.6, 4);
   for (const double side : {1.0, -1.0}) add_eyeball(side, across);
-  const int along = 2 * quads(kArcWidth * 1.5, 10), around = 4 * quads(0.6, 1);
+  const int along = 2 * quads(kArcHalfWidth * 1.5, 10), around = 4 * quads(0.6, 1);
   for (const double up : {1.0, -1.0}) add_teeth(up, along, around);
 }
 
@@ -116,7 +116,8 @@ void LooseParts::add_eyeball(double side, int n) {
       slot = static_cast<std::uint32_t>(points_.size());
       const Vector3d p = point_on_ball(face, a, b);
       points_.push_back(p);
-      // The texture shows the front hemisphere as a disc and the back as a ring around the disc.
+      // The texture shows the front half of the eyeball as a disc, and the back half as a ring
+      // around this disc.
       const double flat = std::sqrt(p.x() * p.x() + p.y() * p.y());
       const double out = p.z() > 0 ? 0.8 * flat : 0.9 - 0.1 * flat;
       const Vector2d around = flat > 0 ? Vector2d(p.x() / flat, p.y() / flat) : Vector2d(1, 0);
@@ -150,7 +151,8 @@ void LooseParts::add_teeth(double up, int along, int around) {
     const double tooth = 7 * (t + 1) - std::floor(7 * (t + 1));
     const double proud = 0.035 * (4 * tooth * (1 - tooth) - 0.5);
     for (int k = 0; k < around; ++k) {
-      // q is a point on the outline of the band's cross-section, in [−1, 1]².
+      // The row of teeth is a band with a square cross-section. Point k of the cross-section's
+      // outline is `q`, a point on the border of the square [−1, 1]²; `side` is its side.
       const int side = k / quarter;
       const double s = 2.0 * (k % quarter) / quarter - 1;
       const Vector2d q = side == 0   ? Vector2d(1, s)

@@ -39,8 +39,8 @@ class LooseParts {
     return points_[static_cast<std::size_t>(vertex)];
   }
 
-  /// Returns the vertex positions of the parts in a head: vertex_count() by 3, cm. Parts with
-  /// different edge lengths have the same shape.
+  /// Returns the vertex positions of the parts in a head: vertex_count() by 3, cm. Two objects of
+  /// this class that were made for different edge lengths describe the same shapes.
   Positions positions(const Identity& identity) const;
 
  private:

@@ -16,8 +16,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Returns the ray to a point on the edge of the eye's opening. \param c  unit direction (x away
-/// from the midline of the face, y up).
+/// Returns the ray, from inside the head, to a point on the edge of the eye's opening.
+/// \param c  direction from the eye's centre to the point: unit vector (x away from the midline of
+///           the face, y up).
 GuideRay eye_edge(const Vector2d& c) {
   // Almond shape: pointed corners, an upper lid that is highest towards the nose, and an outer
   // corner slightly above the inner corner.
@@ -49,8 +50,11 @@ GuideRay edge_of(SkinPatch patch, const Vector2d& circle) {
   return patch == SkinPatch::kNostril ? nostril_edge(circle) : mouth_edge(circle);
 }
 
-/// Continues the skin from the edge of a lid inward. From b = 1 to 1.2, the skin crosses the
-/// thickness of the lid; from 1.2 to 2, it covers the eyeball up to the pupil.
+/// Continues the skin from the edge of a lid inward. Returns the point at the ring coordinate b
+/// (LatticePoint::b), 1 … 2. From b = 1 to 1.2, the skin crosses the thickness of the lid; from 1.2
+/// to 2, the skin covers the eyeball up to the pupil.
+/// \param edge  the point at b = 1, on the edge of the lid
+/// \param c     direction around the eye: a point on the unit circle in the front view
 Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d spoke = edge - eye_centre();
   const Vector3d foot = eye_centre() + kEyeRadius / spoke.norm() *
@@ -66,8 +70,8 @@ Vector3d into_eye(const Vector3d& edge, const Vector2d& c, double b) {
          Vector3d(flat.x(), flat.y(), std::sqrt(std::max(0.04, r2 - flat.squaredNorm())) - dish);
 }
 
-/// Continues the skin from the edge of a lid inward. From b = 1 to 1.2, the skin crosses the
-/// thickness of the lid; from 1.2 to 2, it runs back between lid and eyeball.
+/// Like into_eye, for heads with separate eyeballs. From b = 1 to 1.2, the skin crosses the
+/// thickness of the lid; from 1.2 to 2, the skin runs back between lid and eyeball.
 Vector3d into_socket(const Vector3d& edge, const Vector2d& c, double b) {
   const Vector3d foot = into_eye(edge, c, std::min(b, 1.2)) - eye_centre();
   if (b <= 1.2) return eye_centre() + foot;

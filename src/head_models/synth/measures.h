@@ -12,7 +12,8 @@ namespace crowdface::synth {
 /// the distance from the centre relative to the radii. The displacement is mirrored at x = 0 unless
 /// the centre has x = 0. Lengths in cm.
 struct LocalDisplacement {
-  /// the parameters of the formula; cm, `stretch` has no unit
+  /// The parameters of the formula in the comment of LocalDisplacement. `centre`, `radii` and
+  /// `shift` are in cm; `stretch` has no unit.
   Eigen::Vector3d centre, radii, shift, stretch;
 };
 

@@ -45,7 +45,8 @@ const Coefficients& coefficients_of(std::uint64_t key, const std::array<std::int
   for (const std::int64_t c : cell)
     place = (place ^ static_cast<std::uint64_t>(c)) * 0x9E3779B97F4A7C15ULL;
   Entry& entry = entries[(place >> 32) % kEntries];
-  // Compare three numbers here, because operator== of arrays calls memcmp.
+  // Compare three numbers, which is faster than operator== of std::array: this operator calls
+  // memcmp.
   const bool same_cell =
       entry.cell[0] == cell[0] && entry.cell[1] == cell[1] && entry.cell[2] == cell[2];
   if (entry.filled && entry.key == key && same_cell) return entry.coefficients;
@@ -86,7 +87,9 @@ double SmoothNoise::at(const Eigen::Vector3d& point) const {
     weights[k] = spline(x - static_cast<double>(cell[k]));
   }
   const Coefficients& lattice = coefficients_of(key_, cell);
-  // Sum over z, then x, then y, as products of short vectors
+  // Interpolate between 4 × 4 × 4 lattice values: compute the sum of all values, each multiplied by
+  // its three weights (along x, y and z). Sum over z first, then over x, then over y. Each of these
+  // steps adds short vectors, which the compiler turns into SIMD instructions.
   const auto& [along_x, along_y, along_z] = weights;
   const Eigen::Array<double, 16, 1> lines =
       along_z[0] * lattice.col(0) + along_z[1] * lattice.col(1) + along_z[2] * lattice.col(2) +

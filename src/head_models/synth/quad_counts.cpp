@@ -12,7 +12,7 @@ namespace {
 /// Consecutive rings of an opening.
 struct RingSpan {
   double from, to;                 ///< range of the ring coordinate b
-  double ring_count_at_density_1;  ///< number of rings if there is one quad per unit
+  double ring_count_at_density_1;  ///< number of rings if there is one quad per lattice unit
 };
 std::vector<RingSpan> ring_spans(SkinPatch patch) {
   if (patch == SkinPatch::kEye) return {{0, 1, 6}, {1, 1.2, 1}, {1.2, 2, 4}};

@@ -11,13 +11,14 @@ namespace crowdface::synth {
 
 /// Number of quads in every lattice interval and ring span of a layout.
 struct QuadCounts {
-  /// \param density  quads per unit. In each interval, the number of quads is rounded, and is at
-  ///                 least one.
+  /// \param density  quads per lattice unit (see lattice.h). In each interval, the number of quads
+  ///                 is rounded, and is at least one.
   explicit QuadCounts(double density);
 
-  /// Returns the number of quads from the midline to lattice column k; negative if k < 0.
+  /// Returns the number of quads from the midline of the face to lattice column k; negative if k <
+  /// 0.
   int quads_to_column(int k) const;
-  /// Returns the number of quads from the cap to lattice row k.
+  /// Returns the number of quads from the lower edge of the cap (lattice row 0) to lattice row k.
   int quads_to_row(int k) const;
   /// Returns the coordinate b (see LatticePoint) of every ring of an opening, without the opening's
   /// outline (b = 0).

@@ -24,10 +24,10 @@ struct Fold {
   std::string_view name;
   Vector2d start, control, end;
   double width, depth;  ///< width and depth of the groove, cm; a ridge has a negative depth
-  /// The factor on the depth has the mean base + 1.25 · aged · Person::scaled_age() and the
-  /// standard deviation `spread`.
+  /// Each person's fold has the depth `depth` times a random factor. The mean of this factor is
+  /// `base` + 1.25 · `aged` · Person::scaled_age(); its standard deviation is `spread`.
   double base, aged, spread;
-  double bulge;        ///< height of a ridge left of the curve, relative to the depth
+  double bulge;        ///< height of the ridge beside the groove, see Relief::Stroke::bulge
   bool paired = true;  ///< whether the fold is mirrored to x < 0
 };
 
@@ -217,7 +217,9 @@ double Relief::wrinkle_height(const Vector3d& p) const {
     const double arc = axis.norm() * (axis.y() * from.x() - axis.x() * from.y()) / axis.dot(from);
     const double along = area.has_rays ? from.norm() : arc,
                  across = area.has_rays ? arc : from.norm();
-    // Each step of the spacing has one wavy wrinkle with gaps.
+    // One wavy wrinkle with gaps lies at each multiple of the spacing. `number` is the number of
+    // the wrinkle nearest to the point. `lane` selects different noise for each area and each side
+    // of the face.
     const double lane = 20 * static_cast<double>(i) + (area.paired && p.x() < 0 ? 10 : 0);
     const double wave = wrinkle_waves_.at({0.35 * along, 0.5 * across / wrinkles.spacing, lane});
     const double place_in_steps = across / wrinkles.spacing + wrinkles.offset + 0.45 * wave;
@@ -235,7 +237,8 @@ double Relief::fold_height(const Vector3d& p) const {
 }
 
 double Relief::fold_shade(const Vector3d& p) const {
-  // Do not divide the depth by the width itself, because wide folds would hardly be visible.
+  // Divide the depth of a fold by a length that is never small and grows more slowly than the width
+  // of the fold. If the divisor were the width, wide folds would hardly be visible.
   return -sum_of_strokes(p, [](const Stroke& stroke) {
     return 1.3 / (0.15 + 0.5 * stroke.width);
   }) - 4.5 * wrinkle_height(p);

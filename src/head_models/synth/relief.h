@@ -41,8 +41,9 @@ class Relief {
     static constexpr int kPieces = 12;  ///< number of straight pieces of the curve
     std::array<Eigen::Vector2d, kPieces + 1> points;
     double width, depth;  ///< width and depth of the curve's groove, cm
-    /// Height of a ridge beside the curve, relative to the depth; positive: the ridge is left of
-    /// the curve.
+    /// Absolute value: height of a ridge beside the groove, as a fraction of the groove's depth.
+    /// Sign: for a viewer who looks along the curve from its start, in the front view, the ridge is
+    /// on the left (positive) or on the right (negative).
     double bulge;
     /// Bounding box, in the front view, of the points that the curve displaces.
     Eigen::AlignedBox2d affected_box;
@@ -51,13 +52,13 @@ class Relief {
   double grain(const Eigen::Vector3d& position) const;
   /// Returns the contribution of one curve to fold_height at a point of the front view, cm.
   double stroke_height(const Stroke& stroke, const Eigen::Vector2d& place) const;
-  /// Returns the sum of the curves' contributions at a point, each multiplied by weight(curve).
+  /// Returns Σ weight(s) · stroke_height(s) at a point, over all curves s in `strokes_`.
   template <class Weight>
   double sum_of_strokes(const Eigen::Vector3d& position, const Weight& weight) const;
   /// Returns the depth of wrinkles at a point as a negative height, cm; positive on their borders.
   double wrinkle_height(const Eigen::Vector3d& position) const;
   /// Adds the curve of a fold.
-  /// \param side  1, or −1 to add the mirror image of the curve at x = 0.
+  /// \param side  1: the curve itself; −1: the curve mirrored in the plane x = 0.
   void add_stroke(std::size_t fold_index, double side, double depth);
 
   /// the curves of all folds and lines, and their mirror images

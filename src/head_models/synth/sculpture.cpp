@@ -28,12 +28,13 @@ double capsule_distance(const Vector3d& p, const Vector3d& a, const Vector3d& b,
   return (p - a - t * axis).norm() - (ra + (rb - ra) * t);
 }
 
-/// Smooth union of two distances with a blend width of about k.
+/// Signed distance from the smooth union of two bodies, given the distances a and b from the
+/// bodies. The edge between the bodies is rounded over a width of about k.
 double smooth_union(double a, double b, double k) {
   const double h = std::max(k - std::abs(a - b), 0.0) / k;
   return std::min(a, b) - h * h * k / 4;
 }
-/// Smooth difference: removes body b from body a.
+/// Like smooth_union, for the smooth difference: body a without body b.
 double smooth_difference(double a, double b, double k) {
   return -smooth_union(-a, b, k);
 }

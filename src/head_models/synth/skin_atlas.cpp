@@ -69,7 +69,7 @@ SkinAtlas::SkinAtlas(int side)
     }
   }
   for (std::uint32_t t = 0; t < triangles_.size(); ++t) rasterise(t);
-  copy_to_uncovered_texels();
+  find_sources_of_uncovered_texels();
 }
 
 Eigen::Vector3d SkinAtlas::barycentric(const Triangle& triangle, std::size_t texel) const {
@@ -101,8 +101,9 @@ void SkinAtlas::rasterise(std::uint32_t triangle) {
   }
 }
 
-/// Finds source_texel of all uncovered texels by a breadth-first search from the covered texels.
-void SkinAtlas::copy_to_uncovered_texels() {
+/// Finds the source_texel of each uncovered texel, by a breadth-first search from the covered
+/// texels.
+void SkinAtlas::find_sources_of_uncovered_texels() {
   std::vector<std::uint32_t> reached;
   std::vector<bool> is_reached(size());
   const auto reach = [&](std::size_t texel, std::size_t source) {

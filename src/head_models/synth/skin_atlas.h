@@ -44,10 +44,13 @@ class SkinAtlas {
   std::size_t source_texel(std::size_t texel) const {
     return is_covered(texel) ? texel : texels_[texel] - kFirstCopy;
   }
-  /// Interpolates the point that the source of a texel shows.
+  /// Returns the point of the average head that a texel shows, interpolated in a triangle. For an
+  /// uncovered texel, returns the point that its source_texel shows.
   AtlasTexel operator[](std::size_t texel) const;
 
  private:
+  /// Values of `texels_` from kFirstCopy on belong to uncovered texels, smaller values to covered
+  /// texels.
   static constexpr std::uint32_t kFirstCopy = 0x80000000U;
   struct Triangle {
     std::array<Eigen::Vector2d, 3> corners;  ///< in texels
@@ -55,18 +58,18 @@ class SkinAtlas {
   };
   Eigen::Vector3d barycentric(const Triangle& triangle, std::size_t texel) const;
   void rasterise(std::uint32_t triangle);
-  void copy_to_uncovered_texels();
+  void find_sources_of_uncovered_texels();
 
   std::size_t side_;
-  std::vector<AtlasTexel> points_;  ///< points at the vertices of the triangles
+  std::vector<AtlasTexel> points_;  ///< the points of the skin at the corners of `triangles_`
   std::vector<Triangle> triangles_;
   /// For a covered texel: index of its triangle; for another texel: kFirstCopy + source_texel.
   std::vector<std::uint32_t> texels_;
 };
 
 /// Calls `body(left, top, right, bottom)` in parallel for squares of texels that together cover a
-/// side × side texture; `right` and `bottom` are one past the last column and row. SmoothNoise is
-/// fast for points that are close together.
+/// side × side texture; `right` and `bottom` are one past the last column and row. Squares are used
+/// instead of rows, because SmoothNoise is fast for points that are close together.
 template <class Body>
 void for_each_square(std::size_t side, const Body& body) {
   constexpr std::size_t kSquare = 64;

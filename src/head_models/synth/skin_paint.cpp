@@ -217,7 +217,8 @@ double SkinPaint::brow_coverage(const Vector& p) const {
 /// \param side   selects the hairs of the left or of the right brow.
 double SkinPaint::brow_hairs(const Vector2d& place, std::uint64_t side) const {
   constexpr double kLength = 4.3, kCell = 0.08, kHair = 0.5;  // cm
-  // Density of the hair roots at a place: thin at both ends and towards the upper and lower border.
+  // Density of the hair roots at a place of the brow. The density decreases towards both ends of
+  // the brow, and towards its upper and lower border.
   const auto density = [&](const Vector2d& root) {
     const double t = root.x() / kLength, half = complexion_.brow_width * (0.30 - 0.14 * t * t);
     const double ends = smooth_step(-0.08, 0.2, t) * smooth_step(1.06, 0.6, t);
@@ -238,8 +239,8 @@ double SkinPaint::brow_hairs(const Vector2d& place, std::uint64_t side) const {
       const Vector2d root = kCell * Vector2d(i + unit(0), j + unit(1));
       const double grown = density(root);
       if (unit(3) >= grown) continue;
-      // Hairs point up near the nose and away from the nose farther out, and converge towards the
-      // middle line.
+      // At the inner end of a brow, near the nose, hairs point up. Towards the outer end, they
+      // point away from the nose. All hairs lean towards the brow's middle line.
       const double t = std::clamp(root.x() / kLength, 0.0, 1.0);
       const Vector2d direction =
           Vector2d(0.35 + t, 0.9 * (1 - t) * (1 - t) + 0.15 - 1.1 * root.y()).normalized();

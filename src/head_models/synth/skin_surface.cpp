@@ -21,7 +21,8 @@ struct ReliefTexel {
 };
 
 /// Computes slopes of the relief between texels.
-/// \param farthest  distance in cm from which on two texels are not adjacent on the skin.
+/// \param farthest  distance in cm. If the points that two texels show are at least this far apart,
+///                  they are not adjacent on the skin, even if the texels are neighbours.
 class Slopes {
  public:
   explicit Slopes(double farthest) : farthest_(farthest) {}

@@ -105,8 +105,9 @@ std::vector<std::uint8_t> synthetic_region_mask(int size) {
   require(size >= 1, "a mask of ", size, " pixels");
   using synth::row_distance;
   using synth::strip_v;
-  // The transitions between regions lie around the eyes and between nose and lips. They are wide,
-  // because a narrow transition between two heads would be visible as a ridge.
+  // One transition between regions lies at the height of the eyes, the other between nose and lips.
+  // Both are wide: if two adjacent regions of a face come from different heads, a narrow transition
+  // would be visible as a ridge.
   const double brow = strip_v(row_distance(2)), under_eye = strip_v(row_distance(3));
   const double nose = strip_v(row_distance(5)), lips = strip_v(row_distance(6));
   const double eye = (brow + under_eye) / 2, half = 0.55 * (brow - under_eye);

@@ -61,16 +61,19 @@ class SyntheticHeads {
  private:
   Topology topology_;
   TextureCoordinates uvs_;
-  double edge_cm_ = 0;
+  double edge_cm_ = 0;                  ///< typical edge length of the mesh, see edge_cm()
   std::vector<synth::SkinPoint> mean_;  ///< the average head: one point per vertex of the skin
   std::vector<std::uint32_t> rim_;  ///< vertices of the neck's rim, counter-clockwise from above
   Scalp scalp_;
   std::optional<synth::LooseParts> loose_;  ///< eyeballs and teeth, if they are separate
 };
 
-/// Returns a region mask for the texture coordinates of the heads at every resolution: `size` ×
-/// `size` × 3 bytes, row by row, first row at v = 1. The channels are top (brows and above), middle
-/// (eyes and nose), bottom (mouth and below). They sum to 255 and have smooth transitions.
+/// Returns a region mask for the synthetic heads. One mask fits meshes of every resolution, because
+/// all have the same texture coordinates. The mask has 3 bytes per pixel, row by row, first row at
+/// v = 1. The bytes of a pixel are the weights of three regions: top (brows and above), middle
+/// (eyes and nose), bottom (mouth and below). The three weights sum to 255 and have smooth
+/// transitions.
+/// \param size  width and height of the mask in pixels.
 /// \throws BrokenPrecondition if size < 1.
 std::vector<std::uint8_t> synthetic_region_mask(int size);
 

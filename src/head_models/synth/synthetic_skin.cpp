@@ -20,8 +20,8 @@ void write_texel(const synth::ScreenColour& colour, std::uint8_t* bytes) {
   for (Eigen::Index c = 0; c < 3; ++c) bytes[c] = synth::to_byte(colour[c]);
 }
 
-/// Returns the bytes of a texture: `paint` fills the bytes of each texel that shows a surface; each
-/// other texel copies the bytes of its source texel.
+/// Returns the bytes of a texture. `paint` fills the bytes of each texel that shows a surface. Each
+/// other texel gets the bytes of a nearby texel that shows a surface (SkinAtlas::source_texel).
 template <class Paint>
 std::vector<std::uint8_t> painted(const synth::SkinAtlas& atlas, std::size_t channels,
                                   const Paint& paint) {
@@ -74,11 +74,12 @@ std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
 std::vector<std::uint8_t> SyntheticSkins::normals(std::uint64_t seed, std::uint64_t index,
                                                   double edge_cm) const {
   const synth::Identity identity(seed, index);
-  // A texture can represent wavelengths of at least two texels. A mesh can represent wavelengths of
-  // at least four edges.
-  const double finest = texel_cm_ / 2;
+  // Relief takes the edge length of a mesh. A mesh can represent wavelengths of at least four
+  // edges. A texture can represent wavelengths of at least two texels, the same as a mesh whose
+  // edges are half a texel long.
+  const double finest_edge = texel_cm_ / 2;
   return synth::skin_normals(atlas_, texel_cm_,
-                             synth::Relief(identity, finest, std::max(finest, edge_cm)));
+                             synth::Relief(identity, finest_edge, std::max(finest_edge, edge_cm)));
 }
 
 std::vector<std::uint8_t> SyntheticSkins::roughness(std::uint64_t seed, std::uint64_t index) const {

@@ -19,6 +19,7 @@ class SyntheticSkins {
   /// \throws BrokenPrecondition if size is out of range.
   explicit SyntheticSkins(int size, SyntheticHeads::Scalp scalp = SyntheticHeads::Scalp::kHaired);
 
+  /// Returns the width and height of the textures in texels.
   int size() const { return static_cast<int>(atlas_.side()); }
   /// Returns the albedo (sRGB) of head `index` of a seed, for the texture coordinates of
   /// SyntheticHeads: size × size × 3 bytes, row by row, first row at v = 1. The bytes are the same

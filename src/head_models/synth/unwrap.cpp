@@ -25,14 +25,17 @@ double piecewise(double unit, double (*knot)(int), const double* sizes, int inte
   return sum;
 }
 
-/// Returns the signed distance from the midline, in the unit of kWidths.
-double across(double unit) {
-  const double x = piecewise(std::abs(unit), column_distance, kWidths.data(), kColumns - 1);
-  return unit < 0 ? -x : x;
+/// Converts a signed distance from the midline of the face: from lattice units to the unit of
+/// kWidths.
+double across(double lattice_units) {
+  const double x =
+      piecewise(std::abs(lattice_units), column_distance, kWidths.data(), kColumns - 1);
+  return lattice_units < 0 ? -x : x;
 }
 
-double down(double unit) {
-  return piecewise(unit, row_distance, kHeights.data(), kRows - 1);
+/// Converts a distance down from the cap: from lattice units to the unit of kHeights.
+double down(double lattice_units) {
+  return piecewise(lattice_units, row_distance, kHeights.data(), kRows - 1);
 }
 
 /// Half the width of the texture, in the unit of kWidths.
@@ -54,7 +57,7 @@ Eigen::RowVector2d scaled(double x, double y) {
 
 // Each eyeball's texture area is a disc in a free corner of the texture, beside the area of the cap
 // (the patch on top of the head).
-constexpr double kDisc = 4.9;  ///< radius of the disc
+constexpr double kDisc = 4.9;  ///< radius of each disc, in the unit of kWidths (about 1 cm)
 const Eigen::Vector2d& disc_centre() {
   static const Eigen::Vector2d centre((across(column_distance(kFrontColumn)) + half_width()) / 2,
                                       -kCapHeight / 2);

@@ -8,7 +8,8 @@
 namespace crowdface::synth {
 
 /// Returns the texture coordinates of a lattice point in the tile [0, 1]². The layout has no
-/// overlaps. The texture seam is at the back of the head, and the cap is attached to the forehead.
+/// overlaps. The texture seam is at the back of the head. The skin patch on top of the head
+/// (SkinPatch::kCap) is attached to the forehead.
 Eigen::RowVector2d unwrap(const LatticePoint& lattice_point);
 
 /// Returns the texture coordinates (u, v) of a point in the hole that an opening leaves in the
