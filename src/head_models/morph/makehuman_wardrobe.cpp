@@ -254,7 +254,7 @@ double makehuman_skin_optical_density_factor(const MakeHumanPerson& person, std:
 double makehuman_skin_detail_factor(const MakeHumanPerson& person) {
   const auto shares = age_shares(person.age_years);
   return 1 + (person.is_male ? 1.2 : 1.7) * shares[1].share +
-         (person.is_male ? 1.2 : 0.6) * shares[2].share;
+         (person.is_male ? 1.2 : 1.0) * shares[2].share;
 }
 
 std::array<double, 3> makehuman_lip_tint(const MakeHumanPerson& person, std::uint64_t seed,

@@ -97,7 +97,7 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   } else {
     look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
     const double fond = unit("synth/made_up");
-    look.makeup = 0.35 + 0.5 * fond * fond;
+    look.makeup = (0.35 + 0.5 * fond * fond) * (1 - 0.5 * smooth_step(45, 70, person.age_years));
     look.lipstick = 0.7 * smooth_step(0.75, 0.9, fond);
   }
   return look;

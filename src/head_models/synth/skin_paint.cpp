@@ -122,7 +122,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
         0.25 * aged_ * (1 - 0.8 * complexion_.skin_tone));
   colour *= 1 - 0.08 * aged_;
   // Darken lines and hollows, because they lie in shade.
-  const double shade = (male ? 1.25 : 1.08) * (1 + 0.6 * aged_) * relief_.fold_shade(p);
+  const double shade = (male ? 1.25 : 1.08) * (1 + (male ? 0.6 : 0.85) * aged_) * relief_.fold_shade(p);
   tint(colour, {0.66, 0.54, 0.50}, std::clamp(shade, 0.0, 1.0));
   return colour;
 }
@@ -149,7 +149,7 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const bool male = person_.maleness > 0;
-  const double pale = (male ? 0.4 : 0.15 * aged_) + 0.1 * aged_;
+  const double pale = (male ? 0.4 : 0.25 * aged_) + 0.1 * aged_;
   // The contrast between skin and lips or eyes is larger in women (Russell 2009, "A sex difference
   // in facial contrast and its exaggeration by cosmetics").
   tint(lips, {0.88, male ? 0.63 : 0.67, male ? 0.65 : 0.69}, 1 - pale);
@@ -170,7 +170,7 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   // The skin of the eye sockets is thin and bluish, mostly below the eye and at its inner corner.
   const double socket = patch(p, {3.1, -0.2}, {2.9, 2.1}) + patch(p, {1.6, -0.4}, {1.0, 1.3});
   tint(colour, {0.88, 0.86, 0.88},
-       (male ? 1.2 : 0.5) * (0.35 + 0.6 * aged_) * std::min(1.0, 1.3 * socket));
+       (male ? 1.2 : 0.5 + 0.4 * aged_) * (0.35 + 0.6 * aged_) * std::min(1.0, 1.3 * socket));
   tint(colour, {0.85, 0.83, 0.87}, (0.3 + 0.9 * aged_) * patch(p, {2.8, -1.3}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
   if (!male) colour *= 1 - 0.15 * patch(p, {3.12, 0.1}, {2.2, 1.2});
