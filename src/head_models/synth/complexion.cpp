@@ -74,9 +74,9 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   const double darkest = smooth_step(0.15, 0.65, look.skin_tone);
   // Stratified random numbers give successive women with light skin, and such men, different hair.
   const double hair =
-      darkest + (1 - darkest) * random_stratified({seed, index / 2, male ? "synth/hair_of_men"
-                                                                         : "synth/hair_of_women"},
-                                                  3);
+      darkest +
+      (1 - darkest) * random_stratified(
+                          {seed, index / 2, male ? "synth/hair_of_men" : "synth/hair_of_women"}, 3);
   const double grey = smooth_step(38, 74, person.age_years + 12 * (unit("synth/grey") - 0.5));
   look.hair = look.young_hair = along(natural_hair(), hair);
   look.brow_hair = 0.85 * (look.hair + 0.45 * grey * (from_bytes(150, 143, 137) - look.hair));

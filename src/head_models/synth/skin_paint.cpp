@@ -112,17 +112,16 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   if (male) {
     tint(colour, {0.88, 0.84, 0.82}, (0.25 + 0.25 * complexion_.skin_tone) * (1 - front * middle));
   }
-  // Cheeks and temples of old people are hollow, and their jowls throw shadows. The shadows are
-  // weaker on women, on whom they would look like beards.
+  // Cheeks and temples of old people are hollow, and their jowls throw shadows.
   const double hollows = patch(p, {5.2, -5.4}, {2.2, 3.4}) + patch(p, {6.4, 2.6}, {2.0, 2.6}) +
                          patch(p, {3.4, -9.6}, {1.5, 1.6});
-  tint(colour, {0.80, 0.75, 0.74}, (male ? 0.8 : 0.87) * aged_ * std::min(1.0, hollows));
+  tint(colour, {0.80, 0.75, 0.74}, 0.9 * aged_ * std::min(1.0, hollows));
   // Old skin is pale and sallow.
   cover(colour, colour.mean() * ScreenColour(1.06, 0.98, 0.88),
         0.25 * aged_ * (1 - 0.8 * complexion_.skin_tone));
   colour *= 1 - 0.08 * aged_;
   // Darken lines and hollows, because they lie in shade.
-  const double shade = (male ? 1.25 : 1.08) * (1 + (male ? 0.6 : 0.85) * aged_) * relief_.fold_shade(p);
+  const double shade = (male ? 1.25 : 1.08) * (1 + 0.85 * aged_) * relief_.fold_shade(p);
   tint(colour, {0.66, 0.54, 0.50}, std::clamp(shade, 0.0, 1.0));
   return colour;
 }
