@@ -118,7 +118,7 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   tint(colour, {0.80, 0.75, 0.74}, 0.9 * aged_ * std::min(1.0, hollows));
   // Old skin is pale and sallow.
   cover(colour, colour.mean() * ScreenColour(1.06, 0.98, 0.88),
-        0.18 * aged_ * (1 - 0.8 * complexion_.skin_tone));
+        0.25 * aged_ * (1 - 0.8 * complexion_.skin_tone));
   colour *= 1 - 0.08 * aged_;
   // Darken lines and hollows, because they lie in shade.
   const double shade = (male ? 1.25 : 1.08) * (1 + 0.85 * aged_) * relief_.fold_shade(p);
