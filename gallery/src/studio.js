@@ -4,6 +4,7 @@
 import { Matrix3, MeshStandardMaterial, ShaderChunk, Vector3 } from 'three';
 
 const mostShaded = 0.85; // what sees more of the sky lies in no shadow
+const rimGloss = 0.4; // factor on the highlights of the rim lights, which the face partly hides
 const hairSky = 0.72; // the sky that hair sees, most of which lies under other hair
 
 const unit = (...way) => new Vector3(...way).normalize();
@@ -13,8 +14,8 @@ export const lamps = {
   key: { way: unit(-0.62, 0.62, 0.62), colour: [1.55, 1.49, 1.39] },
   fill: { way: unit(0.85, 0.05, 0.55), colour: [0.15, 0.165, 0.185] },
   rims: [
-    { way: unit(0.8, 0.35, -0.5), colour: [0.62, 0.65, 0.71] },
-    { way: unit(-0.85, 0.25, -0.55), colour: [0.25, 0.26, 0.28] },
+    { way: unit(0.8, 0.35, -0.5), colour: [0.64, 0.65, 0.67] },
+    { way: unit(-0.85, 0.25, -0.55), colour: [0.255, 0.26, 0.265] },
   ],
   above: [0.29, 0.3, 0.315],
   below: [0.1, 0.093, 0.086],
@@ -24,7 +25,7 @@ export const lamps = {
 export const surfaces = {
   skin: { wrap: [0.3, 0.19, 0.14], roughness: 0.48, reflectance: 0.03, specular: 1, darkens: true, sky: 1 },
   eye: { wrap: [0.15, 0.12, 0.1], roughness: 0.16, reflectance: 0.04, specular: 1, darkens: false, sky: 1 },
-  attachment: { wrap: [0.3, 0.28, 0.26], roughness: 0.45, reflectance: 0.03, specular: 0.45, darkens: true, sky: hairSky },
+  attachment: { wrap: [0.3, 0.28, 0.26], roughness: 0.45, reflectance: 0.03, specular: 0.3, darkens: true, sky: hairSky },
 };
 
 /// What a pixel shows of a linear value, before the curve of sRGB: highlights are compressed.
@@ -89,7 +90,7 @@ export function lightIn(camera, group, kind) {
       if (facing <= 0) continue;
       const nh = Math.max(x * halves[l].x + y * halves[l].y + z * halves[l].z, 0);
       const spread = nh * nh * (alpha2 - 1) + 1;
-      const share = (specular * (l === 0 ? keyPart : sky * sky) * facing * alpha2 * (mirrored + (1 - mirrored) * away5[l])) /
+      const share = (specular * (l === 0 ? keyPart : l === 1 ? sky * sky : rimGloss * sky * sky) * facing * alpha2 * (mirrored + (1 - mirrored) * away5[l])) /
         (spread * spread * masking(facing) * toEye);
       for (let c = 0; c < 3; c += 1) sum[c] += share * colour[c];
     }
@@ -132,7 +133,7 @@ const shading = `
     vec3 light = albedo * open * mix(${text(lamps.below)}, ${text(lamps.above)}, 0.5 + 0.5 * n.y);
     light += lampLight(${lamp(lamps.key)}, n, eye, albedo * key * wrapped(dot(n, toKey), surface.wrap), alpha2, surface.reflectance, surface.specular * key);
     light += lampLight(${lamp(lamps.fill)}, n, eye, albedo * open * wrapped(dot(n, toFill), surface.wrap), alpha2, surface.reflectance, soft);
-    ${lamps.rims.map((rim) => `light += lampLight(${lamp(rim)}, n, eye, albedo * sky * max(dot(n, ${text(rim.way)}), 0.0), alpha2, surface.reflectance, soft);`).join('\n    ')}
+    ${lamps.rims.map((rim) => `light += lampLight(${lamp(rim)}, n, eye, albedo * sky * max(dot(n, ${text(rim.way)}), 0.0), alpha2, surface.reflectance, ${rimGloss} * soft);`).join('\n    ')}
     return light;
   }
   // No shadows are cast here: what sees little of the sky sees little of the key light.

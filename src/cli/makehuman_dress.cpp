@@ -343,7 +343,7 @@ void MakeHumanDress::add_person(const fs::path& folder, const std::string& name,
              "newmtl tongue\nKd 1 1 1\nmap_Kd textures/tongue.png\n")));
   files.push_back(
       {folder / skin, [shares = makehuman_skin_shares(package_, person, seed, index),
-                       tone = makehuman_skin_optical_density_factor(seed, index),
+                       tone = makehuman_skin_optical_density_factor(person, seed, index),
                        detail = makehuman_skin_detail_factor(person),
                        lips = makehuman_lip_tint(person, seed, index), most = max_texels_, this] {
          Picture shown = downsampled(blended_skin(shares, tone), most);

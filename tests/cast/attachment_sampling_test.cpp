@@ -631,6 +631,20 @@ TEST(AttachmentDraw, NeighboursDoNotShareCutAndColour) {
   EXPECT_EQ(count(crowd, "bob"), 60U);
 }
 
+TEST(AttachmentDraw, AFaceDoesNotShareCutAndColourWithTheMostSimilarEarlierFace) {
+  AttachmentOptions draw = crowd_with_hair();
+  draw.items[0].relative_frequency = 50;  // without the rule, nearly every face wears this item
+  std::vector<FacePlan> crowd = hair_crowd(60);
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    crowd[i].recipe.target = 0;
+    if (i >= 2) crowd[i].notes.nearest = NearestNeighbours{0, 1, crowd[i - 2].id, 1};
+  }
+  choose_attachments(draw, {}, crowd);
+  for (std::size_t i = 2; i < crowd.size(); ++i) {
+    EXPECT_NE(crowd[i].attachments, crowd[i - 2].attachments) << crowd[i].id;
+  }
+}
+
 TEST(AttachmentDraw, LeavesOutWhoseTagsAreExcluded) {
   AttachmentOptions draw = crowd_with_hair();
   for (AttachmentItem& item : draw.items) {

@@ -123,6 +123,10 @@ class AttachmentChooser {
           neighbours_[sequence[i - 1].id].push_back(sequence[i].id);
         }
       }
+      for (const FacePlan& face : sequence) {
+        if (!face.index || !face.notes.nearest || !face.notes.nearest->earlier_face) continue;
+        neighbours_[face.id].push_back(*face.notes.nearest->earlier_face);
+      }
     }
     for (auto& [kind, quotas] : quotas_) {
       for (const auto& [group, faces] : group_sizes_) {
@@ -218,8 +222,8 @@ class AttachmentChooser {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
 
-  /// Removes items that the previous or the next face wears in a similar colour, unless this
-  /// removes all items.
+  /// Removes items that the previous face, the next face or the most similar earlier face wears in a
+  /// similar colour, unless this removes all items.
   void avoid_neighbours(const FacePlan& face, Items& items) const {
     const auto neighbours = neighbours_.find(face.id);
     if (neighbours == neighbours_.end()) return;
@@ -423,8 +427,8 @@ class AttachmentChooser {
   /// chooses the faces' hair colours; empty if no item has a tint
   std::optional<HairChooser> hair_;
   std::map<std::string, HairColour> hairs_;  ///< maps the id of a face to its hair colour
-  /// Maps the id of a face to the ids of the previous and of the next face. Leaves out a neighbour
-  /// if must_differ does not hold for the face and this neighbour.
+  /// Maps the id of a face to the ids of the previous and of the next face (if must_differ holds for
+  /// the two faces), and of the most similar earlier face.
   std::map<std::string, std::vector<std::string>> neighbours_;
 };
 

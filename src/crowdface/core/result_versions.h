@@ -24,12 +24,12 @@ inline constexpr int kPatchVersion = 1;
 /// from these coordinates.
 inline constexpr int kFaceSpaceVersion = 2;
 /// Version of crowd plans; raised if the same config and heads give another plan.
-inline constexpr int kPlanVersion = 5;
+inline constexpr int kPlanVersion = 6;
 /// Version of the cache entries that all heads share: neighbours, masks at vertices, samples and
 /// their cells, mirror vertices.
 inline constexpr int kSharedCacheVersion = 1;
 /// Version of the images, skin measurements and mesh files made from the positions of a face.
-inline constexpr int kFaceFilesVersion = 26;
+inline constexpr int kFaceFilesVersion = 27;
 /// Version of the blend shapes transferred to a face, and of the rendered images of these shapes.
 inline constexpr int kShapesVersion = 9;
 /// Version of the named points (config section `points`) that move with the surface of a face.

@@ -116,8 +116,11 @@ HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* ligh
   const Numbers soft = hn::Mul(specular, square(sky));
   const Numbers key_gloss = hn::Mul(gloss.of(to_key), hn::Mul(specular, key));
   const Numbers fill_gloss = hn::Mul(gloss.of(to_fill), soft);
-  const Numbers right_gloss = hn::Mul(gloss.of(to_right), soft);
-  const Numbers left_gloss = hn::Mul(gloss.of(to_left), soft);
+  // Less than half of the rim lights' highlights: no shadow rays tell where the face hides these
+  // lights, such as beside the nose.
+  const Numbers rim = hn::Mul(number(0.4F), soft);
+  const Numbers right_gloss = hn::Mul(gloss.of(to_right), rim);
+  const Numbers left_gloss = hn::Mul(gloss.of(to_left), rim);
   for (int c = 0; c < 3; ++c) {
     const Numbers albedo = field(ShadeBatch::kAlbedo + c), wrap = field(ShadeBatch::kWrap + c);
     const Numbers open = with_bounces(sky, albedo);
@@ -195,7 +198,7 @@ void ShadeBatch::add(const ShadePoint& point, float specular) {
   put(kKey, point.key_visibility);
   put(kSky, point.sky_visibility);
   // Attachments are mostly hair, whose strands point in all directions and weaken highlights.
-  put(kSpecularFactor, point.kind == SurfaceKind::kAttachment ? 0.45F * specular : specular);
+  put(kSpecularFactor, point.kind == SurfaceKind::kAttachment ? 0.3F * specular : specular);
   put(kRadianceFactor, point.is_back ? 0.3F : 1.0F);
 }
 

@@ -38,8 +38,8 @@ const Studio& studio() {
   static const Studio lamps = {
       .key = {Eigen::Vector3f(-0.62F, 0.62F, 0.62F).normalized(), {1.55F, 1.49F, 1.39F}},
       .fill = {Eigen::Vector3f(0.85F, 0.05F, 0.55F).normalized(), {0.15F, 0.165F, 0.185F}},
-      .rim_right = {Eigen::Vector3f(0.80F, 0.35F, -0.50F).normalized(), {0.62F, 0.65F, 0.71F}},
-      .rim_left = {Eigen::Vector3f(-0.85F, 0.25F, -0.55F).normalized(), {0.25F, 0.26F, 0.28F}},
+      .rim_right = {Eigen::Vector3f(0.80F, 0.35F, -0.50F).normalized(), {0.64F, 0.65F, 0.67F}},
+      .rim_left = {Eigen::Vector3f(-0.85F, 0.25F, -0.55F).normalized(), {0.255F, 0.26F, 0.265F}},
       .sky_above = {0.29F, 0.30F, 0.315F},
       .sky_below = {0.10F, 0.093F, 0.086F}};
   return lamps;

@@ -243,14 +243,18 @@ std::vector<WeightedSkin> makehuman_skin_shares(const fs::path& package,
   return out;
 }
 
-double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t index) {
-  return std::clamp(1 + 0.1 * random_normal({seed, index, "makehuman/tone"}), 0.75, 1.25);
+double makehuman_skin_optical_density_factor(const MakeHumanPerson& person, std::uint64_t seed,
+                                             std::uint64_t index) {
+  // Women's skin is lighter than men's (Jablonski and Chaplin 2000, "The evolution of human skin
+  // coloration"). The package's skins of old people are too dark.
+  const double mean = (person.is_male ? 1.02 : 0.88) - 0.18 * age_shares(person.age_years)[2].share;
+  return std::clamp(mean + 0.1 * random_normal({seed, index, "makehuman/tone"}), 0.6, 1.25);
 }
 
 double makehuman_skin_detail_factor(const MakeHumanPerson& person) {
   const auto shares = age_shares(person.age_years);
   return 1 + (person.is_male ? 1.2 : 1.7) * shares[1].share +
-         (person.is_male ? 1.2 : 0.6) * shares[2].share;
+         (person.is_male ? 1.2 : 1.0) * shares[2].share;
 }
 
 std::array<double, 3> makehuman_lip_tint(const MakeHumanPerson& person, std::uint64_t seed,
@@ -258,7 +262,7 @@ std::array<double, 3> makehuman_lip_tint(const MakeHumanPerson& person, std::uin
   if (person.is_male) return {1, 1, 1};
   const auto drawn = random_pair({seed, index, "makehuman/lips"});
   const bool lipstick = drawn[0] < 1.0 / 3;
-  const double strength = lipstick ? 0.6 + 0.6 * drawn[1] : 0.2 + 0.2 * drawn[1];
+  const double strength = lipstick ? 0.6 + 0.6 * drawn[1] : 0.3 + 0.2 * drawn[1];
   constexpr std::array<double, 3> kDensities = {0.1, 1, 0.75};
   std::array<double, 3> tint{};
   for (std::size_t c = 0; c < 3; ++c) tint[c] = std::exp(-strength * kDensities[c]);

@@ -25,8 +25,10 @@ std::vector<WeightedSkin> makehuman_skin_shares(const std::filesystem::path& pac
                                                 const MakeHumanPerson& person, std::uint64_t seed,
                                                 std::uint64_t index);
 
-/// Returns a random factor, 0.75 to 1.25, on the optical density of a person's skin textures.
-double makehuman_skin_optical_density_factor(std::uint64_t seed, std::uint64_t index);
+/// Returns a random factor, 0.6 to 1.25, on the optical density of a person's skin textures. The
+/// mean is smaller for women and for old people.
+double makehuman_skin_optical_density_factor(const MakeHumanPerson& person, std::uint64_t seed,
+                                             std::uint64_t index);
 
 /// Returns a factor on the detail of a person's skin texture. The wrinkles of old people in the
 /// package are faint.

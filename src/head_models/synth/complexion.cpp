@@ -70,15 +70,19 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   // Women's skin is lighter than men's (Jablonski and Chaplin 2000, "The evolution of human skin
   // coloration"). The difference is largest for dark skin. So darken men's skin and lighten women's
   // skin, in proportion to the skin tone (0: lightest).
-  look.skin = along(skin_tones(), look.skin_tone) * (1 + (male ? -0.08 : 0.25) * look.skin_tone);
+  look.skin = along(skin_tones(), look.skin_tone) * (1 + (male ? -0.08 : 0.33) * look.skin_tone);
   // Light hair occurs only with light skin.
   const double darkest = smooth_step(0.15, 0.65, look.skin_tone);
-  const double hair = darkest + (1 - darkest) * unit("synth/hair");
+  // Stratified random numbers give successive women with light skin, and such men, different hair.
+  const double hair =
+      darkest +
+      (1 - darkest) * random_stratified(
+                          {seed, index / 2, male ? "synth/hair_of_men" : "synth/hair_of_women"}, 3);
   const double grey = smooth_step(38, 74, person.age_years + 12 * (unit("synth/grey") - 0.5));
   look.hair = look.young_hair = along(natural_hair(), hair);
   look.brow_hair = 0.85 * (look.hair + 0.45 * grey * (from_bytes(150, 143, 137) - look.hair));
   look.hair += grey * (from_bytes(168, 166, 164) - look.hair);
-  look.redness = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.6 * look.skin_tone);
+  look.redness = (0.35 + 0.65 * unit("synth/ruddy")) * (1 - 0.75 * look.skin_tone);
   look.freckles = look.skin_tone < 0.35 ? smooth_step(0.55, 1, unit("synth/freckles")) : 0;
   look.age_spots = smooth_step(48, 72, person.age_years) * (0.4 + 0.6 * unit("synth/spots")) *
                    (1 - 0.6 * look.skin_tone);
@@ -94,8 +98,8 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   } else {
     look.brow_arch = 0.25 + 0.2 * (unit("synth/brow_arch") - 0.5);
     const double fond = unit("synth/made_up");
-    look.makeup = 0.35 + 0.5 * fond * fond;
-    look.lipstick = 0.7 * smooth_step(0.8, 1.0, fond);
+    look.makeup = (0.35 + 0.5 * fond * fond) * (1 - 0.5 * smooth_step(45, 70, person.age_years));
+    look.lipstick = 0.7 * smooth_step(0.75, 0.9, fond);
   }
   return look;
 }

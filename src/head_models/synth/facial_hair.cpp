@@ -120,7 +120,7 @@ std::span<const FacialHair> facial_hairs() {
        .brow_density = 1.1},
       {.name = "brows_straight", .brow_width = 1.25, .brow_density = 1},
       {.name = "brows_broad", .brow_width = 1.45, .brow_density = 1.05},
-      {.name = "brows_thin", .brow_width = 1.1, .brow_arch = 0.1, .brow_density = 0.95},
+      {.name = "brows_thin", .brow_width = 1.2, .brow_arch = 0.02, .brow_density = 0.95},
       {.name = "brows_bushy", .brow_width = 1.6, .brow_arch = 0.08, .brow_density = 1.15},
       {.name = "stubble",
        .is_beard = true,

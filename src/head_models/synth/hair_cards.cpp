@@ -246,7 +246,7 @@ void add_card(const Card& card, double width, int strip, bool turned, HairMesh& 
 void add_hair_cards(const HairCut& cut, HairMesh& hair) {
   const std::vector<Root> roots = roots_on_scalp(cut);
   const bool combed = cut.layers == 1;
-  const double width = combed ? kCardWidth : 0.7 * kCardWidth;
+  const double width = combed && !cut.is_curly ? kCardWidth : 0.7 * kCardWidth;
   const HairCardBuilder grower(cut);
   for (std::size_t r = 0; r < roots.size(); ++r) {
     for (int layer = 0; layer < (combed ? kWispLayer + 1 : cut.layers); ++layer) {

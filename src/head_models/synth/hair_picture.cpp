@@ -84,7 +84,7 @@ std::vector<std::uint8_t> hair_picture(int size, const ScreenColour& colour, boo
       double middle = strand.place + gathered * (strand.middle - strand.place);
       middle += 0.05 * bends.at({0.6 * static_cast<double>(strand.clump), t, 0}) +
                 strand.bend * bends.at({0.6 * static_cast<double>(s), t, 5});
-      double light = strand.light * (is_cap ? 0.7 : 1);  // the cap lies in the shade of the cards
+      double light = strand.light * (is_cap ? 0.55 : 1);  // the cap lies in the shade of the cards
       if (curly) {
         const double phase = strand.waves * t + strand.phase;
         middle += kSwing * smooth_wave(phase);

@@ -73,9 +73,9 @@ const auto& wrinkle_areas() {
     WrinkleArea{"frown", {0, -12}, true, {0, 2.0}, {1.3, 1.7}, 0.7, 0.02, 0.3, false},
     WrinkleArea{"crow", {3.7, 0.1}, true, {5.7, 0.0}, {1.6, 2.3}, 0.36, 0.075, 0.1},
     WrinkleArea{"under_eye", {3.1, 1.6}, false, {3.2, -1.5}, {2.3, 1.2}, 0.3, 0.065, 0.1},
-    WrinkleArea{"cheek", {-1.5, -5.5}, false, {5.0, -4.6}, {2.2, 3.9}, 0.42, 0.012, 0.2},
-    WrinkleArea{"upper_lip", {0.5, -14}, true, {1.4, -5.75}, {1.3, 0.9}, 0.34, 0.03, 0.4},
-    WrinkleArea{"lower_lip", {0.5, -2}, true, {1.4, -8.4}, {1.3, 0.8}, 0.38, 0.008, 0.6},
+    WrinkleArea{"cheek", {-1.5, -5.5}, false, {5.0, -4.6}, {2.2, 3.9}, 0.42, 0.02, 0.2},
+    WrinkleArea{"upper_lip", {0.5, -14}, true, {1.4, -5.75}, {1.3, 0.9}, 0.34, 0.042, 0.4},
+    WrinkleArea{"lower_lip", {0.5, -2}, true, {1.4, -8.4}, {1.3, 0.8}, 0.38, 0.012, 0.6},
     WrinkleArea{"neck", {0, 2}, false, {0, -13.6}, {6, 3}, 0.55, 0.06, 0.2, false},
   };
   return list;

@@ -89,8 +89,8 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double flush = flush_.at(p);
   const double melanin = 0.55 * mottle + 0.4 * blotch + 0.22 * fine;
   tint(colour, {0.80, 0.72, 0.67},
-       (male ? 1 : 0.7) * melanin *
-           (0.12 + 0.6 * aged_ + (male ? 0.35 : 0.2) * complexion_.skin_tone));
+       (male ? 0.9 : 0.7) * melanin *
+           (0.12 + 0.5 * aged_ + (male ? 0.25 : 0.2) * complexion_.skin_tone));
   tint(colour, {0.80, 0.66, 0.56}, (0.10 + 0.06 * aged_) * smooth_step(0.5, 0.85, fine));
   const double blood = complexion_.redness * (1 + 0.2 * aged_);
   tint(colour, {0.99, 0.80, 0.79},
@@ -105,22 +105,23 @@ ScreenColour SkinPaint::bare_skin_colour(const Vector& p) const {
   const double red = patch(p, {4.0, -3.0}, {4.2, 4.0}) + patch(p, {0, -3.6}, {2.3, 2.2}) +
                      0.9 * ears + 0.45 * patch(p, {0, -10.3}, {2.6, 1.9}) +
                      0.25 * patch(p, {0, 3.5}, {4, 2.5});
-  const double border = 0.75 + 0.6 * flush + 0.35 * blotch + 0.2 * fine;
+  const double border = 0.75 + 0.35 * flush + 0.25 * blotch + 0.2 * fine;
   tint(colour, {0.98, 0.81, 0.80}, blood * std::min(1.0, red) * std::clamp(border, 0.0, 1.3));
   // The outline of a man's face is darker than its middle, above all on dark skin.
   const double middle = smooth_step(1.3, 0.5, Vector2d(p.x() / 6, (p.y() + 1.5) / 8).norm());
   if (male) {
     tint(colour, {0.88, 0.84, 0.82}, (0.25 + 0.25 * complexion_.skin_tone) * (1 - front * middle));
   }
-  // Cheeks and temples of old people are hollow, and their jowls throw shadows. The shadows are
-  // weaker on women, on whom they would look like beards.
+  // Cheeks and temples of old people are hollow, and their jowls throw shadows.
   const double hollows = patch(p, {5.2, -5.4}, {2.2, 3.4}) + patch(p, {6.4, 2.6}, {2.0, 2.6}) +
                          patch(p, {3.4, -9.6}, {1.5, 1.6});
-  tint(colour, {0.80, 0.75, 0.74}, (male ? 1.2 : 0.87) * aged_ * std::min(1.0, hollows));
-  // Old skin is sallow and reflects less light.
-  tint(colour, {0.88, 0.84, 0.75}, aged_);
+  tint(colour, {0.80, 0.75, 0.74}, 0.9 * aged_ * std::min(1.0, hollows));
+  // Old skin is pale and sallow.
+  cover(colour, colour.mean() * ScreenColour(1.06, 0.98, 0.88),
+        0.25 * aged_ * (1 - 0.8 * complexion_.skin_tone));
+  colour *= 1 - 0.08 * aged_;
   // Darken lines and hollows, because they lie in shade.
-  const double shade = (male ? 1.25 : 1.08) * (1 + 0.6 * aged_) * relief_.fold_shade(p);
+  const double shade = (male ? 1.25 : 1.08) * (1 + 0.85 * aged_) * relief_.fold_shade(p);
   tint(colour, {0.66, 0.54, 0.50}, std::clamp(shade, 0.0, 1.0));
   return colour;
 }
@@ -131,7 +132,7 @@ void SkinPaint::paint_spots(const Vector& p, ScreenColour& colour) const {
     const double spot =
         where > 0 ? smooth_step(0.42, 0.8, freckles_.at(p) + 0.25 * blotch_.at(p)) : 0;
     tint(colour, {0.80, 0.68, 0.58},
-         0.75 * complexion_.freckles * std::min(1.0, 1.6 * where) * spot);
+         0.55 * complexion_.freckles * std::min(1.0, 1.6 * where) * spot);
   }
   if (complexion_.age_spots > 0) {
     const double where = smooth_step(2.0, 5, p.y()) + 0.9 * patch(p, {5.5, -2}, {4.5, 5});
@@ -147,15 +148,15 @@ void SkinPaint::paint_lips(const AtlasTexel& place, ScreenColour& colour) const 
   if (amount <= 0) return;
   ScreenColour lips = colour;
   const bool male = person_.maleness > 0;
-  const double pale = (male ? 0.4 + 0.1 * aged_ : 0);
+  const double pale = (male ? 0.4 : 0.25 * aged_) + 0.1 * aged_;
   // The contrast between skin and lips or eyes is larger in women (Russell 2009, "A sex difference
   // in facial contrast and its exaggeration by cosmetics").
-  tint(lips, {male ? 0.88 : 0.84, male ? 0.63 : 0.58, male ? 0.65 : 0.60}, 1 - pale);
+  tint(lips, {0.88, male ? 0.63 : 0.67, male ? 0.65 : 0.69}, 1 - pale);
   tint(lips, {0.90, 0.62, 0.66}, complexion_.lipstick);
-  tint(lips, {male ? 0.82 : 0.97, male ? 0.8 : 0.63, male ? 0.83 : 0.68}, complexion_.skin_tone);
+  tint(lips, {male ? 0.82 : 0.92, male ? 0.8 : 0.78, male ? 0.83 : 0.82}, complexion_.skin_tone);
   // The upper lip is darker, because it faces down; so is the line between the lips.
   const double up = p.y() - lip_line(p.x());
-  tint(lips, {0.86, 0.79, 0.79}, smooth_step(-0.05, 0.1, up));
+  tint(lips, {0.87, 0.83, 0.83}, smooth_step(-0.05, 0.1, up));
   tint(lips, {0.52, 0.40, 0.40}, 0.9 * smooth_step(0.2, 0.02, std::abs(up)));
   // Creases run across the lips: noise stretched along y.
   lips *= 1 + (0.05 + 0.04 * aged_) * hairs_.at({0.5 * p.x(), 0.06 * p.y(), 0.06 * p.z()});
@@ -168,7 +169,7 @@ void SkinPaint::paint_around_eyes(const AtlasTexel& place, ScreenColour& colour)
   // The skin of the eye sockets is thin and bluish, mostly below the eye and at its inner corner.
   const double socket = patch(p, {3.1, -0.2}, {2.9, 2.1}) + patch(p, {1.6, -0.4}, {1.0, 1.3});
   tint(colour, {0.88, 0.86, 0.88},
-       (male ? 1.2 : 0.5) * (0.35 + 0.6 * aged_) * std::min(1.0, 1.3 * socket));
+       (male ? 1.2 : 0.5 + 0.4 * aged_) * (0.35 + 0.6 * aged_) * std::min(1.0, 1.3 * socket));
   tint(colour, {0.85, 0.83, 0.87}, (0.3 + 0.9 * aged_) * patch(p, {2.8, -1.3}, {2.1, 0.95}));
   const double lids = patch(p, {3.1, 0.55}, {2.3, 1.1});
   if (!male) colour *= 1 - 0.15 * patch(p, {3.12, 0.1}, {2.2, 1.2});
@@ -308,7 +309,7 @@ void SkinPaint::paint_beard(const Vector& p, ScreenColour& colour) const {
   if (beard <= 0) return;
   const double length = paints_all_hair() ? beard_length(p) : 0.5;
   // Hair roots below the surface give the skin a cool shade.
-  tint(colour, {0.80, 0.80, 0.82}, 1.1 * beard * std::min(1.0, 1.4 * length));
+  tint(colour, {0.80, 0.80, 0.82}, beard * std::min(1.0, 1.4 * length));
   if (!paints_all_hair()) return;
   const double grown = smooth_step(0.3, 1.0, length);
   const double dense = grown * (0.75 + 0.10 * tufts_.at(p) + 0.30 * strand);
