@@ -155,8 +155,8 @@ LandmarkFile landmarks_for(const WrapInputs& shared, const Task& task) {
 /// Returns the landmarks from the files. If the files have too few landmarks, searches the scan for
 /// a face, and adds landmarks that are detected from the scan's shape. Adds none if the scan's pose
 /// is unknown and no face is found.
-/// \param hint  The caller passes the pose of the scan, or an empty value if the pose is unknown. If
-///     the function finds a face, it stores the face in `hint->face`. If `hint` was empty, the
+/// \param hint  The caller passes the pose of the scan, or an empty value if the pose is unknown.
+///     If the function finds a face, it stores the face in `hint->face`. If `hint` was empty, the
 ///     function also stores the face's axes as the pose of the scan.
 std::vector<WrapLandmark> landmarks_on(const WrapInputs& shared, const Task& task, const Scan& scan,
                                        std::optional<PoseHint>& hint) {
