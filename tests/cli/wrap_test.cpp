@@ -50,6 +50,16 @@ TEST_F(Wrap, GivesTheTemplatesFileWithOtherPositionsAReportAndAPicture) {
   EXPECT_THAT(report, ::testing::Not(::testing::HasSubstr("unseen_mm")));
 }
 
+/// Lids that are fitted to eyeballs lie over the eyes.
+TEST_F(Wrap, EyeballsAndTeethOfAScanHaveNoEffect) {
+  const fs::path out = folder_ / "head.obj";
+  crowdface(0, single(landmarks_, out));
+  const std::string with_eyeballs = read_file(out), scan = read_file(head(2));
+  folder_.write("heads/synth_02.obj", scan.substr(0, scan.find("usemtl eyeball_left")));
+  crowdface(0, single(landmarks_, out));
+  EXPECT_EQ(read_file(out), with_eyeballs);
+}
+
 TEST_F(Wrap, EstimatesHowWellPlacesCorrespondWhereAskedTo) {
   const fs::path out = folder_ / "head.obj";
   auto command = single(landmarks_, out);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/paint/face_landmarks.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "crowdface/traits/measurements.h"
@@ -67,6 +69,25 @@ TEST(FaceLandmarks, LeftAndRightAreSymmetric) {
     EXPECT_GT(left.position.x(), 0) << name << ": the head's own left";
     const Eigen::Vector3d image = right->second.position.cwiseProduct(Eigen::Vector3d(-1, 1, 1));
     EXPECT_LT((left.position - image).norm(), 0.15) << name << ", centimetres";
+  }
+}
+
+/// A head whose nose, mouth and chin lie aside, as on people whose faces are not symmetric.
+TEST(FaceLandmarks, OfNoseAndMouthFollowAnAsymmetricFace) {
+  constexpr double kAside = 0.4, kHalfWidth = 4;  // in centimetres
+  HeadSet heads = synth_heads(20000, 8);
+  const FaceLandmarks before = landmarks_of_mean(heads);
+  for (Head& head : heads.heads) {
+    for (Index v = 0; v < head.positions.rows(); ++v) {
+      const double x = head.positions(v, 0) / kHalfWidth;
+      if (head.positions(v, 2) > 0) head.positions(v, 0) += kAside * std::exp(-x * x / 2);
+    }
+  }
+  const FaceLandmarks after = landmarks_of_mean(heads);
+  for (const char* name : {"nose_tip", "nose_base", "lip_upper", "mouth_middle", "lip_lower"}) {
+    EXPECT_NEAR(after.points.at(name).position.x() - before.points.at(name).position.x(), kAside,
+                0.1)
+        << name;
   }
 }
 

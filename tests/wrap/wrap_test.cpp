@@ -119,6 +119,18 @@ TEST(Wrap, AFaceIsFoundInAnyTurnAndBelowAHighCrown) {
   }
 }
 
+/// Rotations that are far from all axis-aligned orientations.
+TEST(Wrap, AFaceIsFoundInRandomRotations) {
+  const WrapTemplate head = synthetic(5000, 2);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const TruthScan truth = make_truth_scan(head, {}, {.triangles = 20000, .seed = seed});
+    const auto face = find_scan_face(truth.scan, std::nullopt);
+    ASSERT_TRUE(face) << seed;
+    EXPECT_GT(face->axes.up.dot(truth.pose.rotation.col(1)), 0.9) << seed;
+    EXPECT_GT(face->axes.front.dot(truth.pose.rotation.col(2)), 0.9) << seed;
+  }
+}
+
 TEST(Wrap, ATemplateThatIsTheScanStaysWhereItIs) {
   const WrapTemplate shape = synthetic(5000, 1);
   const Scan scan{shape.skin.rows_of(shape.positions), shape.skin.triangles};

@@ -107,6 +107,7 @@ class LandmarkSearch {
       : topology_(topology), head_(head), parts_(parts), marks_(marks), rays_(rays), mm_(mm) {}
 
   FaceLandmarks run() {
+    face_middle_ = find_face_middle();
     profile();
     eyes();
     nose_wings();
@@ -145,12 +146,60 @@ class LandmarkSearch {
     return rays_.head_point_of(place->second.position);
   }
 
-  /// Points of the skin that are visible from the front, in the symmetry plane between two heights;
-  /// the highest point comes first.
+  /// Finds the middle of nose, mouth and chin: on an asymmetric head these lie beside the symmetry
+  /// plane of the whole head. Returns the lateral position about which the relief of the middle of
+  /// the face is most symmetric; 0 if this position is less than 1.5 mm from the head's symmetry
+  /// plane, because the relief of a symmetric face shows the middle only so exactly.
+  double find_face_middle() const {
+    constexpr double kMaxShift = 8, kStep = 0.5, kMinShift = 1.5;
+    constexpr double kHalfWidth = 20, kColumnStep = 2, kRowStep = 3, kMaxDifference = 3;
+    const double top = height(marks_.bridge_height), bottom = height(marks_.chin_height);
+    const auto columns = static_cast<int>((kHalfWidth + kMaxShift) / kStep);
+    std::vector<std::vector<double>> rows;  // depths at equal lateral distances; NaN: no skin
+    for (double up = bottom; up <= top; up += kRowStep) {
+      std::vector<double>& row = rows.emplace_back();
+      for (int i = -columns; i <= columns; ++i) {
+        const auto hit = rays_.from_front(i * kStep, up);
+        row.push_back(hit && hit->is_skin ? hit->at.front
+                                          : std::numeric_limits<double>::quiet_NaN());
+      }
+    }
+    const auto asymmetry = [&](int shift) {
+      // The differences between both sides, without their trend: a face that is turned a little, or
+      // that lies on one side of a round head, is symmetric except for this trend.
+      std::vector<std::array<double, 2>> differences;  // lateral distance, difference of depth
+      std::array<double, 2> products = {};
+      for (const std::vector<double>& row : rows) {
+        for (double x = kColumnStep; x <= kHalfWidth; x += kColumnStep) {
+          const auto aside = static_cast<int>(x / kStep);
+          const double difference = row[static_cast<std::size_t>(columns + shift + aside)] -
+                                    row[static_cast<std::size_t>(columns + shift - aside)];
+          if (!(std::abs(difference) < 5 * kMaxDifference)) continue;
+          differences.push_back({x, difference});
+          products[0] += x * x;
+          products[1] += x * difference;
+        }
+      }
+      if (differences.size() < 50) return kNever;
+      double sum = 0;
+      for (const auto& [x, difference] : differences)
+        sum += std::min(std::abs(difference - products[1] / products[0] * x), kMaxDifference);
+      return sum / static_cast<double>(differences.size());
+    };
+    const auto last = static_cast<int>(kMaxShift / kStep);
+    int best = 0;
+    for (int shift = -last; shift <= last; ++shift) {
+      if (asymmetry(shift) < asymmetry(best)) best = shift;
+    }
+    return std::abs(best * kStep) < kMinShift ? 0 : best * kStep;
+  }
+
+  /// Points of the skin that are visible from the front, in the middle of the face between two
+  /// heights; the highest point comes first.
   std::vector<Hit> skin_between(double low, double high, double step = 0.2) const {
     std::vector<Hit> hits;
     for (double up = high; up >= low; up -= step) {
-      const auto hit = rays_.from_front(0, up);
+      const auto hit = rays_.from_front(face_middle_, up);
       if (hit && hit->is_skin) hits.push_back(*hit);
     }
     return hits;
@@ -323,14 +372,15 @@ class LandmarkSearch {
   /// the left and right sides. Nothing if another part, such as teeth, covers the skin.
   /// \param seen  kAny: the front coordinate of the foremost surface, which may be another part
   std::optional<double> depth(double across, double up, Seen seen = Seen::kSkin) const {
-    const auto left = rays_.from_front(across, up), right = rays_.from_front(-across, up);
+    const auto left = rays_.from_front(face_middle_ + across, up),
+               right = rays_.from_front(face_middle_ - across, up);
     if (!left || !right) return std::nullopt;
     if (seen == Seen::kSkin && !(left->is_skin && right->is_skin)) return std::nullopt;
     return (left->at.front + right->at.front) / 2;
   }
   void keep_pair(const std::string& name, double across, double up, const char* reason) {
-    keep(name + "_left", rays_.from_front(across, up), reason);
-    keep(name + "_right", rays_.from_front(-across, up), reason);
+    keep(name + "_left", rays_.from_front(face_middle_ + across, up), reason);
+    keep(name + "_right", rays_.from_front(face_middle_ - across, up), reason);
   }
 
   /// Finds the wings of the nose: the points, between the heights of the nose's base and tip, where
@@ -514,6 +564,7 @@ class LandmarkSearch {
   const FaceMarks& marks_;
   const HeadRays& rays_;
   double mm_;
+  double face_middle_ = 0;  ///< lateral position of nose, mouth and chin
   FaceLandmarks found_;
 };
 

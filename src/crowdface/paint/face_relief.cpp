@@ -447,7 +447,8 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
   // The search along rotated axes uses steps that are wider by this factor, because there are many
   // rotated axes.
   constexpr double kCoarser = 1.5;
-  constexpr double kTurn = 25;  // angle of the rotated axes, in degrees
+  constexpr double kTurn = 25;         // angle of the rotated axes, in degrees
+  constexpr double kSureScore = 0.75;  // nearly all matches with a higher score are faces
   // A face counts as aligned with the requested axes if the axes of the face differ from the
   // requested axes by less than this angle, in degrees.
   constexpr double kAlignedDegrees = 5;
@@ -498,23 +499,33 @@ std::optional<ReliefMatch> match_relief(const Positions& samples,
     if (angle_between(match.axes, asked) < kAlignedDegrees) match.axes = asked;
     return match;
   };
-  std::vector<HeadAxes> others;
-  for (const HeadAxes& axes : all_axes) {
-    for (const double yaw : {0.0, kTurn, -kTurn}) {
-      for (const double roll : {0.0, kTurn, -kTurn}) {
-        if (yaw == 0 && roll == 0) continue;
-        others.push_back(turned(turned(axes, axes.front, roll), axes.up, yaw));
+  const auto rotated_views = [&](const std::vector<double>& pitches) {
+    std::vector<HeadAxes> views;
+    for (const HeadAxes& axes : all_axes) {
+      for (const double pitch : pitches) {
+        for (const double yaw : {0.0, kTurn, -kTurn}) {
+          for (const double roll : {0.0, kTurn, -kTurn}) {
+            if (pitch == 0 && yaw == 0 && roll == 0) continue;
+            const HeadAxes pitched = turned(axes, axes.side(), pitch);
+            views.push_back(turned(turned(pitched, axes.front, roll), axes.up, yaw));
+          }
+        }
       }
     }
-  }
+    return views;
+  };
   // Most calls request only one pair of axes, and must be fast. The search along a single pair of
   // axes therefore uses wider steps, which almost always find the face. If the wider steps miss the
   // face, the search along rotated axes follows.
   const double coarseness = all_axes.size() == 1 ? 1.3 : 1;
   ReliefMatch match = search(all_axes, coarseness);
   if (match.score < kMinScore || match.rotation_degrees > kTurn) {
-    const ReliefMatch other = search(others, kCoarser);
-    if (other.score > match.score) match = other;
+    // Few faces need the views with a pitch, because the refinement also changes the pitch.
+    for (const std::vector<double>& pitches : {std::vector{0.0}, std::vector{-kTurn, kTurn}}) {
+      const ReliefMatch other = search(rotated_views(pitches), kCoarser);
+      if (other.score > match.score) match = other;
+      if (match.score >= kSureScore || all_axes.size() == 1) break;
+    }
   }
   return match;
 }

@@ -25,6 +25,12 @@ constexpr double kMaxFitDistanceMm = 14;
 /// (1.3 to 2.4 mm), because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
 
+/// Whether a landmark lies at the border of a separate eyeball. Such landmarks are found as exactly
+/// as a user picks them.
+bool is_at_eyeball(const std::string& name) {
+  return name.starts_with("eye_") || name.starts_with("lid_");
+}
+
 /// Finds landmarks on a scan. Returns their points by name, in the coordinates of `scan`. Returns
 /// nothing if the mesh cannot be a head, for example because it has too few vertices.
 /// \param in_mm  the positions of the scan in millimetres.
@@ -104,7 +110,8 @@ std::vector<WrapLandmark> find_landmarks(
       const Eigen::Vector3d placed_point = apply_similarity(to_template, point);
       if ((placed_point - row3(wrap_template.positions, vertex)).norm() > kMaxPoseDistanceMm)
         continue;
-      landmarks.push_back({name, vertex, point, true, kFoundErrorMm});
+      landmarks.push_back(
+          {name, vertex, point, true, is_at_eyeball(name) ? kPickedErrorMm : kFoundErrorMm});
     }
     drop_outliers(wrap_template, landmarks);
     if (landmarks.size() > most.size()) most = std::move(landmarks);

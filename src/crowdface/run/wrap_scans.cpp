@@ -265,11 +265,13 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
   // Fit the template to the scan, and refuse a bad fit.
   std::optional<PoseHint> hint = shared.hint;
   const std::vector<WrapLandmark> landmarks = landmarks_on(shared, task, scan, hint);
+  // Eyeballs would pull the lids over the eyes.
+  const Scan skin = keep_skin(scan);
   const WrapResult result = [&] {
     try {
       WrapResult wrapped =
           wrap_checked(shared.wrap_template, shared.model ? &*shared.model : nullptr,
-                       shared.features, scan, landmarks, hint);
+                       shared.features, skin, landmarks, hint);
       refuse_bad_wrap(shared.wrap_template, wrapped, shared.regions);
       return wrapped;
     } catch (const InvalidInput& error) {
@@ -308,14 +310,14 @@ void wrap_one(const WrapOptions& options, const WrapInputs& shared, const WrapTe
                                 ": --texture: expected a texture or colours at vertices, found "
                                 "neither: an OBJ file names its texture in a material file"));
     }
-    facts.share_without_scan = textures->write(result, scan, colours, task.textures);
+    facts.share_without_scan = textures->write(result, skin, colours, task.textures);
     head = textures->with_material_lines(std::move(head), task.textures);
   }
   head.write(task.head);
   facts.mesh_digest = head.digest().hex();
   if (options.estimate) {
     facts.cross_validated_wrap_errors_mm = cross_validate_wrap(
-        shared.wrap_template, shared.model ? &*shared.model : nullptr, scan, landmarks, hint);
+        shared.wrap_template, shared.model ? &*shared.model : nullptr, skin, landmarks, hint);
   }
   write_file(task.report,
              format_wrap_report(facts, shared.wrap_template, result, shared.regions, warnings));

@@ -92,9 +92,8 @@ void WrapTextures::copy_other_textures(const fs::path& folder) const {
   }
 }
 
-double WrapTextures::write(const WrapResult& result, const Scan& scan, const ScanColours& colours,
+double WrapTextures::write(const WrapResult& result, const Scan& skin, const ScanColours& colours,
                            const TextureFiles& files) const {
-  const Scan skin = keep_skin(scan);
   const ScanSurface surface(
       {inverse(result.pose).apply(skin.positions), skin.triangles, {}, skin.file_triangle_indices});
   const ScanBake bake(bake_template_, result.positions, surface, colours, options_);

@@ -40,7 +40,7 @@ class WrapTextures {
 
   /// Bakes the textures of a head, and writes these textures and the head's material file.
   /// \return the share of the skin's texels, 0 to 1, that the scan does not show.
-  double write(const WrapResult& result, const Scan& scan, const ScanColours& colours,
+  double write(const WrapResult& result, const Scan& skin, const ScanColours& colours,
                const TextureFiles& files) const;
 
   /// Adds the `mtllib` line, which names the head's material file, to the head's OBJ file. Also

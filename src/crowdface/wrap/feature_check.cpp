@@ -227,6 +227,7 @@ std::vector<FaceFeature> face_features(const WrapTemplate& wrap_template,
       const Eigen::Vector3d p = row3(wrap_template.positions, wrap_template.skin.vertices[v]);
       if (distance_to_outline(p, places) < outline.reach_mm) feature.skin_vertices.push_back(v);
     }
+    if (feature.name == "mouth") feature.lip_line = find_lip_line(wrap_template, landmarks);
     if (feature.skin_vertices.size() >= kMinVertices) features.push_back(std::move(feature));
   }
   return features;

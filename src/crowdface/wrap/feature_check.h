@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "crowdface/wrap/lip_line.h"
 #include "crowdface/wrap/wrap_template.h"
 
 namespace crowdface {
@@ -15,6 +16,7 @@ namespace crowdface {
 struct FaceFeature {
   std::string name;                          ///< name of the feature for messages, such as "mouth"
   std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
+  LipLine lip_line = {};                     ///< of the mouth; empty for the other features
 };
 
 /// Finds the facial features of a template from its landmarks. Omits a feature if one of the
@@ -33,8 +35,11 @@ struct ReliefCorrelation {
   /// high.
   double best_correlation_nearby = -1;
 
+  /// From kHigh on, a feature cannot be doubtful; below kDoubtful, it is doubtful.
+  static constexpr double kHigh = 0.7, kDoubtful = 0.55;
+
   /// Whether the correlation at the feature is so high that the feature cannot be doubtful.
-  bool is_high() const { return correlation_at_feature >= 0.7; }
+  bool is_high() const { return correlation_at_feature >= kHigh; }
   /// Whether the template's feature probably lies on another part of the scan: the correlation at
   /// the feature is low, or hardly higher than `best_correlation_nearby`. Measurements: On ICT
   /// heads, whose vertices are known, the correlation is 0.55 to 0.9 if the mouth is within 2 mm of
@@ -42,7 +47,7 @@ struct ReliefCorrelation {
   /// if the mouth is within 4 mm of its correct place, the correlation is at least 0.5, and exceeds
   /// `best_correlation_nearby` by at least 0.12.
   bool is_doubtful() const {
-    return correlation_at_feature < 0.55 ||
+    return correlation_at_feature < kDoubtful ||
            (!is_high() && correlation_at_feature - best_correlation_nearby < 0.1);
   }
 };

@@ -117,13 +117,12 @@ Surfaces surfaces_of(const WrapTemplate& wrap_template) {
 /// Returns colours in which the doubtful features are red; nothing if no feature is doubtful.
 std::optional<VertexColours> doubt_colours(const WrapTemplate& wrap_template,
                                            const WrapResult& result) {
-  if (std::ranges::none_of(result.features, [](const FeatureCheck& feature) {
-        return feature.correlation.is_doubtful();
-      }))
+  if (std::ranges::none_of(result.features,
+                           [](const FeatureCheck& feature) { return feature.is_doubtful(); }))
     return std::nullopt;
   Eigen::VectorXd doubtful = Eigen::VectorXd::Zero(wrap_template.topology.vertex_count);
   for (const FeatureCheck& feature : result.features) {
-    if (!feature.correlation.is_doubtful()) continue;
+    if (!feature.is_doubtful()) continue;
     for (const std::uint32_t v : feature.skin_vertices)
       doubtful(wrap_template.skin.vertices[v]) = 1;
   }
@@ -151,15 +150,18 @@ std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_templat
                                                 const WrapResult& result) {
   std::vector<std::string> warnings;
   for (const FeatureCheck& feature : result.features) {
-    if (!feature.correlation.is_doubtful()) continue;
-    warnings.push_back(concat("the ", feature.name,
-                              " is doubtful: on the wrapped head it does not look like the "
-                              "template's (agreement ",
-                              format_fixed(feature.correlation.correlation_at_feature, 2),
-                              "; a few mm above or below ",
-                              format_fixed(feature.correlation.best_correlation_nearby, 2),
-                              "): check the picture, where it is red, and pick landmarks "
-                              "there"));
+    if (!feature.is_doubtful()) continue;
+    const double up = feature.lip_line_offset_mm.value_or(0);
+    const std::string reason =
+        feature.lip_line_offset_mm
+            ? concat("the scan's lips meet ", format_fixed(std::abs(up), 1), " mm ",
+                     up > 0 ? "above" : "below", " the lips of the wrapped head")
+            : concat("on the wrapped head it does not look like the template's (agreement ",
+                     format_fixed(feature.correlation.correlation_at_feature, 2),
+                     "; a few mm above or below ",
+                     format_fixed(feature.correlation.best_correlation_nearby, 2), ")");
+    warnings.push_back(concat("the ", feature.name, " is doubtful: ", reason,
+                              ": check the picture, where it is red, and pick landmarks there"));
   }
   for (const LandmarkResidual& landmark : result.landmarks) {
     if (!landmark.is_outlier) continue;

@@ -270,20 +270,20 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
                         const std::vector<FaceFeature>& features, const Scan& scan,
                         const std::vector<WrapLandmark>& all_landmarks,
                         const std::optional<PoseHint>& hint) {
-  const auto worst = [](const WrapResult& result) {
-    ReliefCorrelation correlation;
-    for (const FeatureCheck& feature : result.features) {
-      if (feature.correlation.correlation_at_feature < correlation.correlation_at_feature)
-        correlation = feature.correlation;
-    }
-    return correlation;
+  const auto lowest_agreement = [](const WrapResult& result) {
+    double lowest = 1;
+    for (const FeatureCheck& feature : result.features)
+      lowest = std::min(lowest, feature.agreement());
+    return lowest;
   };
   const auto wrapped_with = [&](const std::vector<WrapLandmark>& landmarks) {
     WrapResult result = wrap(wrap_template, model, scan, landmarks, hint);
     const std::vector<ReliefCorrelation> correlations =
         relief_correlations(wrap_template, features, result.positions);
     for (std::size_t i = 0; i < features.size(); ++i) {
-      result.features.push_back({features[i].name, correlations[i], features[i].skin_vertices});
+      result.features.push_back({features[i].name, correlations[i], features[i].skin_vertices,
+                                 lip_line_offset(wrap_template, features[i].lip_line,
+                                                 result.positions, scan, result.pose)});
     }
     return result;
   };
@@ -294,19 +294,18 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
   const auto is_of_questioned_feature = [&, checks = best.features](const WrapLandmark& landmark) {
     const std::uint32_t row = index_in_list(wrap_template.skin.vertices, landmark.vertex);
     return std::ranges::any_of(checks, [&](const FeatureCheck& feature) {
-      return !feature.correlation.is_high() &&
-             std::ranges::binary_search(feature.skin_vertices, row);
+      return !feature.is_high() && std::ranges::binary_search(feature.skin_vertices, row);
     });
   };
   std::vector<WrapLandmark> landmarks = all_landmarks;
   for (const bool drops_all : {false, true}) {
-    if (worst(best).is_high()) break;
+    if (std::ranges::all_of(best.features, &FeatureCheck::is_high)) break;
     const std::size_t dropped = std::erase_if(landmarks, [&](const WrapLandmark& landmark) {
       return landmark.is_found_by_program && (drops_all || is_of_questioned_feature(landmark));
     });
     if (dropped == 0) continue;
     WrapResult other = wrapped_with(landmarks);
-    if (worst(other).correlation_at_feature <= worst(best).correlation_at_feature) continue;
+    if (lowest_agreement(other) <= lowest_agreement(best)) continue;
     for (const WrapLandmark& landmark : all_landmarks) {
       if (std::ranges::find(landmarks, landmark.name, &WrapLandmark::name) == landmarks.end()) {
         other.dropped_landmarks.push_back(landmark.name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +35,25 @@ struct FeatureCheck {
   std::string name;
   ReliefCorrelation correlation;             ///< agreement of the reliefs before and after the wrap
   std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
+  /// Of the mouth: see `lip_line_offset`. Nothing for the other features, or if the scan has no
+  /// clear line between the lips.
+  std::optional<double> lip_line_offset_mm = {};
+
+  /// Agreement of the feature with the scan: 1 is best, below 0.7 the feature may be misplaced. The
+  /// agreement of a mouth depends on the line between the lips, because two people's mouths may
+  /// differ more in relief than one person's mouth and chin.
+  double agreement() const {
+    constexpr double kZeroAgreementMm = 7;  // so a mouth is doubtful if it is 3.2 mm off
+    return lip_line_offset_mm ? 1 - std::abs(*lip_line_offset_mm) / kZeroAgreementMm
+                              : correlation.correlation_at_feature;
+  }
+  /// Whether the agreement is so high that the feature cannot be doubtful.
+  bool is_high() const { return agreement() >= ReliefCorrelation::kHigh; }
+  /// Whether the template's feature probably lies on another part of the scan.
+  bool is_doubtful() const {
+    return lip_line_offset_mm ? agreement() < ReliefCorrelation::kDoubtful
+                              : correlation.is_doubtful();
+  }
 };
 
 /// A template that was wrapped onto a scan, and measures of the quality.
@@ -79,8 +99,8 @@ inline constexpr std::size_t kMinLandmarks = 4;
 WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, const Scan& scan,
                 const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
 
-/// Wraps the template, and checks with `relief_correlations` whether each feature of the template
-/// ended on the same feature of the scan. If a feature's correlation is not high, repeats the wrap
+/// Wraps the template, and checks whether each feature of the template ended on the same feature of
+/// the scan (see `FeatureCheck::agreement`). If a feature's agreement is not high, repeats the wrap
 /// without the automatically found landmarks of this feature, and then without all automatically
 /// found landmarks. Returns the result whose worst feature agrees best.
 /// \param features  see `face_features`; may be empty
