@@ -97,5 +97,35 @@ TEST(Contact, AllowsWhatAHeadHas) {
   EXPECT_NEAR(scene.clearance(motion, 0.4), -0.2, 0.005) << "no deeper than in any head";
 }
 
+// Teeth that did not fit between open lips moved by centimetres, and differently after a change of
+// the scan by a micrometre.
+TEST(Contact, APartThatFitsNowhereStaysNear) {
+  constexpr double kReach = 0.6;
+  const Mesh mesh = testing::Shapes()
+                        .strip({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, 12)
+                        .strip({-3, -3, -1.1}, {0, 6, 0}, {6, 0, 0}, 12)
+                        .box({-1, -1, -1}, {1, 1, -0.1})
+                        .mesh();
+  const Index skin = mesh.topology.vertex_count - 8;
+  const VertexFaces faces{mesh.topology};
+  std::vector<std::uint32_t> walls(static_cast<std::size_t>(skin)), box(8);
+  std::iota(walls.begin(), walls.end(), 0U);
+  std::iota(box.begin(), box.end(), static_cast<std::uint32_t>(skin));
+  const PartContact contact(mesh.topology, faces, mesh.positions, PointGrid(mesh.positions, walls),
+                            walls, box, kReach, {{"ann", mesh.positions}});
+  // The gap between the walls is too narrow for the box, and widens slowly along +x.
+  const auto shift = [&](double widening) -> Eigen::Vector3d {
+    Positions narrow = mesh.positions;
+    for (Index v = 0; v < skin; ++v) {
+      const double by = 0.15 - widening * narrow(v, 0);
+      narrow(v, 2) += narrow(v, 2) > -0.5 ? -by : by;
+    }
+    return contact.keep_out_of_skin(mesh.positions, {}, narrow, kMargin).apply({0, 0, -0.55}) -
+           Eigen::Vector3d(0, 0, -0.55);
+  };
+  EXPECT_LT(shift(0.02).norm(), kReach);
+  EXPECT_LT((shift(0.02) - shift(0.0201)).norm(), 0.02 * kReach);
+}
+
 }  // namespace
 }  // namespace crowdface

@@ -25,8 +25,10 @@ class Profile {
  public:
   /// \param mm  length, in the unit of the positions, that stands for a millimetre of a face of
   ///            average size
+  /// \param planes_mm  the profile is the median of the profiles in these planes, which are
+  ///                   parallel to the symmetry plane; distances from `middle` along axes.side()
   Profile(const Topology& topology, const Positions& positions, const std::vector<bool>& skin,
-          const HeadAxes& axes, double middle, double mm) {
+          const HeadAxes& axes, double middle, double mm, const std::vector<double>& planes_mm) {
     low_ = std::numeric_limits<double>::infinity();
     double high = -low_;
     for (Index v = 0; v < positions.rows(); ++v) {
@@ -38,21 +40,17 @@ class Profile {
     step_ = (high - low_) / static_cast<double>(kHeights - 1);
     front_.assign(kHeights, kNoSkin);
     if (!(step_ > 0)) return;
-    // Take the median of the front coordinates over several parallel planes, so that small holes
-    // and noise have no effect.
-    constexpr std::array<double, 5> kBesideMm = {-6, -3, 0, 3, 6};
-    std::array<std::vector<double>, kBesideMm.size()> fronts;
+    std::vector<std::vector<double>> fronts(planes_mm.size());
     for (std::size_t i = 0; i < fronts.size(); ++i) {
       front_.assign(kHeights, kNoSkin);
-      cut(topology, positions, skin, axes, middle + kBesideMm[i] * mm);
+      cut(topology, positions, skin, axes, middle + planes_mm[i] * mm);
       fill_gaps();
       fronts[i] = front_;
     }
     for (std::size_t h = 0; h < front_.size(); ++h) {
-      std::array<double, kBesideMm.size()> at;
-      for (std::size_t i = 0; i < fronts.size(); ++i) at[i] = fronts[i][h];
-      std::ranges::nth_element(at, at.begin() + at.size() / 2);
-      front_[h] = at[at.size() / 2];
+      std::vector<double> at;
+      for (const std::vector<double>& front : fronts) at.push_back(front[h]);
+      front_[h] = nth_smallest(at, at.size() / 2);
     }
     smooth(kSmoothingMm * mm);
   }
@@ -255,20 +253,59 @@ MouthAndChin mouth_and_chin(const Profile& outline, double tip, double mm, doubl
   return best;
 }
 
+/// The height of the eyes, estimated from the hollows at the inner corners of the eyes and between
+/// the lids.
+struct EyeHollows {
+  double height = 0;
+  double weight = 0;  ///< 0 (no hollows were found) … 1 (deep hollows)
+};
+/// \param eyes  height of the eyes of the matched relief
+/// \param across  lateral position of the symmetry plane
+EyeHollows find_eye_hollows(const Topology& topology, const HeadShape& head, const HeadAxes& axes,
+                            double eyes, double across, double mm) {
+  // On the mean face, the inner corners are 17 mm and the middles of the eyes 32 mm beside the
+  // symmetry plane.
+  constexpr std::array kBesideMm = {-32.0, -22.0, -17.0, 17.0, 22.0, 32.0};
+  constexpr double kSearchMm = 18, kHalfWidthMm = 10, kMaxHoleMm = 10;
+  // Depths above kMaxDepthMm are reduced to kMaxDepthMm: without eyeballs, an eye is a deep hole.
+  constexpr double kMaxDepthMm = 8, kSureDepthMm = 2.5, kPenaltyMm = 0.5;
+  std::vector<Profile> profiles;
+  for (const double beside : kBesideMm) {
+    profiles.push_back(Profile(topology, head.positions, head.is_skin, axes, across, mm, {beside})
+                           .without_slits(kMaxHoleMm * mm));
+  }
+  const auto mean_depth_mm = [&](double height) {
+    double sum = 0;
+    for (const Profile& profile : profiles) {
+      sum += std::clamp(profile.hollow(height, kHalfWidthMm * mm) / mm, 0.0, kMaxDepthMm);
+    }
+    return sum / static_cast<double>(profiles.size());
+  };
+  EyeHollows found;
+  found.height =
+      profiles.front().best(eyes - kSearchMm * mm, eyes + kSearchMm * mm, [&](double height) {
+        const double off = (height - eyes) / (kSearchMm * mm);
+        return mean_depth_mm(height) - kPenaltyMm * off * off;
+      });
+  found.weight = std::min(mean_depth_mm(found.height) / kSureDepthMm, 1.0);
+  return found;
+}
+
 /// Returns the typical edge length of the skin within about 70 mm of the eyes: the square root of
-/// the median polygon area.
+/// the median polygon area. If no polygon is that near, uses all polygons of the skin.
 /// \param face  position and size of the head's face, as found from its relief
 double edge_length_near(const Topology& topology, const HeadShape& head, const ReliefMatch& face) {
   constexpr double kNearMm = 70;
-  std::vector<double> areas;
+  std::vector<double> areas, all_areas;
   for (Index f = 0; f < topology.face_count(); ++f) {
     const std::uint32_t first = topology.face(f)[0];
     const bool is_near =
         (row3(head.positions, first) - face.eye_midpoint).norm() < kNearMm * face.scale;
-    if (head.is_skin[first] && is_near) {
-      areas.push_back(face_area_vector(topology, f, head.positions).norm());
-    }
+    if (!head.is_skin[first]) continue;
+    all_areas.push_back(face_area_vector(topology, f, head.positions).norm());
+    if (is_near) areas.push_back(all_areas.back());
   }
+  if (areas.empty()) areas = std::move(all_areas);
   return areas.empty() ? 0 : std::sqrt(nth_smallest(areas, areas.size() / 2));
 }
 
@@ -329,7 +366,9 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   // The profile is the outline of the face in its symmetry plane. Its axes are `fitted_axes`, in
   // which the face is upright, so that the posture of the head has no effect.
   const double across = match.eye_midpoint.dot(match.fitted_axes.side());
-  const Profile outline(topology, head.positions, head.is_skin, match.fitted_axes, across, mm);
+  // The median of several planes hides small holes and noise.
+  const Profile outline(topology, head.positions, head.is_skin, match.fitted_axes, across, mm,
+                        {-6, -3, 0, 3, 6});
   const Profile closed = outline.without_slits(kMaxSlitMm * mm);
   // A quadratic penalty keeps each feature near its height on the mean face, because shallow
   // hollows may be noise. A mesh with long edges does not show the slit between the lips, so the
@@ -358,18 +397,26 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   marks.mouth_height = height(mouth);
   marks.chin_height = height(chin);
   marks.chin_front = place(chin).dot(marks.axes.front);
-  // The height of the eyes is the mean of two estimates: the eyes of the matched relief, and a
-  // point at a fixed distance below the bridge. If the head has eyeballs near the eyes of the
-  // relief, the height of the eyeballs replaces this mean.
-  marks.eyes_height =
-      (match.eye_midpoint.dot(marks.axes.up) + height(bridge - kBridgeMm * match.stretch * mm)) / 2;
+  // Eyeballs near the eyes of the matched relief give the height of the eyes. A head without
+  // eyeballs has three estimates of this height: the hollows of the eyes, the eyes of the relief,
+  // and a point at a fixed distance below the bridge. The last two depend on the fitted size and
+  // stretch of the relief, which vary with small changes of the mesh. Therefore deep hollows alone
+  // determine the height.
   double of_balls = 0;
   for (const Eigen::Vector3d& eye : head.eyeball_centres) {
     of_balls += eye.dot(marks.axes.up) / static_cast<double>(head.eyeball_centres.size());
   }
-  const bool are_near =
-      std::abs(of_balls - match.eye_midpoint.dot(marks.axes.up)) < kMaxEyeOffsetMm * mm;
-  if (!head.eyeball_centres.empty() && are_near) marks.eyes_height = of_balls;
+  const double of_relief_eyes = match.eye_midpoint.dot(marks.axes.up);
+  if (!head.eyeball_centres.empty() && std::abs(of_balls - of_relief_eyes) < kMaxEyeOffsetMm * mm) {
+    marks.eyes_height = of_balls;
+    return marks;
+  }
+  const EyeHollows hollows = find_eye_hollows(topology, head, match.fitted_axes, eyes, across, mm);
+  const double without_hollows =
+      (of_relief_eyes + height(bridge - kBridgeMm * match.stretch * mm)) / 2;
+  // A mesh with long edges does not show the hollows well.
+  const double weight = hollows.weight / (coarseness * coarseness);
+  marks.eyes_height = weight * height(hollows.height) + (1 - weight) * without_hollows;
   return marks;
 }
 

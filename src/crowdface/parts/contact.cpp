@@ -40,6 +40,12 @@ constexpr double kMaxShrink = 0.06, kMaxGrowth = 0.01;
 /// lengths, and a penalty is a cost per violation). kOutsidePenalty: for vertices that are outside
 /// the skin in all heads; these vertices have priority. kInsidePenalty: for all other vertices.
 constexpr double kOutsidePenalty = 1000, kInsidePenalty = 1;
+/// The constraints of a step are exact only near the part's position. If a step would translate the
+/// part by more than kMaxStep (a fraction of the reach), or if no position meets the constraints of
+/// vertices that stay outside the skin, the best step may change by centimetres with a tiny change
+/// of the skin. The step is then computed again with kCautiousPenalty instead of kOutsidePenalty,
+/// and with translations and rotations of at most kMaxCautiousStep along and about each axis.
+constexpr double kMaxStep = 0.5, kMaxCautiousStep = 0.1, kCautiousPenalty = 10;
 
 /// Index of the first unknown of each kind in an optimisation step of a part: translation (3
 /// unknowns), rotation (3), change of size, and two slack variables. The slack variables are the
@@ -279,9 +285,22 @@ bool PartContact::step(const Positions& target, const RigidMotion& start,
   // Keep the total change of the part's size small, and within fixed limits.
   program.add_target(kSize, -grown, kSizeCost);
   program.add_bounds(kSize, -kMaxShrink * radius - grown, kMaxGrowth * radius - grown);
-  program.add_slack(kOutsideSlack, kOutsidePenalty * reach_);
-  program.add_slack(kInsideSlack, kInsidePenalty * reach_);
-  const QuadraticProgram::Vector x = program.solve(1e-5 * reach_);
+  const auto solve = [&](double outside_penalty) {
+    QuadraticProgram penalised = program;
+    penalised.add_slack(kOutsideSlack, outside_penalty * reach_);
+    penalised.add_slack(kInsideSlack, kInsidePenalty * reach_);
+    return penalised.solve(1e-5 * reach_);
+  };
+  QuadraticProgram::Vector x = solve(kOutsidePenalty);
+  const double translation = Eigen::Vector3d(x[kShift], x[kShift + 1], x[kShift + 2]).norm();
+  if (x[kOutsideSlack] > kMaxViolation * reach_ || translation > kMaxStep * reach_) {
+    const double most = kMaxCautiousStep * reach_;
+    for (std::size_t i = 0; i < 3; ++i) {
+      program.add_bounds(kShift + i, -most, most);
+      program.add_bounds(kTurn + i, -most, most);
+    }
+    x = solve(kCautiousPenalty);
+  }
   motion =
       nudged(motion, middle, {x[0], x[1], x[2]},
              Eigen::Vector3d(x[kTurn], x[kTurn + 1], x[kTurn + 2]) / radius, x[kSize] / radius);

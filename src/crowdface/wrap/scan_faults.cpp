@@ -114,11 +114,16 @@ void look_at_hair(const WrapTemplate& wrap_template, const WrapResult& result,
   const double share = static_cast<double>(far) / static_cast<double>(skull.size());
   const double above = median(std::move(out)).value_or(0);
   if (above <= kHairMm && share <= kMaxFar) return;
-  faults.push_back(concat("the scan seems to show hair or a hat: above the brows it is ",
-                          format_fixed(std::max(above, 0.0), 0),
-                          " mm outside the template's head, and ", format_fixed(100 * share, 1),
-                          " % of the skin there is more than ", kFarFromScanMm,
-                          " mm from the scan; exclude this area with --ignore"));
+  std::vector<std::string> signs;
+  if (above > kHairMm) {
+    signs.push_back(concat("it is ", format_fixed(above, 0), " mm outside the template's head"));
+  }
+  if (share > kMaxFar) {
+    signs.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ",
+                           kFarFromScanMm, " mm from the scan"));
+  }
+  faults.push_back(concat("the scan seems to show hair or a hat: above the brows ",
+                          join(signs, ", and "), "; exclude this area with --ignore"));
 }
 
 }  // namespace
