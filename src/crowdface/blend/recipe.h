@@ -29,7 +29,8 @@ struct BandRecipe {
   std::optional<PlanePoint> position;
   /// ω̂_ki: the weights of the heads that lend the detail, by ascending head; no weight is zero
   std::vector<SourceWeight> weights;
-  /// L_k/L_max: the level at which the band begins, as a fraction of the largest level
+  /// The smoothness of the band, L_k/L_max. The band begins at level L_k, that is, after L_k
+  /// smoothing iterations; L_max is the number of iterations of the smoothest level.
   double smoothness = 0;
   /// L_k: the level at which the band begins, as a number of smoothing iterations
   std::uint64_t iterations = 0;

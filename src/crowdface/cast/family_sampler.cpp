@@ -37,8 +37,9 @@ constexpr double kMaxTwinDistanceMm = 0.5;
 /// A child counts as resembling a parent if at most this fraction of strangers is nearer to the
 /// child than the parent is.
 constexpr double kMaxFractionOfNearerStrangersForChild = 0.1;
-/// Limit for children of parents that are far apart. A child's distance from a parent may exceed
-/// the founder's distance from this parent by at most this fraction of max_distance.
+/// Limit for children whose two parents are far apart from each other: a child's distance from a
+/// parent is at most the distance of the family's founder from this parent, plus this fraction of
+/// max_distance.
 constexpr double kMaxFartherThanFounder = 0.25;
 
 /// Returns the distribution from which casting draws a new parent: the distribution of the parent's

@@ -24,7 +24,8 @@ struct HeadsOnBody {
     /// if the head has that pose.
     Eigen::Vector3d pose_rotation = Eigen::Vector3d::Zero();
     double shift_mm = 0;  ///< rms distance by which placement and pose rotation move the neck ring
-    double rotation_degrees = 0;  ///< rotation angle of placement and pose rotation together
+    double rotation_degrees =
+        0;  ///< angle of the rotation that combines placement and pose rotation
     /// after placement and pose rotation: largest distance between a vertex of the head's ring and
     /// the matching vertex of the body's ring
     double max_bend_mm = 0;

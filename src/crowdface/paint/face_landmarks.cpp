@@ -270,7 +270,7 @@ class LandmarkSearch {
   /// The opening between the lids of an eye.
   struct EyeOpening {
     std::vector<HeadPoint> points;  ///< points of the eyeball between the lids
-    double radius = 0;              ///< radius of the eyeball, in mm of an average face
+    double radius = 0;  ///< radius of the eyeball in mm, if the face is scaled to average size
   };
   EyeOpening opening_of(const ComponentShape& ball) const {
     constexpr double kStep = 0.25, kFar = 1.2;

@@ -257,8 +257,9 @@ MirrorPlane plane_of_partners(MirrorMap map, const Vertices& skin, const Positio
 
 /// Computes the offsets of the vertices without partner, so that mirroring nearly keeps the shape
 /// of the mean head at these vertices. Mirroring alone would move such a vertex of the mean head by
-/// a distance d. The offset moves the vertex back by d − `reach`, or by 0 if d < `reach`; so the
-/// surface has no step where vertices with and without partner meet.
+/// a distance d. The offset moves the vertex back by d − `reach`; if d < `reach`, the offset is
+/// zero. \param reach  a distance; the offsets decrease to zero at this distance, so that the surface
+/// has no step between vertices with and without partner.
 void set_unpaired_offsets(const Positions& mean, double reach, MirrorMap& map) {
   const Positions image = mirrored(map, mean);
   map.unpaired_offsets.resize(static_cast<Index>(map.unpaired_vertices.size()), 3);

@@ -22,7 +22,7 @@ using StoredValue = std::uint16_t;
 
 /// What the values of a texture map mean.
 enum class MapContent {
-  kColours,  ///< optical densities of red, green and blue
+  kColours,  ///< colours, stored as the optical densities of red, green and blue
   kSlopes,   ///< slopes x/z and y/z of a tangent-space normal
   kValues,   ///< one or three plain numbers, such as roughness or height
 };

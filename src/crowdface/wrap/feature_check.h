@@ -40,12 +40,12 @@ struct ReliefCorrelation {
 
   /// Whether the correlation at the feature is so high that the feature cannot be doubtful.
   bool is_high() const { return correlation_at_feature >= kHigh; }
-  /// Whether the template's feature probably lies on another part of the scan: the correlation at
-  /// the feature is low, or hardly higher than `best_correlation_nearby`. Measurements: On ICT
-  /// heads, whose vertices are known, the correlation is 0.55 to 0.9 if the mouth is within 2 mm of
-  /// its correct place, and −0.1 to 0.86 if the mouth is more than 4 mm away. On synthetic heads,
-  /// if the mouth is within 4 mm of its correct place, the correlation is at least 0.5, and exceeds
-  /// `best_correlation_nearby` by at least 0.12.
+  /// Whether the template's feature probably lies on another part of the scan: the correlation
+  /// between the reliefs of template and scan is low at the feature, or hardly higher there than
+  /// `best_correlation_nearby`. Measured for mouths: On ICT heads, whose vertices are known, the
+  /// correlation is 0.55 to 0.9 within 2 mm of the correct place, and −0.1 to 0.86 at more than
+  /// 4 mm. On synthetic heads, within 4 mm of the correct place, the correlation is at least 0.5,
+  /// and exceeds `best_correlation_nearby` by at least 0.12.
   bool is_doubtful() const {
     return correlation_at_feature < kDoubtful ||
            (!is_high() && correlation_at_feature - best_correlation_nearby < 0.1);

@@ -79,9 +79,10 @@ class Relief {
     SmoothNoise noise;
     double amplitude;  ///< amplitude of the noise, cm
   };
-  std::vector<Octave> broad_octaves_, fine_octaves_;  ///< noise of uneven skin; of pores
-  SmoothNoise lip_creases_;  ///< noise that is stretched to creases across the lips
-  double lip_depth_;         ///< amplitude of lip_creases_, cm
+  std::vector<Octave> broad_octaves_;  ///< noise that makes the skin uneven
+  std::vector<Octave> fine_octaves_;   ///< noise that makes pores
+  SmoothNoise lip_creases_;            ///< noise that is stretched to creases across the lips
+  double lip_depth_;                   ///< amplitude of lip_creases_, cm
 };
 
 }  // namespace crowdface::synth

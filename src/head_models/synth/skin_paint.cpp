@@ -34,12 +34,14 @@ void cover(ScreenColour& colour, const ScreenColour& with, double amount) {
   colour += amount * (with - colour);
 }
 
-/// Returns how far the upper lip reaches above `lip_line`, cm. \param x  at least 0.
+/// Returns how far the upper lip reaches above `lip_line`, cm. \param x  distance from the middle of
+/// the face, cm.
 double upper_lip(double x) {
   const double t = std::min(1.0, x / kMouthHalfWidth);
   return 0.86 * (1 - t * t) * (1 - 0.10 * smooth_step(0.25, 0, t));  // Cupid's bow
 }
-/// Returns how far the lower lip reaches below `lip_line`, cm. \param x  at least 0.
+/// Returns how far the lower lip reaches below `lip_line`, cm. \param x  distance from the middle of
+/// the face, cm.
 double lower_lip(double x) {
   const double t = std::min(1.0, x / kMouthHalfWidth);
   return 0.98 * (1 - t * t * (0.35 + 0.65 * t));
