@@ -125,7 +125,8 @@ class FamilySampler {
   MemberDraft member_draft(const FamilyPlan& family_plan, int member, std::uint32_t attempt) const;
   /// Returns (1 − t)·from + t·draft.random_face, with the age of the draft applied.
   FacePlan mixed_face(const FacePlan& from, const MemberDraft& draft, double t) const;
-  /// Returns the mixture of founder and random face at the draft's distance from the founder.
+  /// Returns a mixture of the founder and the random face. The mixture has the distance from the
+  /// founder that the draft specifies.
   FacePlan face_at_chosen_distance(const FamilyPlan& family_plan, const MemberDraft& draft) const;
   double max_distance_from_founder_mm(const FamilyPlan& family_plan) const;
   /// Returns whether a child resembles the parents. If the parents are far apart, not even the

@@ -166,7 +166,8 @@ inline std::size_t band_count(const SamplingOptions& sampling) {
 inline bool may_mirror(const SamplingOptions& sampling) {
   return sampling.asymmetry != Range{1, 1} || sampling.mirror != Mirroring::kNone;
 }
-/// Returns the distribution of the smoothing level at which a band of a region begins.
+/// Returns the distribution from which the smoothness of a band of a region is drawn
+/// (BandRecipe::smoothness).
 inline const SmoothnessDistribution& smoothness_of(const SamplingOptions& sampling,
                                                    std::size_t region, std::size_t band) {
   const bool is_set_by_band =

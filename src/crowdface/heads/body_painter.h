@@ -35,9 +35,9 @@ class BodyPainter {
 
  private:
   const HeadsOnBody& heads_on_body_;
-  Topology topology_;                      ///< result of `topology()`
-  TextureCoordinates uvs_;                 ///< result of `uvs()`
-  std::shared_ptr<const TextureMap> map_;  ///< the body's own texture; white without `texture`
+  Topology topology_;                            ///< result of `topology()`
+  TextureCoordinates uvs_;                       ///< result of `uvs()`
+  std::shared_ptr<const TextureMap> map_;        ///< the body's own texture, or one white texel
   std::unique_ptr<const SurfaceTexels> texels_;  ///< for each texel: the triangle that covers it
   /// optical densities of the body's own colours at the vertices of the neck's ring, one row of 3
   /// channels for each vertex

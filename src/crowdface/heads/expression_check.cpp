@@ -52,8 +52,8 @@ struct Movement {
   /// standard deviation of the movement's value among heads with a neutral expression (synthetic,
   /// ICT, MakeHuman)
   double neutral_deviation_mm;
-  /// start of the warning about a head with a large positive or negative value. Null: no warning,
-  /// because such values also occur on neutral heads.
+  /// start of the warning about a head on which the movement has a large positive or negative
+  /// value, in mm. Null: no warning, because such values also occur on neutral heads.
   const char *positive_text, *negative_text;
 };
 

@@ -89,7 +89,7 @@ struct NamedTextures {
   /// Name of the material if the libraries define exactly one; otherwise empty. Polygons without a
   /// material use this material.
   std::string single_material;
-  /// Problems with material files and paths, as in `MaterialFiles`.
+  /// Warnings about material files that are missing or broken, and about paths that lead nowhere.
   std::vector<std::string> warnings;
 };
 

@@ -20,7 +20,7 @@ struct MaterialRange {
 /// Result of the strict check of an OBJ text.
 struct ObjScan {
   Positions positions;                          ///< #V by 3
-  TextureCoordinates uvs;                       ///< #T by 2
+  TextureCoordinates uvs;                       ///< one row for each `vt` line
   Index face_count = 0;                         ///< number of polygons
   Index corner_count = 0;                       ///< number of corners of all polygons
   std::vector<std::string> material_libraries;  ///< arguments of the `mtllib` lines

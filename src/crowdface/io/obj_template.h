@@ -74,8 +74,8 @@ class ObjTemplate {
     const ColourRows& colours;   ///< new colours, one row per `v` line; or no rows
   };
 
-  /// Sets `given_normals_`. For each `vn` line that only one vertex uses, adds the normal of this
-  /// vertex if `given` contains the vertex.
+  /// Sets `given_normals_`: adds the normals of those vertices in `given` whose `vn` line no other
+  /// vertex uses.
   /// \param corner_rows  for each polygon corner, the index of its `vn` line, or kNoIndex.
   void set_given_normals(const std::vector<std::uint32_t>& corner_rows, const GivenNormals& given);
   /// Appends a block that consists of these ranges and the text between the ranges.

@@ -30,7 +30,7 @@ struct Components {
   std::vector<std::uint32_t> sizes;                ///< number of vertices in each component
   /// Number of components.
   Index count() const { return static_cast<Index>(sizes.size()); }
-  /// Number of the component with the most vertices. On a head, this component is the skin.
+  /// Index of the component that has the most vertices. On a head, this component is the skin.
   std::uint32_t largest() const;
 };
 /// Finds the connected components of the mesh that has this adjacency.

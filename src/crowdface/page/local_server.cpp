@@ -129,7 +129,8 @@ struct LocalServer::State {
   std::list<Connection> connections;
   std::mutex mutex;
   std::condition_variable changed;
-  /// complete requests that wait for an answer, and their connections; guarded by `mutex`
+  /// connections whose requests have arrived completely and wait for an answer, with these
+  /// requests; guarded by `mutex`
   std::deque<std::pair<Connection*, HttpRequest>> queued_requests;
   bool stopping = false;  ///< whether the server stops; guarded by `mutex`
 

@@ -84,7 +84,7 @@ template <class Mesh, class Part>
 struct MeshWithAttachments {
   /// the data that the meshes of all faces have in common: topology, texture coordinates, materials
   Mesh mesh;
-  AttachmentsInFormat<Part> parts;  ///< the attachments
+  AttachmentsInFormat<Part> parts;  ///< one part for each attachment
 
   /// Memory of the mesh and the attachments, in bytes.
   std::size_t memory_bytes() const { return mesh.memory_bytes() + parts.memory_bytes(); }

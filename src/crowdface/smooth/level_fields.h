@@ -12,7 +12,7 @@
 
 namespace crowdface {
 
-/// The fields of one head at one tile of vertices.
+/// The vector fields (see LevelFields) of one head at the vertices of one tile.
 struct TileFields {
   std::size_t count = 0;                      ///< number of fields that the tile stores
   const float* quantization_steps = nullptr;  ///< quantization step of each field of the tile

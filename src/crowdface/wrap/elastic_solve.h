@@ -18,7 +18,8 @@ Eigen::VectorXd vertex_areas(const std::vector<Triangle>& triangles, const Posit
 
 /// The cotangent Laplacian (Pinkall & Polthier 1993), #V by #V, not divided by areas. Weights of
 /// obtuse triangles are clamped to a small positive value, so that the discrete maximum principle
-/// holds. Boundary vertices get rows of the same form, so that a boundary can move but not bend.
+/// holds. The rows of boundary vertices are computed like all
+/// other rows.
 SparseMatrix laplacian(const std::vector<Triangle>& triangles, const Positions& positions);
 
 /// The symmetric matrix B, #V by #V, for which dᵀ B d is the bending energy ∫ s |Δd|² of a

@@ -83,8 +83,8 @@ double hair_stand_off(const HairCut& cut, const Vector3d& p) {
 }
 
 Vector3d combing_direction(const HairCut& cut, const Vector3d& p) {
-  // The parting ends at the crown. Farther back, the combing direction changes gradually from one
-  // side to the other.
+  // `wide`: half the width, cm, of the strip in which the combing direction changes from one side
+  // to the other. The strip is narrow at the parting and widens behind the crown.
   const double wide = cut.backward_combing >= 0.8 ? 5 : 0.25 + 5 * smooth_step(-2, -7, p.z());
   const double side = std::clamp((p.x() - cut.parting_x) / wide, -1.0, 1.0);
   Vector3d way(cut.sideways_combing * side, -0.15, -cut.backward_combing);
