@@ -113,7 +113,7 @@ export function roughAtVertices(material) {
 
 const field = 20; // degrees from top to bottom
 const narrow = 0.8; // width by height of a view below which the field is wider
-const rest = 45; // ms without a move, after which all is drawn in full
+const rest = 60; // ms without a move, after which all is drawn in full; longer than 40 ms, the time between two repeats of a held key
 const slow = 18; // ms to draw a frame while something moves; as long again takes the page
 const fast = 12;
 const fewest = 0.35; // of the pixels across, and this many at least as the next move begins

@@ -456,6 +456,52 @@ TEST(HairColour, IsOfFacesThatMayWearATint) {
   }
 }
 
+/// Sampled faces of equal hair colour. Each but the first three is most similar to the third face
+/// before it.
+std::vector<FacePlan> crowd_of_similar_faces() {
+  std::vector<FacePlan> crowd = hair_crowd(20);
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    crowd[i].recipe.target = 0;
+    crowd[i].notes.nearest = NearestNeighbours{};
+    if (i >= 3) crowd[i].notes.nearest->earlier_face = crowd[i - 3].id;
+  }
+  return crowd;
+}
+
+TEST(AttachmentDraw, ARedrawnFaceWithOtherNeighboursChangesNoOtherFace) {
+  std::vector<FacePlan> before = crowd_of_similar_faces();
+  choose_attachments(crowd_with_hair(), {}, before);
+  for (std::size_t redrawn = 3; redrawn < before.size(); ++redrawn) {
+    std::vector<FacePlan> after = crowd_of_similar_faces();
+    const std::vector<FacePlan> rejected = {after[redrawn]};
+    after[redrawn].notes.nearest->earlier_face = after[redrawn - 2].id;
+    choose_attachments(crowd_with_hair(), {}, after, rejected);
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      if (i != redrawn)
+        EXPECT_EQ(after[i].attachments, before[i].attachments) << redrawn << ' ' << i;
+    }
+  }
+}
+
+TEST(AttachmentDraw, HandWrittenFacesChangeNoSampledFace) {
+  std::vector<FacePlan> sampled = crowd_of_similar_faces();
+  choose_attachments(crowd_with_hair(), {}, sampled);
+  for (std::size_t similar = 0; similar < sampled.size(); ++similar) {
+    std::vector<FacePlan> crowd = crowd_of_similar_faces();
+    FacePlan written = crowd[0];
+    written.id = "written";
+    written.index.reset();
+    crowd.insert(crowd.begin(), written);
+    choose_attachments(crowd_with_hair(), {}, crowd);
+    const bool has_neighbour = crowd[similar + 1].notes.nearest->earlier_face.has_value();
+    if (has_neighbour) continue;
+    crowd[similar + 1].notes.nearest->earlier_face = written.id;
+    choose_attachments(crowd_with_hair(), {}, crowd);
+    for (std::size_t i = 0; i < sampled.size(); ++i)
+      EXPECT_EQ(crowd[i + 1].attachments, sampled[i].attachments) << similar << ' ' << i;
+  }
+}
+
 // Half of the age used to leave young hair as it was.
 TEST(HairColour, GreysVisiblyWithHalfOfTheAge) {
   const auto mean_grey = [](double age) {

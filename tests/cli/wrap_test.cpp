@@ -55,7 +55,9 @@ TEST_F(Wrap, EyeballsAndTeethOfAScanHaveNoEffect) {
   const fs::path out = folder_ / "head.obj";
   crowdface(0, single(landmarks_, out));
   const std::string with_eyeballs = read_file(out), scan = read_file(head(2));
-  folder_.write("heads/synth_02.obj", scan.substr(0, scan.find("usemtl eyeball_left")));
+  const std::size_t eyeballs = scan.find("usemtl eyeball_left");
+  ASSERT_NE(eyeballs, std::string::npos);
+  folder_.write("heads/synth_02.obj", scan.substr(0, eyeballs));
   crowdface(0, single(landmarks_, out));
   EXPECT_EQ(read_file(out), with_eyeballs);
 }

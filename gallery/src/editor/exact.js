@@ -2,7 +2,7 @@
 // The program's own face, asked for when the mouse rests.
 import { postForBinary } from '../api.js';
 
-const rest = 25; // ms
+const rest = 60; // ms; longer than the time between two moves of a drag on a page without a graphics card
 export const undressed = 1000; // ms until the program is asked anew for a face without all that it wears
 
 /// The program's face of a request once it has put on what the face wears.

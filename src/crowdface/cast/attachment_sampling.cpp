@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "crowdface/cast/hair_chooser.h"
@@ -124,8 +125,7 @@ class AttachmentChooser {
         }
       }
       for (const FacePlan& face : sequence) {
-        if (!face.index || !face.notes.nearest || !face.notes.nearest->earlier_face) continue;
-        neighbours_[face.id].push_back(*face.notes.nearest->earlier_face);
+        if (face.index) sampled_ids_.insert(face.id);
       }
     }
     for (auto& [kind, quotas] : quotas_) {
@@ -222,13 +222,19 @@ class AttachmentChooser {
     return first.index ? second.index.has_value() : !second.index && first.family == second.family;
   }
 
-  /// Removes items that the previous face, the next face or the most similar earlier face wears in a
-  /// similar colour, unless this removes all items.
+  /// Removes items that the previous face or the next face wears in a similar hair colour, unless
+  /// this removes all items. For a sampled face, does the same for the most similar earlier face if
+  /// this face is sampled, too.
   void avoid_neighbours(const FacePlan& face, Items& items) const {
-    const auto neighbours = neighbours_.find(face.id);
-    if (neighbours == neighbours_.end()) return;
+    std::vector<std::string> neighbours;
+    if (const auto found = neighbours_.find(face.id); found != neighbours_.end())
+      neighbours = found->second;
+    if (face.index && face.notes.nearest && face.notes.nearest->earlier_face) {
+      const std::string& similar = *face.notes.nearest->earlier_face;
+      if (sampled_ids_.contains(similar)) neighbours.push_back(similar);
+    }
     keep_matching(items, [&](const AttachmentItem& item) {
-      return std::ranges::none_of(neighbours->second, [&](const std::string& other) {
+      return std::ranges::none_of(neighbours, [&](const std::string& other) {
         const auto placed = placed_.find(other);
         return placed != placed_.end() && contains(placed->second, &item) &&
                are_alike(hairs_.at(other), hairs_.at(face.id));
@@ -427,9 +433,10 @@ class AttachmentChooser {
   /// chooses the faces' hair colours; empty if no item has a tint
   std::optional<HairChooser> hair_;
   std::map<std::string, HairColour> hairs_;  ///< maps the id of a face to its hair colour
-  /// Maps the id of a face to the ids of the previous and of the next face (if must_differ holds for
-  /// the two faces), and of the most similar earlier face.
+  /// Maps the id of a face to the ids of the previous and of the next face, if must_differ holds
+  /// for the two faces.
   std::map<std::string, std::vector<std::string>> neighbours_;
+  std::set<std::string> sampled_ids_;  ///< ids of the sampled faces of the sequence
 };
 
 }  // namespace

@@ -49,8 +49,9 @@ struct AttachmentOptions {
 ///
 /// - A sampled face gets an item that the fewest earlier sampled faces wear, relative to the items'
 ///   shares. A member of a family gets an item that the fewest earlier members wear.
-/// - A face does not wear the item of the previous face, of the next face or of the most similar
-///   earlier face if this neighbour has a similar hair colour, unless no other item is allowed.
+/// - A face does not wear the item of the previous or of the next face if this face has a similar
+///   hair colour, unless no other item is allowed. For a sampled face, the same holds for the most
+///   similar earlier sampled face (CastingNotes::nearest).
 ///
 /// \param crowd     In the order of the plan.
 /// \param groups    For each sampled face: the index of its group, or −1. Empty: there are no

@@ -11,11 +11,13 @@
 
 namespace crowdface {
 
-/// The head and the earlier face that are nearest to a face; for information only.
+/// The head and the earlier face that are nearest to a face. The attachments of a sampled face
+/// depend on `earlier_face`.
 struct NearestNeighbours {
   Index head = 0;               ///< index of the nearest input head
   double head_distance_mm = 0;  ///< distance between the face and `head`
-  /// id of the nearest of the faces before this face in the plan
+  /// id of the nearest of the faces before this face in the plan; for a face that replaces a
+  /// rejected face: of all other faces
   std::optional<std::string> earlier_face;
   double earlier_face_distance_mm = 0;  ///< distance between the face and `earlier_face`
 };

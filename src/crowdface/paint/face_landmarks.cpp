@@ -186,11 +186,13 @@ class LandmarkSearch {
         sum += std::min(std::abs(difference - products[1] / products[0] * x), kMaxDifference);
       return sum / static_cast<double>(differences.size());
     };
+    if (asymmetry(0) == kNever) return 0;
     const auto last = static_cast<int>(kMaxShift / kStep);
     int best = 0;
     for (int shift = -last; shift <= last; ++shift) {
       if (asymmetry(shift) < asymmetry(best)) best = shift;
     }
+    if (std::abs(best) == last) return 0;  // no minimum within the search
     return std::abs(best * kStep) < kMinShift ? 0 : best * kStep;
   }
 
@@ -368,8 +370,8 @@ class LandmarkSearch {
   }
 
   enum class Seen { kSkin, kAny };
-  /// The front coordinate of the skin at a distance `across` from the symmetry plane, averaged over
-  /// the left and right sides. Nothing if another part, such as teeth, covers the skin.
+  /// The front coordinate of the skin at a distance `across` from the middle of the face, averaged
+  /// over the left and right sides. Nothing if another part, such as teeth, covers the skin.
   /// \param seen  kAny: the front coordinate of the foremost surface, which may be another part
   std::optional<double> depth(double across, double up, Seen seen = Seen::kSkin) const {
     const auto left = rays_.from_front(face_middle_ + across, up),
@@ -384,7 +386,7 @@ class LandmarkSearch {
   }
 
   /// Finds the wings of the nose: the points, between the heights of the nose's base and tip, where
-  /// the steep slope from wing to cheek is farthest from the symmetry plane.
+  /// the steep slope from wing to cheek is farthest from the middle of the face.
   void nose_wings() {
     const char* const reason = "the nose has no wings that stand out from the cheeks";
     const auto tip = at("nose_tip"), base = at("nose_base");

@@ -22,9 +22,9 @@ struct FaceLandmarks {
 };
 
 /// Finds the landmarks of Farkas' measurements (docs/traits.md) on a head from these parts of its
-/// shape: the profile in the symmetry plane, the visible parts of the eyeballs, the relief of nose
-/// and mouth seen from the front, and the outline seen from the sides. Left and right are searched
-/// together, at the same heights and depths.
+/// shape: the profile in the middle of the face, the visible parts of the eyeballs, the relief of
+/// nose and mouth seen from the front, and the outline seen from the sides. Left and right are
+/// searched together, at the same heights and depths.
 /// \param head  usually the mean head
 /// \param face  position of the face on the head
 FaceLandmarks find_face_landmarks(const Topology& topology, const Components& components,

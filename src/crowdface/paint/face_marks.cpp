@@ -277,7 +277,8 @@ EyeHollows find_eye_hollows(const Topology& topology, const HeadShape& head, con
   const auto mean_depth_mm = [&](double height) {
     double sum = 0;
     for (const Profile& profile : profiles) {
-      sum += std::clamp(profile.hollow(height, kHalfWidthMm * mm) / mm, 0.0, kMaxDepthMm);
+      const double depth = profile.hollow(height, kHalfWidthMm * mm) / mm;
+      if (depth > 0) sum += std::min(depth, kMaxDepthMm);  // NaN where a plane cuts no skin
     }
     return sum / static_cast<double>(profiles.size());
   };

@@ -25,8 +25,8 @@ constexpr double kMaxFitDistanceMm = 14;
 /// (1.3 to 2.4 mm), because the errors of neighbouring landmarks are correlated.
 constexpr double kFoundErrorMm = 5;
 
-/// Whether a landmark lies at the border of a separate eyeball. Such landmarks are found as exactly
-/// as a user picks them.
+/// Whether a landmark is found with the help of a separate eyeball: the landmarks of lids and of
+/// corners of the eyes. The wrap takes such landmarks for as exact as picked landmarks.
 bool is_at_eyeball(const std::string& name) {
   return name.starts_with("eye_") || name.starts_with("lid_");
 }

@@ -116,8 +116,8 @@ HWY_INLINE void shade_some(const float* points, const Studio& lamps, float* ligh
   const Numbers soft = hn::Mul(specular, square(sky));
   const Numbers key_gloss = hn::Mul(gloss.of(to_key), hn::Mul(specular, key));
   const Numbers fill_gloss = hn::Mul(gloss.of(to_fill), soft);
-  // Less than half of the rim lights' highlights: no shadow rays tell where the face hides these
-  // lights, such as beside the nose.
+  // Weaken the highlights of the rim lights, because no shadow rays are traced to these lights,
+  // although the face hides them in some places, such as beside the nose.
   const Numbers rim = hn::Mul(number(0.4F), soft);
   const Numbers right_gloss = hn::Mul(gloss.of(to_right), rim);
   const Numbers left_gloss = hn::Mul(gloss.of(to_left), rim);

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 #include "crowdface/cast/child_skin_colours.h"
 #include "crowdface/cast/compared_area.h"
@@ -308,9 +311,11 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
     }
     throw_shortfall(config, remedy, *crowd.shortfall, trait_advice_lines);
   }
+  std::map<std::size_t, std::optional<NearestNeighbours>> nearest_to_unchanged;
   for (const auto& [face, changed] : crowd.changed) {
     crowd.points[face] = changed.point;
-    crowd.crowd[face].notes.nearest = changed.face.notes.nearest;
+    nearest_to_unchanged[face] =
+        std::exchange(crowd.crowd[face].notes.nearest, changed.face.notes.nearest);
     crowd.crowd[face].notes.changes = changed.face.notes.changes;
   }
   CrowdPlan result;
@@ -328,8 +333,16 @@ CrowdPlan plan_crowd(const Config& config, const Inputs& inputs, const PreparedH
     return iris_cover.covered_fraction(item, face) > IrisCover::kMaxCoveredFraction;
   };
   if (!config.attachments.items.empty()) {
+    // Choose attachments for the crowd without changes, because a change of one face must not
+    // change the attachments of another face.
+    const auto swap_nearest = [&] {
+      for (auto& [face, nearest] : nearest_to_unchanged)
+        std::swap(result.crowd[face].notes.nearest, nearest);
+    };
+    swap_nearest();
     choose_attachments(attachments, crowd.group_indices, result.crowd, crowd.rejected,
                        crowd.crowd_size_at_rejection);
+    swap_nearest();
   }
   choose_skin(config, inputs, result.crowd);
   replace_changed_faces(config, casting, attachments, colour_options(config), crowd.group_indices,

@@ -343,6 +343,7 @@ void run_job(const Job& job, const GenerateOptions& options, Purpose purpose,
     beside.run([&] { crowd->textures.get(); });
     crowd->attachments.bind(crowd->crowd_plan.crowd);
     beside.wait();
+    // Lazy is not thread-safe, so make the shapes before the task starts, which reads them, too.
     const FaceShapes& shapes = crowd->shapes.get();
     if (job.config.output.contact_sheet) beside.run([&] { pictures.get(); });
     auto made = std::make_unique<FaceStages>(

@@ -33,6 +33,7 @@ class Profiles {
     scene_.emplace(device_, points_around(positions, middle), quads_);
   }
 
+  static constexpr double kFarBehind = -1000;  ///< depth where no surface is visible
   struct Hit {
     double depth = kFarBehind;  ///< along the front axis, in mm
     SurfacePoint point;
@@ -62,7 +63,7 @@ class Profiles {
   /// Depths of a crease at the inner heights of a profile: how far the skin kHalfWidthMm above and
   /// below both protrude. Not negative.
   static std::vector<double> hollows(const std::vector<Hit>& profile) {
-    constexpr double kMaxMm = 2.5;  // an open mouth is much deeper
+    constexpr double kMaxMm = 2.5;
     std::vector<double> depths;
     for (std::size_t i = kHalfWidthSteps; i + kHalfWidthSteps < profile.size(); ++i) {
       const double beside =
@@ -72,9 +73,25 @@ class Profiles {
     return depths;
   }
 
- private:
-  static constexpr double kFarBehind = -1000;  // where no surface is visible
+  /// Whether the profile crosses a gap that is higher than 2 kHalfWidthMm, such as an open mouth.
+  /// In such a gap, `hollows` returns 0.
+  static bool has_wide_gap(const std::vector<Hit>& profile) {
+    constexpr double kGapDepthMm = 8;
+    constexpr std::size_t kReach = 20;  // steps
+    int height = 0;                     // of the gap so far, in steps
+    for (std::size_t i = kReach; i + kReach < profile.size(); ++i) {
+      double below = kFarBehind, above = kFarBehind;
+      for (std::size_t k = 1; k <= kReach; ++k) {
+        below = std::max(below, profile[i - k].depth);
+        above = std::max(above, profile[i + k].depth);
+      }
+      height = std::min(below, above) - profile[i].depth > kGapDepthMm ? height + 1 : 0;
+      if (height > 2 * kHalfWidthSteps) return true;
+    }
+    return false;
+  }
 
+ private:
   Eigen::Vector3d middle_;
   HeadAxes axes_;
   std::vector<Triangle> triangles_;
@@ -108,7 +125,9 @@ LipLine find_lip_line(const WrapTemplate& wrap_template,
     const auto deepest = std::ranges::max_element(depths);
     if (*deepest < kMinDepthMm) continue;
     const auto i = static_cast<std::size_t>(deepest - depths.begin()) + kHalfWidthSteps;
-    line.push_back({profile[i + kRimSteps].point, profile[i - kRimSteps].point});
+    const auto &upper_rim = profile[i + kRimSteps], &lower_rim = profile[i - kRimSteps];
+    if (std::min(upper_rim.depth, lower_rim.depth) == Profiles::kFarBehind) continue;
+    line.push_back({upper_rim.point, lower_rim.point});
   }
   return line;
 }
@@ -132,16 +151,20 @@ std::optional<double> lip_line_offset(const WrapTemplate& wrap_template, const L
                           wrap_template.axes);
   constexpr int kMargin = kReachSteps + kBlurSteps + kHalfWidthSteps;
   std::vector<double> sums(2 * kReachSteps + 1, 0);
+  std::size_t wide_gaps = 0;
   for (const Eigen::Vector3d& place : places) {
     const Eigen::Vector3d offset = place - middle;
-    const std::vector<double> depths = Profiles::hollows(
+    const auto profile =
         profiles.trace(offset.dot(wrap_template.axes.side()),
-                       offset.dot(wrap_template.axes.up) - kMargin * kStepMm, 2 * kMargin + 1));
+                       offset.dot(wrap_template.axes.up) - kMargin * kStepMm, 2 * kMargin + 1);
+    if (Profiles::has_wide_gap(profile)) ++wide_gaps;
+    const std::vector<double> depths = Profiles::hollows(profile);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const auto begin = depths.begin() + static_cast<std::ptrdiff_t>(i);
       sums[i] += *std::max_element(begin, begin + 2 * kBlurSteps + 1);
     }
   }
+  if (2 * wide_gaps > places.size()) return std::nullopt;  // the mouth is open
   const auto highest = std::ranges::max_element(sums);
   if (*highest < kMinDepthMm * static_cast<double>(places.size())) return std::nullopt;
   // A deep crease above the chin may be as clear as the line between thin lips. Otherwise, the line

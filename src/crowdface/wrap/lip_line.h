@@ -15,8 +15,8 @@
 
 namespace crowdface {
 
-/// The line between the lips of a template, from left to right: pairs of points on the skin, the
-/// first on the upper lip just above the line, the second on the lower lip just below the line.
+/// The line between the lips of a template: pairs of points on the skin. The first point of a pair
+/// is on the upper lip just above the line, the second on the lower lip just below the line.
 using LipLine = std::vector<std::array<SurfacePoint, 2>>;
 
 /// Finds the line between the lips of a template: the deepest crease, seen from the front, between
@@ -28,7 +28,8 @@ LipLine find_lip_line(const WrapTemplate& wrap_template,
 
 /// Height in mm of the line between the scan's lips above the line between the lips of the wrapped
 /// head. The line of the scan is the clearest crease within 20 mm above and below the line of the
-/// wrapped head. Returns nothing if the scan has no clear crease there, or two of them.
+/// wrapped head. Returns nothing if the scan has no clear crease there, or two of them, or an open
+/// mouth.
 /// \param scan  without eyeballs and teeth
 /// \param wrapped  #V by 3, positions of the whole template after the wrap
 /// \param pose     similarity transform from the template's frame to the scan's frame

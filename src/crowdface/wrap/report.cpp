@@ -156,7 +156,7 @@ std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_templat
         feature.lip_line_offset_mm
             ? concat("the scan's lips meet ", format_fixed(std::abs(up), 1), " mm ",
                      up > 0 ? "above" : "below", " the lips of the wrapped head")
-            : concat("on the wrapped head it does not look like the template's (agreement ",
+            : concat("on the wrapped head it does not look like the template's (correlation ",
                      format_fixed(feature.correlation.correlation_at_feature, 2),
                      "; a few mm above or below ",
                      format_fixed(feature.correlation.best_correlation_nearby, 2), ")");
@@ -301,7 +301,7 @@ std::string format_wrap_report(const WrapFacts& facts, const WrapTemplate& wrap_
     report["correspondence_mm"] = spread_json(all);
   }
   for (const FeatureCheck& feature : result.features) {
-    report["features"][feature.name] = rounded(feature.correlation.correlation_at_feature);
+    report["features"][feature.name] = rounded(feature.agreement());
   }
   if (!result.dropped_landmarks.empty()) report["dropped_landmarks"] = result.dropped_landmarks;
   report["warnings"] = warnings;

@@ -116,10 +116,11 @@ void look_at_hair(const WrapTemplate& wrap_template, const WrapResult& result,
   if (above <= kHairMm && share <= kMaxFar) return;
   std::vector<std::string> signs;
   if (above > kHairMm) {
-    signs.push_back(concat("it is ", format_fixed(above, 0), " mm outside the template's head"));
+    signs.push_back(
+        concat("the scan is ", format_fixed(above, 0), " mm outside the template's head"));
   }
   if (share > kMaxFar) {
-    signs.push_back(concat(format_fixed(100 * share, 1), " % of the skin is more than ",
+    signs.push_back(concat(format_fixed(100 * share, 1), " % of the wrapped skin is more than ",
                            kFarFromScanMm, " mm from the scan"));
   }
   faults.push_back(concat("the scan seems to show hair or a hat: above the brows ",

@@ -73,7 +73,8 @@ Complexion random_complexion(std::uint64_t seed, std::uint64_t index) {
   look.skin = along(skin_tones(), look.skin_tone) * (1 + (male ? -0.08 : 0.33) * look.skin_tone);
   // Light hair occurs only with light skin.
   const double darkest = smooth_step(0.15, 0.65, look.skin_tone);
-  // Stratified random numbers give successive women with light skin, and such men, different hair.
+  // Stratified random numbers: the three women among heads 6k to 6k + 5 get numbers in different
+  // thirds of the range, and so do the three men.
   const double hair =
       darkest +
       (1 - darkest) * random_stratified(

@@ -32,7 +32,7 @@ struct AtlasTexel {
 /// numbered row by row; the first row lies at v = 1.
 class SkinAtlas {
  public:
-  /// \param side  width and height of the texture in texels.
+  /// \param side  width and height of the texture in texels, 64 … 8192.
   explicit SkinAtlas(int side);
 
   std::size_t side() const { return side_; }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/core/selection.h"
 #include "crowdface/core/smooth_step.h"
 #include "head_models/synth/complexion.h"
@@ -50,18 +51,22 @@ class Slopes {
 }  // namespace
 
 double texel_cm(const SkinAtlas& atlas) {
-  std::vector<double> steps;
-  std::optional<Eigen::Vector3d> left;
-  for (std::size_t i = 0; i < atlas.size(); ++i) {
-    if (i % atlas.side() == 0) left.reset();
-    std::optional<Eigen::Vector3d> here;
-    if (atlas.is_covered(i)) {
-      const AtlasTexel place = atlas[i];
-      if (place.on_eyeball <= 0.5) here = place.skin.position;
+  std::vector<std::vector<double>> steps_of_rows(atlas.side());
+  parallel_for_each(atlas.side(), 16, [&](std::size_t row) {
+    std::optional<Eigen::Vector3d> left;
+    for (std::size_t i = row * atlas.side(); i < (row + 1) * atlas.side(); ++i) {
+      std::optional<Eigen::Vector3d> here;
+      if (atlas.is_covered(i)) {
+        const AtlasTexel place = atlas[i];
+        if (place.on_eyeball <= 0.5) here = place.skin.position;
+      }
+      if (left && here) steps_of_rows[row].push_back((*here - *left).norm());
+      left = here;
     }
-    if (left && here) steps.push_back((*here - *left).norm());
-    left = here;
-  }
+  });
+  std::vector<double> steps;
+  for (const std::vector<double>& row : steps_of_rows)
+    steps.insert(steps.end(), row.begin(), row.end());
   if (steps.empty()) return 1;
   const std::size_t middle = steps.size() / 2;
   return nth_smallest(std::move(steps), middle);
