@@ -88,7 +88,7 @@ TEST_F(ScanFaults, ASkullThatStandsOutIsHair) {
     const Eigen::RowVector3d out = shape_.positions.row(row) - ball().centre.transpose();
     result_.positions.row(row) += 25 * out.normalized();
   }
-  EXPECT_THAT(faults(), ElementsAre(AllOf(HasSubstr("above the brows it is "),
+  EXPECT_THAT(faults(), ElementsAre(AllOf(HasSubstr("above the brows the scan is "),
                                           Not(HasSubstr("from the scan;")))));
 }
 
@@ -103,7 +103,7 @@ TEST_F(ScanFaults, ASkullThatIsFarFromTheScanIsHairOrAHat) {
   // The message said "0 mm outside the template's head".
   EXPECT_THAT(faults(),
               ElementsAre(HasSubstr(
-                  "hair or a hat: above the brows 25.1 % of the skin is more than 3 mm")));
+                  "hair or a hat: above the brows 25.1 % of the wrapped skin is more than 3 mm")));
   make_far(40);
   EXPECT_THAT(faults(), IsEmpty());
 }

@@ -7,9 +7,9 @@
 namespace crowdface {
 
 /// Searches in `folder` for a texture, or for the buffer of a glTF file. Its path `named` comes
-/// from another machine, such as "C:/work/maps/skin.png". The search has three steps:
+/// from another machine, such as "C:/anna/maps/skin.png". The search has three steps:
 ///
-/// 1. The last parts of `named`, with as many parts as possible: "work/maps/skin.png", then
+/// 1. The last parts of `named`, with as many parts as possible: "anna/maps/skin.png", then
 ///    "maps/skin.png", then "skin.png".
 /// 2. The file name in the subfolder STEM.fbm, where STEM is `stem`.
 /// 3. The file name in any subfolder, if only one subfolder has a file of this name.
