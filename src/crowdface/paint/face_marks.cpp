@@ -266,7 +266,7 @@ EyeHollows find_eye_hollows(const Topology& topology, const HeadShape& head, con
   // On the mean face, the inner corners are 17 mm and the middles of the eyes 32 mm beside the
   // symmetry plane.
   constexpr std::array kBesideMm = {-32.0, -22.0, -17.0, 17.0, 22.0, 32.0};
-  constexpr double kSearchMm = 18, kHalfWidthMm = 10, kMaxHoleMm = 10;
+  constexpr double kSearchMm = 18, kHalfWidthMm = 10, kMaxHoleMm = 7;
   // Depths above kMaxDepthMm are reduced to kMaxDepthMm: without eyeballs, an eye is a deep hole.
   constexpr double kMaxDepthMm = 8, kSureDepthMm = 2.5, kPenaltyMm = 0.5;
   std::vector<Profile> profiles;
@@ -415,9 +415,8 @@ FaceMarks marks_of_face(const Topology& topology, const HeadShape& head, const R
   const EyeHollows hollows = find_eye_hollows(topology, head, match.fitted_axes, eyes, across, mm);
   const double without_hollows =
       (of_relief_eyes + height(bridge - kBridgeMm * match.stretch * mm)) / 2;
-  // A mesh with long edges does not show the hollows well.
-  const double weight = hollows.weight / (coarseness * coarseness);
-  marks.eyes_height = weight * height(hollows.height) + (1 - weight) * without_hollows;
+  marks.eyes_height =
+      hollows.weight * height(hollows.height) + (1 - hollows.weight) * without_hollows;
   return marks;
 }
 
