@@ -149,16 +149,16 @@ timings = json.load(open(sys.argv[1]))
 heads, vertices, faces, size = (int(text) for text in sys.argv[2:6])
 read_floor, write_floor, megabytes, blend_floor = (float(text) for text in sys.argv[6:])
 wall, busy = timings["seconds"], timings["busy_seconds"]
-making = wall["build"] + wall.get("sheets", 0)
+making = wall.get("setup", 0) + wall["build"] + wall.get("sheets", 0)
 write_floor *= size / 1e6 / megabytes / faces
 rows = [("read, s", wall["read"], read_floor), ("write, s a face", busy["write"] / faces, write_floor),
-        ("build and sheets, s a face", making / faces, write_floor)]
+        ("set-up, build and sheets, s a face", making / faces, write_floor)]
 if blend_floor:
     rows.insert(1, ("blend, s a face", busy["blend"] / faces, blend_floor / 1e3 * vertices / 1.2e6))
 print("| stage | took | floor | ratio |")
 for stage, took, floor in rows:
     print(f"| {stage} | {took:.4f} | {floor:.4f} | {took / floor:.1f} |")
-print("\n| heads | vertices | faces | read, s | prepare, s | cast, s | build and sheets, s | faces an hour | " +
+print("\n| heads | vertices | faces | read, s | prepare, s | cast, s | set-up, build and sheets, s | faces an hour | " +
       " | ".join(f"{part}, s a face" for part in busy) + " | slowest | peak memory, GiB | written, GB |")
 print(f"| {heads} | {vertices:,} | {faces:,} | {wall['read']:.1f} | {wall['prepare']:.1f} | {wall['cast']:.1f} | " +
       f"{making:.1f} | {3600 * faces / making:,.0f} | " +

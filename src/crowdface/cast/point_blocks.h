@@ -68,8 +68,9 @@ class PointBlocks {
   /// Returns the number that the caller of `add` gave to a point.
   /// \param index  0 for the point that was added first.
   Index point_number(Index index) const { return point_numbers_[static_cast<std::size_t>(index)]; }
-  /// Returns coordinate number `dimension` of the point that was added as number `index`, counted
-  /// from 0. (Not the number that the caller of `add` chose.)
+  /// Returns one coordinate of a point.
+  /// \param index  0 for the point that was added first; not the number that the caller of `add`
+  ///               chose
   float coordinate(Index index, Index dimension) const {
     return chunk_of(dimension)[offset_in_chunk(index, dimension)];
   }

@@ -76,8 +76,8 @@ struct SmoothnessDistribution {
     /// paper has the same unit
     kFraction,
     kIterations,  ///< values are numbers of smoothing iterations
-    /// values are wavelengths in mm: smoothing halves the amplitude of relief that has this
-    /// wavelength (docs/method.md)
+    /// values are wavelengths in mm. The number of smoothing iterations is chosen so that smoothing
+    /// halves the amplitude of relief that has this wavelength (docs/method.md).
     kSize,
   };
   Unit unit = Unit::kFraction;

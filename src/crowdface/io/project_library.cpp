@@ -21,8 +21,8 @@
 namespace crowdface {
 namespace {
 
-/// What needs the libraries that are being loaded: the part of an error message between "the
-/// libraries that" and "cannot be started". Example: "images need (OpenImageIO)".
+/// Says what needs the libraries that are now being loaded, such as "images need (OpenImageIO)". The
+/// error message "the libraries that … cannot be started" contains this text.
 std::atomic<const char*> current_dependents_phrase{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only

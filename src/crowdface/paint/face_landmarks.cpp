@@ -186,11 +186,15 @@ class LandmarkSearch {
         sum += std::min(std::abs(difference - products[1] / products[0] * x), kMaxDifference);
       return sum / static_cast<double>(differences.size());
     };
-    if (asymmetry(0) == kNever) return 0;
+    double least = asymmetry(0);
+    if (least == kNever) return 0;
     const auto last = static_cast<int>(kMaxShift / kStep);
     int best = 0;
     for (int shift = -last; shift <= last; ++shift) {
-      if (asymmetry(shift) < asymmetry(best)) best = shift;
+      const double here = asymmetry(shift);
+      if (here >= least) continue;
+      least = here;
+      best = shift;
     }
     if (std::abs(best) == last) return 0;  // no minimum within the search
     return std::abs(best * kStep) < kMinShift ? 0 : best * kStep;

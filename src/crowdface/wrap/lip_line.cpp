@@ -11,9 +11,9 @@
 namespace crowdface {
 namespace {
 
-/// Distance above and below a crease, in mm, at which the skin beside the crease is measured.
+/// The skin beside a crease is measured this far above and this far below the crease, in mm.
 constexpr double kHalfWidthMm = 2.5;
-constexpr double kStepMm = 0.5;      ///< distance of the rays along a profile
+constexpr double kStepMm = 0.5;      ///< distance between neighbouring rays of a profile
 constexpr int kHalfWidthSteps = 5;   ///< kHalfWidthMm / kStepMm
 constexpr double kColumnStepMm = 3;  ///< distance between profiles
 constexpr int kColumnsPerSide = 5;
