@@ -21,8 +21,8 @@
 namespace crowdface {
 namespace {
 
-/// Says what needs the libraries that are now being loaded, such as "images need (OpenImageIO)". The
-/// error message "the libraries that … cannot be started" contains this text.
+/// Says what needs the libraries that are now being loaded, such as "images need (OpenImageIO)".
+/// The error message "the libraries that … cannot be started" contains this text.
 std::atomic<const char*> current_dependents_phrase{"run"};
 
 // Ends the process with a message that a library cannot be started. As a signal handler, calls only
