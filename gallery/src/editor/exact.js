@@ -20,13 +20,16 @@ export class Exact {
     Object.assign(this, { show, fail, waiting, turn: 0, page: crypto.randomUUID() });
   }
 
-  /// \param document  what stands on the page; \param asked  the same as the program reads it.
-  ask(document, asked) {
+  /// \param document  the document on the page
+  /// \param asked     the request for its face
+  /// \param wait      milliseconds without another call after which the request is sent
+  ask(document, asked, wait = rest) {
     clearTimeout(this.timer);
     this.running?.abort();
     this.running = null;
     this.waiting(true);
-    this.timer = setTimeout(() => this.send(document, asked), rest);
+    if (wait === 0) this.send(document, asked); // before the page draws again
+    else this.timer = setTimeout(() => this.send(document, asked), wait);
   }
 
   async send(document, asked) {

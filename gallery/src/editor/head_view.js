@@ -300,6 +300,19 @@ export class HeadView extends Stage {
     this.showLines();
   }
 
+  /// Keeps the draft that is on the screen until the next picture in full, or until something moves again.
+  hold() { this.isHolding = this.moving; }
+
+  setMoving(on) {
+    if (on) this.isHolding = false;
+    super.setMoving(on);
+  }
+
+  drawCheaply(on) {
+    this.isHolding = false;
+    super.drawCheaply(on);
+  }
+
   showLines() {
     const isDraft = Boolean(this.moving && this.draft);
     this.lines.visible = this.wireframe && !isDraft;
@@ -307,7 +320,7 @@ export class HeadView extends Stage {
   }
 
   draw() {
-    if (this.isPlaced === undefined || this.silent) return; // there is no face yet
+    if (this.isPlaced === undefined || this.silent || this.isHolding) return; // isPlaced: there is no face yet
     if (!this.moving) this.catchUp();
     if (this.draft) {
       this.placeDraft();

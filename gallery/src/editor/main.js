@@ -66,6 +66,7 @@ class Editor extends ProgramPage {
       });
     }
     this.passing = null; // a document that is shown while something is dragged
+    this.isReleased = false; // whether a drag has just ended: its face is asked for at once
     this.comparing = null; // which kept state is shown
     this.comparedWith = this.kept.length - 1;
     this.heads = [];
@@ -220,6 +221,7 @@ class Editor extends ProgramPage {
 
   commit(document, label, options) {
     this.comparing = null;
+    this.isReleased = this.passing !== null;
     this.passing = null;
     this.history.commit(this.here(document), label, options);
     this.refresh();
@@ -280,6 +282,8 @@ class Editor extends ProgramPage {
       this.showTexture();
     }
     this.view.setMoving(this.passing !== null || this.exactOf !== document);
+    if (this.isReleased) this.view.hold();
+    this.isReleased = false;
     this.view.blend(...this.coefficientsOf(document), isOther && this.exactFaceOf === document ? this.exactFace : null);
   }
 
@@ -293,7 +297,8 @@ class Editor extends ProgramPage {
     if (!this.view.draft) this.view.worn.node.visible = false;
     const request = this.faceRequest(document);
     if (this.passing) this.measures.ask({ recipe: request.recipe, face: document.face });
-    this.exact.ask(document, { ...request, measure: Boolean(this.ready) });
+    this.exact.ask(document, { ...request, measure: Boolean(this.ready) }, this.isReleased ? 0 : undefined);
+    if (!this.passing) this.askSkin(document);
     clearTimeout(this.holding);
     this.holding = setTimeout(() => this.view.setMoving(this.passing !== null), patient);
   }
@@ -314,6 +319,7 @@ class Editor extends ProgramPage {
     this.exactOf = document;
     this.exactFace = face;
     this.exactFaceOf = document;
+    if (!this.passing) this.view.hold();
     if (this.ready) this.view.blend(...this.coefficientsOf(document), face);
     else this.view.standAs(face);
     if (face.nearest_head) {
@@ -330,9 +336,14 @@ class Editor extends ProgramPage {
         this.refresh();
       }, undressed);
     }
+    this.askSkin(document);
+  }
+
+  /// Asks for the textures of the document's face, unless they were asked for last.
+  askSkin(document) {
     if (this.skinOf?.document === document && this.skinOf.masksTurn === this.masksTurn) return;
     this.skinOf = { document, masksTurn: this.masksTurn };
-    this.skin.ask({ recipe: wire(this.job, document) });
+    this.skinShown = this.skin.ask({ recipe: wire(this.job, document) });
   }
 
   /// \return  the parts and points of each attachment of a face, for Worn.show
@@ -347,8 +358,12 @@ class Editor extends ProgramPage {
     if (this.exactFace !== face || !this.exactOf) return;
     this.view.wear(all, face);
     this.view.worn.node.visible = !this.painting?.on;
-    if (this.view.moving) this.view.setMoving(this.passing !== null);
-    else this.view.draw();
+    if (!this.view.moving || this.passing) {
+      this.view.draw();
+      return;
+    }
+    await this.skinShown; // the first picture in full has this face's skin
+    if (this.exactFace === face && this.exactOf) this.view.setMoving(this.passing !== null);
   }
 
   /// \param shares    above zero, by the expressions' names

@@ -4,24 +4,22 @@
 export class Newest {
   /// \param ask   gives a promise of the answer; \param show  is called with it; \param fail  with an error.
   constructor({ ask, show, fail }) {
-    Object.assign(this, { request: ask, show, fail, running: false, next: null });
+    Object.assign(this, { request: ask, show, fail, running: null, next: null });
   }
 
   /// \param asked  what `ask` of the constructor takes
-  async ask(asked) {
+  /// \return       a promise that is kept once the newest answer is shown
+  ask(asked) {
     this.next = asked;
-    if (this.running) return;
-    this.running = true;
-    try {
-      while (this.next) {
-        const { next } = this;
-        this.next = null;
-        await this.show(await this.request(next));
-      }
-    } catch (error) {
-      this.fail(error);
-    } finally {
-      this.running = false;
+    this.running ??= this.answerAll().catch(this.fail).finally(() => { this.running = null; });
+    return this.running;
+  }
+
+  async answerAll() {
+    while (this.next) {
+      const { next } = this;
+      this.next = null;
+      await this.show(await this.request(next));
     }
   }
 }

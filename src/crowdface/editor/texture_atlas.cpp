@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "crowdface/core/parallel.h"
 #include "crowdface/io/image.h"
 #include "crowdface/pictures/page_pictures.h"
 #include "crowdface/render/shading.h"
@@ -98,16 +99,6 @@ std::string TextureAtlas::normal_map_jpeg(const TextureLayer& slopes) const {
 
 std::string TextureAtlas::to_jpeg(const TextureLayer& layer, const LinearRgb& default_colour,
                                   Texel (*texel_of)(const LinearRgb&)) const {
-  std::vector<std::uint8_t> pixels;
-  const auto append = [&](const LinearRgb& light) {
-    const Texel texel = texel_of(light);
-    pixels.insert(pixels.end(), texel.begin(), texel.end());
-  };
-  if (cell_count_ == 1 && layer.textures.size() == 1) {
-    const Texture& texture = *layer.textures.front();
-    for (const LinearRgb& light : texture.texels) append(light);
-    return encode_jpeg(texture.width, texture.height, pixels);
-  }
   std::vector<const Texture*> shown(cell_count_, nullptr);
   for (std::size_t f = 0; f < layer.texture_of_polygon.size(); ++f) {
     if (layer.texture_of_polygon[f] == TextureLayer::kNone ||
@@ -116,18 +107,25 @@ std::string TextureAtlas::to_jpeg(const TextureLayer& layer, const LinearRgb& de
     const Texture*& texture = shown[cell_of_polygon_[f]];
     if (texture == nullptr) texture = layer.textures[layer.texture_of_polygon[f]].get();
   }
-  const int width = columns_ * cell_px_, height = rows_ * cell_px_;
+  const Texture* only = cell_count_ == 1 ? shown.front() : nullptr;  // is not resized
+  const int width = only != nullptr ? only->width : columns_ * cell_px_;
+  const int height = only != nullptr ? only->height : rows_ * cell_px_;
   const auto side = static_cast<float>(cell_px_);
-  for (int y = 0; y < height; ++y) {
+  const auto colour_of_texel = [&](int x, int y) -> LinearRgb {
+    if (only != nullptr) return only->texels[static_cast<std::size_t>(y * width + x)];
+    const auto cell = static_cast<std::size_t>(y / cell_px_ * columns_ + x / cell_px_);
+    const Texture* texture = cell < shown.size() ? shown[cell] : nullptr;
+    if (texture == nullptr) return default_colour;
+    return colour_at(*texture, {(static_cast<float>(x % cell_px_) + 0.5F) / side,
+                                1 - (static_cast<float>(y % cell_px_) + 0.5F) / side});
+  };
+  std::vector<Texel> texels(static_cast<std::size_t>(width * height));
+  parallel_for_each(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
-      const auto cell = static_cast<std::size_t>(y / cell_px_ * columns_ + x / cell_px_);
-      const Texture* texture = cell < shown.size() ? shown[cell] : nullptr;
-      const Eigen::Vector2f uv((static_cast<float>(x % cell_px_) + 0.5F) / side,
-                               1 - (static_cast<float>(y % cell_px_) + 0.5F) / side);
-      append(texture != nullptr ? colour_at(*texture, uv) : default_colour);
+      texels[static_cast<std::size_t>(y * width + x)] = texel_of(colour_of_texel(x, y));
     }
-  }
-  return encode_jpeg(width, height, pixels);
+  });
+  return encode_jpeg(width, height, {texels.data()->data(), 3 * texels.size()});
 }
 
 }  // namespace crowdface
