@@ -11,7 +11,7 @@ scripts/build.sh release crowdface
 start=$SECONDS
 crowdface=build/release/bin/crowdface
 # --force replaces the demo's folders after a change of the program or of configs/demo.yaml.
-"$crowdface" synth -o out/demo_heads --count 16 --vertices 20000 --seed 1 --textures 1024 --hair --force
+"$crowdface" synth -o out/demo_heads --count 16 --vertices 20000 --seed 1 --textures 1024 --hair --body --force
 "$crowdface" generate configs/demo.yaml --force
 
 echo

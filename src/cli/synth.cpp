@@ -54,7 +54,7 @@ std::string material_file(const std::vector<MaterialRange>& materials, const std
 }
 
 /// Adds the mesh of the body. If the heads have skin textures, also adds the body's material file
-/// and the body's texture, which shows the skin of the first head.
+/// and the body's texture.
 void add_body(const fs::path& folder, const SyntheticHeads& heads, const SyntheticSkins* skins,
               std::uint64_t seed, std::vector<HeadFile>& files) {
   const std::string library = skins != nullptr ? "body.mtl" : "";
@@ -65,8 +65,7 @@ void add_body(const fs::path& folder, const SyntheticHeads& heads, const Synthet
   if (skins == nullptr) return;
   files.push_back(text_file(folder / library, "newmtl skin\nKd 1 1 1\nmap_Kd body.png\n"));
   files.push_back({folder / "body.png", [skins, seed] {
-                     return encode_png(skins->size(), skins->size(), 3,
-                                       skins->body_albedo(seed, 1));
+                     return encode_png(skins->size(), skins->size(), 3, skins->body_albedo(seed));
                    }});
 }
 

@@ -22,11 +22,11 @@ class Examples : public ::testing::Test {
     const fs::path heads = folder_ / "out/demo_heads";
     crowdface(0,
               {"synth", "-o", heads.string(), "--vertices", "5000", "--count", "16", "--textures",
-               "64", "--hair"},
+               "64", "--hair", "--body"},
               {});
     crowdface(0,
               {"synth", "-o", (folder_ / "out/brief_heads").string(), "--vertices", "5000",
-               "--count", "24", "--textures", "64", "--hair"},
+               "--count", "24", "--textures", "64", "--hair", "--body"},
               {});
     // Stand-ins for the heads that scripts/get_heads.sh brings; one UDIM tile is all they touch.
     for (const char* model : {"ict", "makehuman"}) {

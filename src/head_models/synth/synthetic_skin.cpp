@@ -2,6 +2,7 @@
 #include "head_models/synth/synthetic_skin.h"
 
 #include <algorithm>
+#include <array>
 
 #include "crowdface/core/require.h"
 #include "head_models/synth/bust.h"
@@ -55,9 +56,11 @@ std::vector<std::uint8_t> SyntheticSkins::albedo(std::uint64_t seed, std::uint64
   });
 }
 
-std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed,
-                                                      std::uint64_t index) const {
-  const synth::SkinPaint paint(seed, index, scalp_hair_);
+std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed) const {
+  constexpr std::array<std::uint64_t, 5> kFirstHeads = {1, 2, 3, 4, 5};  // one of them is young
+  const std::uint64_t youngest = *std::ranges::min_element(
+      kFirstHeads, {}, [&](std::uint64_t i) { return synth::random_person(seed, i).age_years; });
+  const synth::SkinPaint paint(seed, youngest, scalp_hair_);
   const std::size_t side = atlas_.side();
   std::vector<std::uint8_t> bytes(3 * atlas_.size());
   synth::for_each_texel(side, [&](std::size_t i) {

@@ -29,9 +29,10 @@ class SyntheticSkins {
   /// \param edge_cm  SyntheticHeads::edge_cm(); the map contains only relief that is finer than
   ///                 this length.
   std::vector<std::uint8_t> normals(std::uint64_t seed, std::uint64_t index, double edge_cm) const;
-  /// Returns the albedo of the body with this head's skin colour, for the texture coordinates of
-  /// SyntheticHeads::body(), in the layout of albedo().
-  std::vector<std::uint8_t> body_albedo(std::uint64_t seed, std::uint64_t index) const;
+  /// Returns the albedo of the body with the skin colour of the youngest of a seed's first five
+  /// heads, because the skin of young people is the most even. The albedo is made for the texture
+  /// coordinates of SyntheticHeads::body(), in the layout of albedo().
+  std::vector<std::uint8_t> body_albedo(std::uint64_t seed) const;
   /// Returns the roughness: size × size bytes, first row at v = 1.
   std::vector<std::uint8_t> roughness(std::uint64_t seed, std::uint64_t index) const;
 
