@@ -49,6 +49,24 @@ TEST(Bust, BeginsAtTheRimOfTheAverageHead) {
   }
 }
 
+TEST(Bust, HasANotchBetweenTheCollarbones) {
+  // The largest z of the bust's front at the height of the notch, in the middle and beside it. On
+  // a bust without collarbones, the middle would be in front.
+  constexpr double kNotch = -21.8;  // height in cm
+  double middle = -100, beside = -100;
+  constexpr int kSide = 600;
+  for (int i = 0; i < kSide * kSide; ++i) {  // the front half of the texture
+    const int row = i / kSide, column = i % kSide;
+    const Eigen::RowVector2d uv(static_cast<double>(column) / kSide, 0.5 * row / kSide);
+    const Eigen::Vector3d point = synth::bust_point(uv);
+    if (std::abs(point.y() - kNotch) > 0.1) continue;
+    if (std::abs(point.x()) < 0.2) middle = std::max(middle, point.z());
+    if (std::abs(std::abs(point.x()) - 2.2) < 0.2) beside = std::max(beside, point.z());
+  }
+  EXPECT_GT(middle, 0);
+  EXPECT_LT(middle, beside - 0.1);
+}
+
 TEST(Bust, IsASmoothSurfaceThatFacesOutward) {
   const SyntheticHeads heads(9000);
   const Mesh body = heads.body();

@@ -23,12 +23,12 @@ constexpr std::size_t kPoints = 9;
 using Section = std::array<Vector2d, kPoints>;
 
 const Section kSide = {{{6.0, 0},
-                        {6.7, -0.4},
-                        {9.0, -0.9},
-                        {12.8, -1.5},
-                        {16.9, -2.5},
-                        {20.0, -5.0},
-                        {21.0, -10.5},
+                        {6.5, -0.9},
+                        {8.4, -2.0},
+                        {12.3, -2.9},
+                        {16.9, -3.6},
+                        {20.0, -5.8},
+                        {21.0, -11.0},
                         {20.8, -19.0},
                         {19.8, -28.0}}};
 const Section kFront = {{{5.7, 0},
@@ -95,12 +95,12 @@ Vector2d spline_point(const Section& points, double share) {
 double collarbone_height(const Vector2d& way, const Vector2d& point) {
   const double x = std::abs(way.x() * point.x());
   const double above = point.y() + 5.4 - 0.08 * x;  // above the middle line of the collarbone
-  const double bone = smooth_step(0.8, 2.2, x) * smooth_step(16, 11, x);
+  const double bone = smooth_step(0.4, 3.4, x) * smooth_step(16, 11, x);
   const double hollow = smooth_step(1.5, 4, x) * smooth_step(12, 8, x);
-  const double notch = biweight(std::min(1.0, std::hypot(x / 1.7, (above - 0.2) / 1.6)));
+  const double notch = biweight(std::min(1.0, std::hypot(x / 2.6, (above - 0.2) / 1.8)));
   const auto ridge = [](double distance) { return biweight(std::min(1.0, std::abs(distance))); };
   return smooth_step(0, 0.3, way.y()) * (0.5 * bone * ridge(above / 1.1) -
-                                         0.45 * hollow * ridge((above - 1.7) / 1.5) - 0.6 * notch);
+                                         0.45 * hollow * ridge((above - 1.7) / 1.5) - 0.45 * notch);
 }
 
 Vector3d placed(const Vector2d& way, const Vector2d& point) {
