@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What moves where no graphics card draws. Shaders run on the processor there, so a coarser mesh is drawn, its light
-// is computed once a vertex in typed arrays, and a pixel takes one texel and one product, both in the tones of the
-// screen.
+// The draft: a coarser mesh that is drawn while something moves on pages without a graphics card. Shaders run on the
+// processor there, so light is computed once per vertex, in typed arrays, and a pixel takes one texel and one product,
+// both as sRGB values (tones).
 import {
   BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, FrontSide, LinearFilter, LinearMipmapNearestFilter, Mesh, MeshBasicMaterial,
   NoColorSpace, ShaderMaterial, Sphere, Vector3,
 } from 'three';
 import { keyShare, lightIn, shoulder, surfaces, withBounces } from './studio.js';
 
-const depth = 0.02; // of the scene's units, some 3 mm
+const depth = 0.02; // scene units, about 3 mm
 const innerSide = '0.4';
-const largest = 512; // texels a side
+const largest = 512; // largest side of a draft's texture, in texels
 const steps = 4096;
 const brightest = 2;
-const typicalAlbedo = 0.3; // of light that bounces
-const darkest = 0.03; // tone of a texel that still is scaled
-const solid = 128; // from here on a texel hides what is behind it
+const typicalAlbedo = 0.3; // mean albedo of the surfaces that reflect light to each other
+const darkest = 0.03; // smallest texel tone by which light is divided
+const solid = 128; // smallest alpha byte of a texel that hides the surfaces behind it
 
 const toneOf = (light) => (light <= 0.0031308 ? 12.92 * light : 1.055 * light ** (1 / 2.4) - 0.055);
 const lightOf = (tone) => (tone <= 0.04045 ? tone / 12.92 : ((tone + 0.055) / 1.055) ** 2.4);
@@ -23,7 +23,7 @@ const tones = Float32Array.from({ length: steps + 1 }, (_, i) => toneOf(Math.min
 const lights = Float32Array.from({ length: 256 }, (_, i) => lightOf(i / 255));
 const toneAt = (light) => tones[Math.min(steps, Math.round((light * steps) / brightest))];
 
-/// Colours and holes in one small picture, as bytes.
+/// Combines colour and opacity textures in one small image.
 function smallPicture(map, alphaMap) {
   const { width, height } = (map ?? alphaMap).image;
   const scale = Math.min(1, largest / Math.max(width, height));
@@ -43,7 +43,7 @@ function smallPicture(map, alphaMap) {
   return pixels;
 }
 
-/// \param isSeenSmall  whether texels are averaged where they are smaller than pixels, as thin hair needs
+/// \param isSeenSmall  whether to make mipmaps, which thin hair needs
 function textureOf({ data, width, height }, { flipY, wrapS, wrapT }, isSeenSmall) {
   const texture = new DataTexture(data, width, height);
   Object.assign(texture, {
@@ -53,8 +53,8 @@ function textureOf({ data, width, height }, { flipY, wrapS, wrapT }, isSeenSmall
   return texture;
 }
 
-/// \param behind  {value}: how far it lies behind its place
-/// \param eyes    GLSL of painted eyes, or nothing
+/// \param behind  {value}: distance by which the draft is drawn farther from the camera, in scene units
+/// \param eyes    GLSL of painted eyes, or null
 function materialOf(side, behind, eyes) {
   return new ShaderMaterial({
     side,
@@ -101,7 +101,7 @@ function materialOf(side, behind, eyes) {
         vec3 tone = 2.0 * vShade.rgb;
         #ifdef WITH_PICTURE
           #ifdef WITH_HOLES
-            vec4 texel = texture2D(picture, vPlace, -1.0);  // strands stay apart where cards are seen at a slant
+            vec4 texel = texture2D(picture, vPlace, -1.0);  // keeps strands apart on slanted hair cards
             if (texel.a < least) discard;
           #else
             vec4 texel = texture2D(picture, vPlace);
@@ -121,11 +121,13 @@ function materialOf(side, behind, eyes) {
 }
 
 export class Draft {
-  /// \param triangles  of the coarser mesh, over the whole mesh's vertices; \param uvs  two a vertex, or nothing
-  /// \param kind       of `surfaces`
-  /// \param lookOf     (vertex) => which of the looks it has; \param looks  how many there are
-  /// \param isDouble   of each look whether both sides are seen, lit as the one that faces the camera
-  /// \param eyes       {places, uniforms, vertex, fragment} as paintEyes has them, or nothing
+  /// \param triangles  triangles of the coarser mesh: vertices of the whole mesh
+  /// \param uvs        two numbers per vertex, or null
+  /// \param kind       a key of `surfaces`
+  /// \param lookOf     function of a vertex: number of the vertex's material
+  /// \param looks      number of materials
+  /// \param isDouble   per material: whether both sides are visible, lit as the side that faces the camera
+  /// \param eyes       {places, uniforms, vertex, fragment} as in paintEyes, or null
   constructor({ triangles, uvs, kind, lookOf = () => 0, looks = 1, isDouble = [], eyes = null }) {
     const numbers = new Map();
     const index = [];
@@ -163,16 +165,16 @@ export class Draft {
       return material;
     });
     this.pictures = groups.map(() => null);
-    this.texels = new Float32Array(3 * count); // light that the pictures reflect
-    this.tones = new Float32Array(3 * count); // the same on the screen
+    this.texels = new Float32Array(3 * count); // linear colours of the textures at the vertices
+    this.tones = new Float32Array(3 * count); // the same as sRGB values
     this.inPicture = new Uint8Array(count);
     this.factor = [1, 1, 1];
     this.node = new Mesh(geometry, this.materials);
     this.setSky(null);
   }
 
-  /// Shows the inner side of skin, dark. Where smooth normals look to the camera there is none: triangles at outlines
-  /// only seem to turn away.
+  /// Draws the inner side of the skin dark; but not where the smooth normals point to the camera, because triangles at
+  /// outlines only seem to face away.
   addInside() {
     this.away = new BufferAttribute(new Float32Array(this.vertices.length), 1);
     this.geometry.setAttribute('away', this.away);
@@ -183,26 +185,28 @@ export class Draft {
     }
   }
 
-  /// While the whole stands there the draft lies a little behind it, where it closes cracks between triangles.
+  /// \param on  whether the whole mesh is drawn: the draft is then drawn a little behind it and closes cracks between
+  ///            triangles
   setBehind(on) {
     this.behind.value = on ? depth : 0;
   }
 
-  /// Its edges, over the surface.
+  /// The draft's edges as lines, drawn over the surface.
   edges(colour, opacity) {
     const lines = new Mesh(this.geometry, new MeshBasicMaterial({ color: new Color(colour), wireframe: true, transparent: true, opacity }));
     for (const material of this.materials) Object.assign(material, { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
     return lines;
   }
 
-  /// \param sky  share of the sky that each vertex of the whole mesh sees; null: what its kind of surface sees
+  /// \param sky  per vertex of the whole mesh: fraction of the sky that is visible; null: the value of the surface kind
   setSky(sky) {
     this.sky = Float32Array.from(this.vertices, (v) => sky?.[v] ?? surfaces[this.kind].sky);
     this.lit = this.sky.map(keyShare);
     this.open = this.sky.map((share) => withBounces(share, typicalAlbedo));
   }
 
-  /// \param shows  whether the picture shows at a vertex of the whole mesh
+  /// Sets the textures of a material.
+  /// \param shows  function of a vertex of the whole mesh: whether the texture covers the vertex
   setPicture(look, map, { alphaMap = null, shows = () => true, factor = [1, 1, 1] } = {}) {
     const picture = map ?? alphaMap;
     const own = [map, alphaMap];
@@ -236,7 +240,7 @@ export class Draft {
     return 4 * (whole(flipY ? 1 - v : v, height) * width + whole(u, width));
   }
 
-  /// Bytes of what hides something.
+  /// Mean colour of the texels that hide the surfaces behind them, three bytes.
   meanOf({ data }) {
     const sum = [0, 0, 0];
     let count = 0;
@@ -248,7 +252,7 @@ export class Draft {
     return sum.map((value) => Math.round(value / Math.max(count, 1)));
   }
 
-  /// \param points  of the whole mesh, `stride` numbers a vertex
+  /// \param points  positions of the whole mesh, `stride` numbers per vertex
   place(points, stride) {
     const to = this.positions.array;
     this.vertices.forEach((v, i) => {
@@ -257,9 +261,10 @@ export class Draft {
     this.positions.needsUpdate = true;
   }
 
-  /// \param normals   of the whole mesh, `stride` numbers a vertex
-  /// \param colourAt  (vertex, sum): writes what reflects there where no picture shows
-  /// \param paintsEyes  whether eyes are painted, or have these colours, too
+  /// Computes the light at each vertex.
+  /// \param normals     normals of the whole mesh, `stride` numbers per vertex
+  /// \param colourAt    (vertex, sum): writes the albedo of a vertex without texture to `sum`
+  /// \param paintsEyes  true: eyes are painted; false: eyes have the colours of `colourAt`
   light(camera, group, normals, stride, colourAt, paintsEyes = true) {
     for (const { uniforms } of this.materials) uniforms.paintsEyes.value = paintsEyes;
     const { diffuse, gloss } = lightIn(camera, group, this.kind);
@@ -273,7 +278,7 @@ export class Draft {
       const from = stride * v;
       const [x, y, z] = [normals[from], normals[from + 1], normals[from + 2]];
       if (this.away) this.away.array[i] = x * ahead.x + y * ahead.y + z * ahead.z;
-      const side = isDouble[i] && x * ahead.x + y * ahead.y + z * ahead.z > 0 ? -1 : 1; // that is seen
+      const side = isDouble[i] && x * ahead.x + y * ahead.y + z * ahead.z > 0 ? -1 : 1; // the side that faces the camera
       diffuse(side * x, side * y, side * z, sky[i], lit[i], open[i], sum);
       const eye = paintsEyes && isEye[i] === 1 && !inPicture[i];
       if (inPicture[i]) for (let c = 0; c < 3; c += 1) albedo[c] = texels[3 * i + c];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Browsers without a graphics card run shaders on the processor: what costs little on a card is dear there.
+// Drawing without a graphics card: the browser runs shaders on the processor, so simpler texture filtering is used, and
+// edges are smoothed in a filter after drawing.
 import { FramebufferTexture, LinearFilter, LinearMipmapNearestFilter, NoBlending, ShaderMaterial, Vector2 } from 'three';
 import { FullScreenQuad } from 'three/examples/jsm/postprocessing/Pass.js';
 
@@ -16,15 +17,15 @@ export function drawsInSoftware() {
   return answer;
 }
 
-/// How a picture's texels are read: at slanted places a card reads several.
+/// Sets the filter of a texture: anisotropic on a graphics card, without interpolation between mipmap levels otherwise.
 export function filtered(texture) {
   if (drawsInSoftware()) texture.minFilter = LinearMipmapNearestFilter;
   else texture.anisotropy = 4;
   return texture;
 }
 
-/// Smooths outlines of what was drawn, as multisampling does on a card: along a contrast, neighbours are mixed
-/// (Lottes 2009, "FXAA").
+/// Smooths edges in the drawn image, in place of multisampling: blends neighbouring pixels along edges (Lottes 2009,
+/// "FXAA").
 export class SmoothEdges {
   constructor() {
     this.material = new ShaderMaterial({
@@ -58,7 +59,7 @@ export class SmoothEdges {
     this.size = new Vector2();
   }
 
-  /// Of what stands on the canvas.
+  /// Smooths the image on the canvas.
   apply(renderer) {
     const { size, material: { uniforms } } = this;
     renderer.getDrawingBufferSize(size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the 3D views share: camera, the way a head stands, skin and painted eyes.
+// What all 3D views have in common: camera, pose of the head, skin material and painted eyes.
 import {
   BufferAttribute, Color, DoubleSide, Group, Matrix4, PerspectiveCamera, Scene, SRGBColorSpace, Vector3, WebGLRenderer,
 } from 'three';
@@ -11,16 +11,16 @@ const degreesOf = {
   front: 0, three_quarter: 35, profile: 90, back: 180, other_profile: -90, other_three_quarter: -35,
 };
 
-/// \param sky   whether the geometry has `sky`, the share of the sky that each vertex sees
-/// \param side  DoubleSide, or FrontSide: in software what is hidden costs as much as what is seen, so that the draft
-///              shows the other side
+/// \param sky   whether the geometry has the attribute `sky`, the fraction of the sky that each vertex sees
+/// \param side  DoubleSide; or FrontSide on pages that draw without a graphics card, where hidden triangles cost as much
+///              as visible ones and the draft shows the back sides
 export function skinMaterial({ sky = false, lightness, side = DoubleSide } = {}) {
   const material = studioMaterial('skin', { vertexColors: true, side }, lightness);
   if (sky) material.defines.HAS_SKY = '';
   return material;
 }
 
-/// Colours of vertices, three bytes each as in images, as light.
+/// Converts sRGB colours, three bytes each, to linear colours.
 export function linearColours(bytes) {
   const linear = new Float32Array(bytes.length);
   const colour = new Color();
@@ -31,7 +31,7 @@ export function linearColours(bytes) {
   return linear;
 }
 
-/// How light the skin in a texture is (render/skin_specular.h): the 70th percentile of what its texels reflect.
+/// The lightness of the skin in a texture (render/skin_specular.h): the 70th percentile of the texels' mean linear colour.
 export function skinLightness(image) {
   const canvas = document.createElement('canvas');
   canvas.width = 64;
@@ -44,7 +44,7 @@ export function skinLightness(image) {
   return means.sort((a, b) => a - b)[Math.floor(0.7 * means.length)];
 }
 
-/// Eyeballs get a round iris, pixel by pixel: a reduced mesh has too few vertices for one.
+/// Paints a round iris on eyeballs in the fragment shader, because a reduced mesh has too few vertices for a round iris.
 export const eyeShader = {
   vertex: 'attribute vec3 eye;\nvarying vec3 vEye;',
   fragment: `
@@ -63,7 +63,7 @@ export const eyeShader = {
     }`,
 };
 
-/// \param eyes  pupil, iris, softness, white, colour.
+/// \param eyes  {pupil, iris, softness: radii relative to the eyeball's; white, colour: linear colours}
 export function eyeUniforms(eyes) {
   return {
     eyeRadii: { value: new Vector3(eyes.pupil, eyes.iris, eyes.softness) },
@@ -72,8 +72,9 @@ export function eyeUniforms(eyes) {
   };
 }
 
-/// What a picture colours needs no painting.
-/// \param places  three a vertex, in radii of its eyeball; z below −1.5 is no eye.
+/// Paints the eyes where the material has no texture.
+/// \param places  three numbers per vertex: position relative to the eyeball's centre, in radii of the eyeball; z below
+///                −1.5 if the vertex is not on an eyeball
 export function paintEyes(material, geometry, places, eyes) {
   geometry.setAttribute('eye', new BufferAttribute(places, 3));
   extend(material, (shader) => {
@@ -99,7 +100,7 @@ export function paintEyes(material, geometry, places, eyes) {
   });
 }
 
-/// The attribute `rough` says how rough a surface is; painted eyes (paintEyes comes first) say it themselves.
+/// Takes the roughness from the attribute `rough`, except on painted eyes. Call paintEyes first.
 export function roughAtVertices(material) {
   extend(material, (shader) => {
     shader.vertexShader = shader.vertexShader
@@ -111,15 +112,16 @@ export function roughAtVertices(material) {
   });
 }
 
-const field = 20; // degrees from top to bottom
-const narrow = 0.8; // width by height of a view below which the field is wider
+const field = 20; // vertical field of view, degrees
+const narrow = 0.8; // width / height of a view below which the vertical field of view is larger
 const rest = 60; // ms without a move, after which all is drawn in full; longer than 40 ms, the time between two repeats of a held key
 const slow = 18; // ms to draw a frame while something moves; as long again takes the page
 const fast = 12;
-const fewest = 0.35; // of the pixels across, and this many at least as the next move begins
-const atFirst = 0.5;
+const fewest = 0.35; // smallest resolution while something moves, as a fraction of the full resolution
+const atFirst = 0.5; // smallest resolution when a move begins, as a fraction of the full resolution
 
-/// A head to turn. Up is +Y, front +Z, and the frame of all heads a box of two units.
+/// A view of a head that the user can turn. In the scene, up is +Y, front is +Z, and the bounding box of all heads is
+/// two units large.
 export class Stage {
   /// \throws if the browser has no WebGL.
   constructor({ pan = false } = {}) {
@@ -147,7 +149,7 @@ export class Stage {
       this.movedAt = performance.now();
       if (!this.isStepping) this.draw();
     });
-    this.isHeld = false; // by a hand that turns it
+    this.isHeld = false; // whether the user is turning the head with the pointer
     for (const [event, isHeld] of [['start', true], ['end', false]]) {
       this.controls.addEventListener(event, () => {
         this.isHeld = isHeld;
@@ -162,8 +164,8 @@ export class Stage {
     this.renderer.setPixelRatio(ratio);
   }
 
-  /// Without a graphics card what moves is drawn in a cheap form and with as few pixels as its speed asks for; once it
-  /// rests, in full.
+  /// Begins or ends a move. Without a graphics card, moving heads are drawn as a draft, at the resolution that the speed
+  /// of drawing allows; when the move ends, the head is drawn in full.
   setMoving(on) {
     if (!this.software || (!on && (!this.moving || this.isHeld))) return;
     clearTimeout(this.resting);
@@ -184,14 +186,14 @@ export class Stage {
     this.node.ariaBusy = String(on);
   }
 
-  /// \param on  whether the draft stands in place of the whole
+  /// \param on  whether the draft is drawn instead of the whole mesh
   showDraft(on) {
     if (!this.draft) return;
     this.object.visible = !on;
     this.draft.setBehind(!on);
   }
 
-  /// A single step, such as one of a key that is held down.
+  /// Makes a single camera step, such as a repeat of a key that is held down.
   /// \param act  moves the camera
   step(act) {
     this.isStepping = true;
@@ -223,7 +225,7 @@ export class Stage {
     });
   }
 
-  /// Takes the camera of another view.
+  /// Copies the camera of another view.
   lookAs({ camera, controls }) {
     this.step(() => {
       this.camera.position.copy(camera.position);
@@ -240,7 +242,7 @@ export class Stage {
     });
   }
 
-  /// How far the camera stands turned from the front, in degrees.
+  /// Angle between the camera's direction and the front, in degrees.
   angle() {
     const { position } = this.camera;
     const { target } = this.controls;
@@ -257,7 +259,7 @@ export class Stage {
     });
   }
 
-  /// Keys in place of the mouse: turns, or moves across.
+  /// Handles an arrow key: turns the head or, if `across`, moves it sideways.
   arrow(key, across) {
     const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key];
     const { camera, controls } = this;
@@ -282,7 +284,7 @@ export class Stage {
     });
   }
 
-  /// In a narrow view the whole head is seen, too.
+  /// Sets the camera's aspect ratio. The whole head is visible in narrow views, too.
   setAspect(aspect) {
     const { camera } = this;
     camera.aspect = aspect;
@@ -313,14 +315,15 @@ export class Stage {
     this.frames += 1;
     if (!this.moving && !this.onframe) return;
     const gl = this.renderer.getContext();
-    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until the frame is drawn
     this.frameMs = performance.now() - began;
     this.onframe?.(this.frameMs);
     if (!this.moving) return;
     this.adaptRatio();
   }
 
-  /// Changes the resolution in few large steps, because a canvas of another size takes about as long as a frame.
+  /// Adapts the resolution to the speed of drawing, in few large steps, because resizing the canvas takes about as long
+  /// as a frame.
   adaptRatio() {
     const { frameMs, movingRatio, fullRatio } = this;
     if (frameMs > slow) this.movingRatio = Math.max(Math.min(0.85, Math.max(0.6, Math.sqrt(slow / frameMs))) * movingRatio, fewest * fullRatio);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hair, glasses and the like beside a face. Each stands once in the data, its triangles and pictures;
-// a face brings its positions.
+// Attachments of a face, such as hair and glasses. The page's data have the triangles and textures of each attachment
+// once; each face has the positions of its attachments.
 import {
   BufferAttribute, BufferGeometry, ClampToEdgeWrapping, Color, DoubleSide, Group, Mesh, RepeatWrapping, SRGBColorSpace, TextureLoader,
 } from 'three';
@@ -10,9 +10,11 @@ import { normalsOf } from './normals.js';
 import { filtered } from './software.js';
 import { extend, studioMaterial } from './studio.js';
 
-const mostPairs = 4e6; // of vertices that are looked at to find which skin is near
-const nearer = 0.004; // of the scene's units, some 0.6 mm: skin that a reduced mesh draws too far out stays behind a beard
-const opaqueBelowSoft = 0.85; // the opacity from which a texel is drawn as opaque below a second pass that draws softer texels
+const mostPairs = 4e6; // largest number of pairs (attachment vertex, skin vertex) whose distance nearestOf computes
+// Attachments are drawn this much nearer to the camera, in scene units (about 0.6 mm), because the skin of a reduced mesh
+// may lie too far out.
+const nearer = 0.004;
+const opaqueBelowSoft = 0.85; // smallest opacity of the texels that the first of two passes draws as opaque
 
 export async function pictureAt(address, { colours, repeated }) {
   const texture = await new TextureLoader().loadAsync(address);
@@ -22,8 +24,8 @@ export async function pictureAt(address, { colours, repeated }) {
   return filtered(texture);
 }
 
-/// Where there is a picture of holes strands are drawn twice: what is there for the most part as if it were
-/// whole, its edges by shares of a pixel; then, over it, what is hardly there. Nothing need be sorted by depth.
+/// Materials of an attachment. If it has an opacity texture, it is drawn in two passes, so that no triangle need be
+/// sorted by depth: first the mostly opaque texels as opaque, then all texels blended over them.
 function materialsOf(look) {
   const plain = { color: look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour), map: look.map, side: DoubleSide };
   if (!look.alphaMap) {
@@ -37,7 +39,7 @@ function materialsOf(look) {
   ];
 }
 
-/// How much each vertex hides of what is behind it, roughly.
+/// Approximate opacity at each vertex.
 function hidesAt({ share, alphaMap }, geometry, vertices) {
   const hides = new Float32Array(vertices).fill(share);
   if (!alphaMap) return hides;
@@ -50,15 +52,15 @@ function hidesAt({ share, alphaMap }, geometry, vertices) {
   return hides.map((own, v) => (own * data[4 * (texel(1 - uvs[2 * v + 1]) * size + texel(uvs[2 * v])) + 1]) / 255);
 }
 
-/// A part of one material, to be put on one face after the other.
-/// \param software  whether it moves in a cheap form
+/// Prepares the part of an attachment that has one material. All faces use the same part, one after another.
+/// \param software  whether the page draws without a graphics card: moving parts are then drawn as a draft
 async function preparePart(data, software) {
   const numbers = (text) => new Uint32Array(bytesOf(text).buffer);
   const geometry = new BufferGeometry();
   const triangles = numbers(data.triangles);
   geometry.setIndex(new BufferAttribute(triangles, 1));
   const look = { colour: new Color(...data.colour), share: data.share };
-  if (data.tint) look.tint = new Color(...data.tint); // a factor on the picture's light
+  if (data.tint) look.tint = new Color(...data.tint); // factor on the linear colours of the texture
   if (data.uvs) {
     const uvs = new Float32Array(bytesOf(data.uvs).buffer);
     geometry.setAttribute('uv', new BufferAttribute(uvs, 2));
@@ -79,8 +81,9 @@ async function preparePart(data, software) {
   return part;
 }
 
-/// Where pages draw in software, light is computed at vertices, for the whole as for what moves.
-/// \param coarse  triangles of what moves
+/// The two forms of a part on pages that draw without a graphics card: the whole mesh and the draft, which is drawn
+/// while something moves. Both compute light at vertices.
+/// \param coarse  triangles of the draft
 function formsOf({ object, geometry, triangles }, coarse, look) {
   const plain = (look.tint ?? (look.map ? new Color(1, 1, 1) : look.colour)).toArray();
   const [whole, draft] = [triangles, coarse].map((all) => {
@@ -108,12 +111,14 @@ function formsOf({ object, geometry, triangles }, coarse, look) {
   return { whole, draft, colourAt: (_, colour) => plain.forEach((value, c) => { colour[c] = value; }) };
 }
 
-/// \param packed  steps from the frame's low corner: three numbers of 16 bits a vertex.
+/// Unpacks positions.
+/// \param packed  three 16-bit numbers per vertex: steps from the low corner of the bounding box
 export function pointsOf(packed, { low, step }) {
   return Float32Array.from(new Uint16Array(bytesOf(packed).buffer), (value, i) => low[i % 3] + step * value);
 }
 
-/// Where in `skin` the place stands that is nearest to each vertex: of many places only some are looked at.
+/// For each vertex: index in `skin` of the x coordinate of the nearest skin position. If there are many pairs, only
+/// some skin positions are compared.
 function nearestOf(vertices, points, skin) {
   const step = 3 * Math.max(1, Math.round((vertices.length * (skin.length / 3)) / mostPairs));
   return Uint32Array.from(vertices, (v) => {
@@ -129,7 +134,7 @@ function nearestOf(vertices, points, skin) {
 }
 
 export class Worn {
-  /// \param software  whether pages draw without a graphics card
+  /// \param software  whether the page draws without a graphics card
   constructor(software) {
     this.software = software;
     this.node = new Group();
@@ -139,18 +144,19 @@ export class Worn {
     this.form = 'whole';
   }
 
-  /// Of what was prepared once pictures and triangles stay.
-  /// \param load  gives its data, or a promise of it.
+  /// Prepares the parts of an attachment, once for each name.
+  /// \param load  returns the attachment's data, or a promise of the data
   prepare(name, load) {
     if (!this.kept.has(name)) {
       const parts = Promise.resolve(load()).then((data) => Promise.all(data.map((part) => preparePart(part, this.software))));
-      parts.catch(() => this.kept.delete(name)); // to be tried again
+      parts.catch(() => this.kept.delete(name)); // so that the next call tries again
       this.kept.set(name, parts);
     }
     return this.kept.get(name);
   }
 
-  /// \param form  draft or whole
+  /// Selects the form that is drawn.
+  /// \param form  'draft' or 'whole'
   setForm(form) {
     this.form = form;
     for (const { object } of this.parts) {
@@ -158,14 +164,14 @@ export class Worn {
     }
   }
 
-  /// Lights what is lit at vertices.
+  /// Computes the light at the vertices of the form that is drawn.
   shade(camera, group) {
     if (!this.node.visible) return;
     for (const { whole, draft, normals, colourAt } of this.parts) (this.form === 'draft' ? draft : whole)?.light(camera, group, normals, 3, colourAt);
   }
 
-  /// The cheap form goes along with the skin that is nearest to it.
-  /// \param skin  places of some vertices of the skin; in `show` they were elsewhere
+  /// Moves each vertex of the drafts by the displacement of the nearest skin vertex since `show`.
+  /// \param skin  positions of the same skin vertices as in `show`
   follow(skin) {
     for (const part of this.parts) {
       const { draft, own } = part;
@@ -178,8 +184,9 @@ export class Worn {
     }
   }
 
-  /// \param all   [parts, points] of each that a face wears; points as `pointsOf` gives them.
-  /// \param skin  as of `follow`; may be missing
+  /// Shows the attachments of a face.
+  /// \param all   [parts, points] of each attachment; points as `pointsOf` returns them
+  /// \param skin  positions of the skin vertices that `follow` takes; may be missing
   show(all, skin) {
     this.node.clear();
     this.parts = [];

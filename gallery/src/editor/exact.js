@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's own face, asked for when the mouse rests.
+// Requests the exact face from the program when nothing has moved for a while.
 import { postForBinary } from '../api.js';
 
-const rest = 60; // ms; longer than the time between two moves of a drag on a page without a graphics card
-export const undressed = 1000; // ms until the program is asked anew for a face without all that it wears
+// Milliseconds without a change after which the face is requested: longer than the time between two moves of a drag
+// without a graphics card.
+const rest = 60;
+/// Milliseconds after which a face is requested again if the program sent it without all attachments.
+export const undressed = 1000;
 
-/// The program's face of a request once it has put on what the face wears.
+/// The program's face for a request, with all attachments.
 export async function dressedFace(request) {
   for (;;) {
     const face = await postForBinary('face', request);
@@ -15,7 +18,9 @@ export async function dressedFace(request) {
 }
 
 export class Exact {
-  /// \param show  is called with (face, document) for the newest document alone; \param fail  with an error.
+  /// \param show     called with (face, document), only for the newest document
+  /// \param fail     called with an error
+  /// \param waiting  called with true when a face is requested, with false when it has arrived
   constructor({ show, fail, waiting }) {
     Object.assign(this, { show, fail, waiting, turn: 0, page: crypto.randomUUID() });
   }

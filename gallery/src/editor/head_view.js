@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The face in 3D: blended on the card or on the processor, whichever a measurement finds faster,
-// shown with its surfaces' colours, a texture, its distance to the target, or its regions.
+// The 3D view of the edited face. The face is blended on the graphics card or on the processor, whichever is faster in a
+// measurement, and shown with the colours of its surfaces, a texture, its distance to the target, or its regions.
 import {
   BufferAttribute, BufferGeometry, Color, DoubleSide, FrontSide, Mesh, MeshBasicMaterial, Ray, Sphere, SRGBColorSpace, Texture,
   TextureLoader, Vector2, Vector3,
@@ -18,10 +18,10 @@ import { layoutOf, texelOf } from './surface.js';
 
 const shows = ['surface', 'texture', 'distance', 'regions'];
 
-/// Viridis, by Smith and van der Walt, at six steps: dark is near, light is far.
+/// Six colours of the Viridis palette (Smith and van der Walt), from small (dark) to large distances (light).
 export const distanceColours = ['#440154', '#414487', '#2a788e', '#22a884', '#7ad151', '#fde725'];
 
-/// Points and normals come from the blend's textures in place of attributes.
+/// Makes a material read positions and normals from the textures of the blend instead of attributes.
 function fetchFace(material, uniforms, layout) {
   extend(material, (shader) => {
     Object.assign(shader.uniforms, uniforms);
@@ -57,7 +57,7 @@ function fetchFace(material, uniforms, layout) {
   });
 }
 
-/// Where no texture is, vertices keep their colours.
+/// Makes a material use vertex colours where the mesh has no texture.
 function mapWhereTextured(material) {
   material.defines.SOME_TEXTURED = '';
   extend(material, (shader) => {
@@ -76,14 +76,15 @@ function mapWhereTextured(material) {
 async function textureOf(bytes, { colours }) {
   const bitmap = await createImageBitmap(new Blob([bytes], { type: 'image/jpeg' }), { imageOrientation: 'flipY' });
   const texture = new Texture(bitmap);
-  texture.flipY = false; // the bitmap is
+  texture.flipY = false; // the bitmap is already flipped
   if (colours) texture.colorSpace = SRGBColorSpace;
   texture.needsUpdate = true;
   return filtered(texture);
 }
 
 export class HeadView extends Stage {
-  /// \param job  of the server; \param mesh  api/mesh.
+  /// \param job   the server's answer to api/job
+  /// \param mesh  the server's answer to api/mesh
   constructor(job, mesh) {
     super({ pan: true });
     Object.assign(this, { job, mesh, show: 'surface', showMm: 6, textures: new Map(), loaded: [] });
@@ -135,7 +136,7 @@ export class HeadView extends Stage {
     this.surfaceColours = linearColours(mesh.colours);
     geometry.setAttribute('color', new BufferAttribute(this.surfaceColours.slice(), 3));
     if (mesh.uv) geometry.setAttribute('uv', new BufferAttribute(mesh.uv, 2));
-    // Wireframes and bounds are made from positions; what is drawn comes from the textures.
+    // Three.js makes wireframes and bounds from this attribute; drawing takes the positions from textures.
     geometry.setAttribute('position', new BufferAttribute(new Float32Array(3 * mesh.vertices), 3));
     geometry.boundingSphere = new Sphere(new Vector3(), 1e6);
     this.colourRegions(geometry);
@@ -146,7 +147,7 @@ export class HeadView extends Stage {
     const { mesh } = this;
     this.draft = new Draft({
       triangles: mesh.draft, uvs: mesh.uv, kind: 'skin', looks: 2, isDouble: [false, true],
-      lookOf: (v) => (mesh.part?.[v] ? 1 : 0), // lashes are seen from both sides
+      lookOf: (v) => (mesh.part?.[v] ? 1 : 0), // lashes are visible from both sides
       eyes: mesh.eyes && { places: mesh.eyes, uniforms: eyeUniforms(mesh.head.eyes), ...eyeShader },
     });
     this.draftLines = this.draft.edges(0x101214, 0.55);
@@ -155,14 +156,14 @@ export class HeadView extends Stage {
     this.group.add(this.draft.node, this.draftLines);
   }
 
-  /// \param light  per vertex the root of the sky's share that it sees, in 255ths
+  /// \param light  per vertex: square root of the visible fraction of the sky, times 255
   setLight(light) {
     this.open = Float32Array.from(light, (root) => (root / 255) ** 2);
     this.shadeSkin();
     this.draw();
   }
 
-  /// The sky that the skin sees beside what is worn.
+  /// Updates the fraction of the sky that each skin vertex sees past the attachments.
   shadeSkin() {
     const { open, shade } = this;
     if (!open) return;
@@ -171,8 +172,9 @@ export class HeadView extends Stage {
     this.draft?.setSky(sky);
   }
 
-  /// The face's own skin. \param skin  {picture, normals, rough, colours}, each perhaps: JPEG files of the atlas, and
-  ///                                   numbers per vertex
+  /// Shows the textures of the face.
+  /// \param picture, normals  JPEG files of the atlas; may be missing
+  /// \param rough, colours    numbers per vertex; may be missing
   async setSkin({ picture, normals, rough, colours }) {
     const [map, relief] = await Promise.all([picture ? textureOf(picture, { colours: true }) : null,
       normals ? textureOf(normals, { colours: false }) : null]);
@@ -218,10 +220,10 @@ export class HeadView extends Stage {
     this.blender.setHead?.(h, head);
   }
 
-  /// Once all heads are there: measures a change on both, and takes the faster. Without a graphics card
-  /// its shaders would run on the processor, which is slower than typed arrays.
-  /// \param change  (strength) => [lists, shares]: coefficients that differ from call to call.
-  /// \param wanted  'card' or 'processor': that one, whatever is faster.
+  /// Measures a blend on the graphics card and on the processor, and takes the faster. All heads must be loaded. Without
+  /// a graphics card, shaders would run on the processor, which is slower than typed arrays.
+  /// \param change  (strength) => [lists, shares]: coefficients that depend on the strength
+  /// \param wanted  'card' or 'processor': takes this one without a measurement
   chooseBlend(change, wanted) {
     if (wanted === 'processor' || (this.software && wanted !== 'card')) return;
     if (!fitsOnCard(this.renderer, this.job.regions.length, this.loaded)) return;
@@ -233,7 +235,7 @@ export class HeadView extends Stage {
       if (this.renderer.getContext().getError() !== 0) throw new Error('the graphics card has too little memory');
     } catch {
       card?.dispose();
-      return; // the processor goes on
+      return; // keep blending on the processor
     }
     this.measured = this.measure([processor, card], change);
     const slower = wanted !== 'card' && this.measured.processor < this.measured.card ? card : processor;
@@ -243,33 +245,34 @@ export class HeadView extends Stage {
     this.showDraft(false);
     this.draft.node.visible = false;
     this.material.side = DoubleSide;
-    this.draft = null; // it reads the processor's arrays
+    this.draft = null; // the draft reads the processor's arrays
   }
 
-  /// Milliseconds of a frame with each, few pixels, as both draw the same ones.
+  /// Milliseconds per frame with each blender, drawn with few pixels because drawing costs the same with both.
   measure(blenders, change) {
     const gl = this.renderer.getContext();
     const pixel = new Uint8Array(4);
     const best = {};
     const { ratio } = this;
     this.setRatio(0.1 * ratio);
-    for (let i = 0; i < 6; i += 1) { // by turns, as other programs may come between
+    for (let i = 0; i < 6; i += 1) { // alternately, because other programs may take time in between
       for (const blender of blenders) {
         this.take(blender);
         const coefficients = change(1 + 0.001 * (i + 1));
         const began = performance.now();
         blender.blend(...coefficients);
         this.draw();
-        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits for the card
+        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel); // waits until the card is done
         const ms = performance.now() - began;
-        if (i > 0) best[blender.name] = Math.min(best[blender.name] ?? ms, ms); // the first compiles
+        if (i > 0) best[blender.name] = Math.min(best[blender.name] ?? ms, ms); // the first frame compiles shaders
       }
     }
     this.setRatio(ratio);
     return best;
   }
 
-  /// \param exact  the program's own face of it, or nothing: then what its last one had is kept.
+  /// \param exact  the program's face for the same coefficients, or null: the difference between the program's last face
+  ///               and the page's blend is then kept
   blend(lists, shares, exact = null) {
     this.blended = [lists, shares];
     this.isBehind = Boolean(this.moving && this.draft && !exact);
@@ -280,14 +283,14 @@ export class HeadView extends Stage {
     this.draw();
   }
 
-  /// The whole mesh takes the face that only the draft had while it moved.
+  /// Blends the whole mesh, if only the draft was blended during a move.
   catchUp() {
     if (!this.isBehind) return;
     this.isBehind = false;
     this.blender.blend(...this.blended);
   }
 
-  /// The program's own face, while heads are missing to blend one.
+  /// Shows the program's face while the page has not loaded the heads that a blend needs.
   standAs({ positions, normals }) {
     this.isBehind = false;
     this.blender.place(positions, normals);
@@ -300,7 +303,7 @@ export class HeadView extends Stage {
     this.showLines();
   }
 
-  /// Keeps the draft that is on the screen until the next picture in full, or until something moves again.
+  /// Draws nothing until the next picture in full, or until something moves again; the draft stays on the screen.
   hold() { this.isHolding = this.moving; }
 
   setMoving(on) {
@@ -320,7 +323,7 @@ export class HeadView extends Stage {
   }
 
   draw() {
-    if (this.isPlaced === undefined || this.silent || this.isHolding) return; // isPlaced: there is no face yet
+    if (this.isPlaced === undefined || this.silent || this.isHolding) return; // isPlaced is undefined before the first face
     if (!this.moving) this.catchUp();
     if (this.draft) {
       this.placeDraft();
@@ -330,7 +333,7 @@ export class HeadView extends Stage {
     super.draw();
   }
 
-  /// The draft stands where the face does; what is worn goes along until the program has told its place.
+  /// Moves the draft to the blended face. Attachments follow the skin until the program has sent their positions.
   placeDraft() {
     if (this.isPlaced) return;
     this.isPlaced = true;
@@ -338,8 +341,9 @@ export class HeadView extends Stage {
     if (this.worn.skin) this.worn.follow(this.draft.positions.array);
   }
 
-  /// \param all   as of Worn.show, on the face that stands here
-  /// \param face  its positions and normals
+  /// Shows the attachments of the blended face.
+  /// \param all   as in Worn.show
+  /// \param face  positions and normals of the face
   wear(all, { positions, normals }) {
     this.isPlaced = true;
     this.draft?.place(this.blender.points, 4);
@@ -348,7 +352,7 @@ export class HeadView extends Stage {
     this.shadeSkin();
   }
 
-  /// Writes what reflects light at a vertex where no texture shows.
+  /// Writes the albedo of a vertex without texture to `colour`.
   surfaceAt(v, colour) {
     const { show, surfaceColours } = this;
     if (show === 'distance') {
@@ -379,7 +383,7 @@ export class HeadView extends Stage {
     this.draw();
   }
 
-  /// \param map, relief  colours and normals of the atlas, or null
+  /// \param map, relief  colour texture and normal map of the atlas, or null
   setMap(map, relief) {
     const { material } = this;
     if (Boolean(material.map) !== Boolean(map) || Boolean(material.normalMap) !== Boolean(relief)) material.needsUpdate = true;
@@ -414,13 +418,13 @@ export class HeadView extends Stage {
     this.draw();
   }
 
-  /// A small picture of what stands there, from the front, with its surfaces or its texture.
+  /// A small picture of the face from the front, with the colours of its surfaces or its texture.
   picture(size = 224) {
     const { camera, controls, renderer } = this;
     const kept = { place: this.place() };
     this.silent = true;
     this.showDraft(false);
-    if (this.draft) this.draft.node.visible = false; // it may be another face's
+    if (this.draft) this.draft.node.visible = false; // the draft may show another face
     this.lines.visible = false;
     const { faceShow } = this.uniforms;
     const shown = faceShow.value;
@@ -447,7 +451,7 @@ export class HeadView extends Stage {
     return url;
   }
 
-  /// How high the middle of the face stands in the scene: somewhat below the eyes, if there are any.
+  /// Height of the middle of the face in the scene: a little below the eyes, if the mesh has eyes.
   faceMiddle() {
     const { eyes, vertices } = this.mesh;
     const positions = this.loaded.find(Boolean)?.positions;
@@ -462,13 +466,14 @@ export class HeadView extends Stage {
     return count > 0 ? sum.divideScalar(count).applyMatrix4(this.group.matrix).y - 0.12 : 0.1;
   }
 
-  /// The points of the face, three numbers a vertex.
+  /// The positions of the face, three numbers per vertex.
   read() {
     this.catchUp();
     return this.blender.read();
   }
 
-  /// Where a pixel of the window lies on the skin; nothing beside it. \param points  of the preview's vertices
+  /// The point of the skin at a pixel of the window; null beside the skin.
+  /// \param points  positions of the preview mesh
   hit(x, y, points = this.read()) {
     const box = this.node.getBoundingClientRect();
     const at = new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2);
@@ -479,7 +484,7 @@ export class HeadView extends Stage {
     return hitTriangle(ray.origin.toArray(), ray.direction.toArray(), points, this.mesh.triangles, this.mesh.part);
   }
 
-  /// The region that has most of the skin under a pixel; nothing beside the head.
+  /// The region with the largest weight at a pixel of the window; null beside the head.
   regionAt(x, y) {
     const hit = this.hit(x, y);
     if (!hit) return null;
@@ -490,7 +495,7 @@ export class HeadView extends Stage {
     return regions[shares.indexOf(Math.max(...shares))].name;
   }
 
-  /// Where the camera stands, to be kept.
+  /// Position and target of the camera, six numbers, for `restore`.
   place() {
     return [...this.camera.position.toArray(), ...this.controls.target.toArray()];
   }

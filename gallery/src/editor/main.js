@@ -127,7 +127,7 @@ class Editor extends ProgramPage {
     new ResizeObserver(() => this.view.fit()).observe(this.stage);
   }
 
-  /// What was kept, as far as it speaks of the heads that there are: regions may have come and gone.
+  /// The kept states whose heads exist. Their regions may differ from the config's.
   restored(state) {
     const known = (names) => Object.keys(names ?? {}).every((name) => headIndex(this.job, name) >= 0);
     const isKnown = ({ recipe, anchors }) => headIndex(this.job, recipe.target) >= 0 && known(anchors) && known(recipe.mixture) &&
@@ -148,7 +148,7 @@ class Editor extends ProgramPage {
     return documents.every(isKnown) && isKnown(restored.now) ? { history: restored, kept } : { kept: [] };
   }
 
-  /// A document under the regions that there are: a new one begins like another.
+  /// Converts a document to the config's regions: a region that the document lacks begins as a copy of another one.
   here(document) {
     const { recipe } = document;
     const any = Object.values(recipe.regions)[0];
@@ -193,7 +193,7 @@ class Editor extends ProgramPage {
       this.message);
   }
 
-  /// The elements on which pictures of the library can be dropped, and what a drop does there.
+  /// The elements on which pictures of the library can be dropped, with the function that a drop calls.
   takeDrops() {
     const { library, board } = this;
     library.takesDrops(this.node.querySelector('.viewbox'), () => ({}));
@@ -206,13 +206,14 @@ class Editor extends ProgramPage {
 
   // -- what is shown, and steps --
 
-  /// What the page speaks of: {recipe, anchors, face}, never changed in place.
+  /// The document that the page shows: {recipe, anchors, face}, never changed in place.
   get document() {
     if (this.comparing !== null) return this.kept[this.comparing].document;
     return this.passing ?? this.history.now;
   }
 
-  /// Shows a document without making a step; nothing: what was there before.
+  /// Shows a document without making a step of the history.
+  /// \param document  null: the document of the last step
   preview(document) {
     this.comparing = null;
     this.passing = document;
@@ -230,7 +231,8 @@ class Editor extends ProgramPage {
   undo() { this.step('past', () => this.history.undo(), 'Nothing to undo.'); }
   redo() { this.step('future', () => this.history.redo(), 'Nothing to redo.'); }
 
-  /// A step whose regions or heads are other ones than the config's puts these back first.
+  /// Goes one step back or forward. If the step was made with other regions or heads than the config's, the page first
+  /// opens again with these.
   step(way, act, nothing) {
     this.comparing = null;
     this.passing = null;
@@ -250,7 +252,7 @@ class Editor extends ProgramPage {
     this.remember();
   }
 
-  /// At most once a frame, whatever moves.
+  /// Updates the page, at most once per frame.
   refresh() {
     if (this.pending || this.isLeaving) return;
     this.pending = requestAnimationFrame(() => {
@@ -287,7 +289,7 @@ class Editor extends ProgramPage {
     this.view.blend(...this.coefficientsOf(document), isOther && this.exactFaceOf === document ? this.exactFace : null);
   }
 
-  /// Asks for the program's own face, unless it stands here or is on its way.
+  /// Requests the program's face, unless the page shows it or has requested it.
   askExact(document) {
     const asked = JSON.stringify([this.look.wears, this.look.expression, this.masksTurn, this.ready]);
     if (this.exactOf === document) return;
@@ -308,7 +310,7 @@ class Editor extends ProgramPage {
     return { recipe: wire(this.job, document), face: document.face, wears, expression };
   }
 
-  /// What a blend takes of a document: coefficients by regions, and the target's shares.
+  /// The coefficients that a blend takes: per region, and the weights of the target.
   coefficientsOf(document) {
     return [coefficients(this.job, document, this.heads), targetShares(this.job, document.recipe)];
   }
@@ -339,20 +341,20 @@ class Editor extends ProgramPage {
     this.askSkin(document);
   }
 
-  /// Asks for the textures of the document's face, unless they were asked for last.
+  /// Requests the textures of the document's face, unless the last request was the same.
   askSkin(document) {
     if (this.skinOf?.document === document && this.skinOf.masksTurn === this.masksTurn) return;
     this.skinOf = { document, masksTurn: this.masksTurn };
     this.skinShown = this.skin.ask({ recipe: wire(this.job, document) });
   }
 
-  /// \return  the parts and points of each attachment of a face, for Worn.show
+  /// \return  parts and positions of each attachment of a face, for Worn.show
   attachmentsOf(face) {
     return Promise.all(face.worn.map(async (name) =>
       [await this.view.worn.prepare(name, () => getJson(`attachments/${name}`)), face[`worn ${name}`]]));
   }
 
-  /// Shows the attachments where the program placed them.
+  /// Shows the attachments at the positions that the program sent.
   async showWorn(face) {
     const all = await this.attachmentsOf(face);
     if (this.exactFace !== face || !this.exactOf) return;
@@ -366,8 +368,8 @@ class Editor extends ProgramPage {
     if (this.exactFace === face && this.exactOf) this.view.setMoving(this.passing !== null);
   }
 
-  /// \param shares    above zero, by the expressions' names
-  /// \param isMoving  whether a slider is still held
+  /// \param shares    weights above zero, by names of expressions
+  /// \param isMoving  whether a slider is still being dragged
   express(shares, isMoving) {
     this.look.expression = shares;
     this.isActing = isMoving;
@@ -388,7 +390,7 @@ class Editor extends ProgramPage {
     this.remember();
   }
 
-  /// Whether the faults of this face's whole mesh are known, with the masks as they are now.
+  /// Whether the page knows the faults of this face's whole mesh with the present masks.
   hasJudged(document) {
     return this.faulty?.document === document && this.faulty.masksTurn === this.masksTurn;
   }
@@ -417,7 +419,7 @@ class Editor extends ProgramPage {
 
   // -- regions --
 
-  /// A region's numbers in the band that is shown.
+  /// Smoothness and factors of a region in the band that is shown.
   numbersOf(name) {
     return bandOf(this.job, this.document.recipe, name, this.band);
   }
@@ -450,7 +452,7 @@ class Editor extends ProgramPage {
   }
 
   isLinked(name) { return this.linked.has(name); }
-  /// What a region is called in locks: with bands the band that is shown is meant.
+  /// The name of a region in locks; it includes the band that is shown, if there are bands.
   partName(name, band = this.band) { return band ? `${name}/${band}` : name; }
   isLocked(name) { return this.locked.has(this.partName(name)); }
   toggleLink(name) { this.toggleIn(this.linked, name); }
@@ -463,7 +465,7 @@ class Editor extends ProgramPage {
   lockedNames() { return this.lockedParts().map(([name, band]) => this.partName(name, band)); }
   focusRegion(name) { this.panel.focus(name); }
 
-  /// Tells how long a frame takes, until it is asked again.
+  /// Shows or hides the time per frame.
   tellFrames() {
     const { view } = this;
     this.frameNode.hidden = !this.frameNode.hidden;
@@ -474,7 +476,7 @@ class Editor extends ProgramPage {
   }
 
 
-  /// The heads that lend most, in percent.
+  /// The heads with the largest weights, in percent.
   weightText(name) {
     return weightsOf(this.job, this.document, name, this.band)
       .map((weight, h) => [this.job.heads[h].name, Math.round(100 * weight)])
@@ -489,7 +491,7 @@ class Editor extends ProgramPage {
     this.commit({ ...document, recipe: { ...recipe, target: name } }, `target ${name}`);
   }
 
-  /// Where a head stands on the plane.
+  /// The position of a head on the plane.
   headPlace(name) {
     return this.document.anchors?.[name] ?? this.job.heads[headIndex(this.job, name)].anchor;
   }
@@ -533,7 +535,7 @@ class Editor extends ProgramPage {
     return wire(this.job, this.document);
   }
 
-  /// A recipe that the program told, as a document.
+  /// Converts a recipe from the program to a document.
   fromWire(told, face = null) {
     const regions = Object.fromEntries(this.job.regions.map(({ name }) =>
       [name, { smoothness: 0.5, extrapolation: 1, ...told.regions[name] }]));
@@ -541,7 +543,7 @@ class Editor extends ProgramPage {
     return { recipe: { id: told.id, ...wholeFace(told), regions }, anchors: {}, ...(face ? { face } : {}) };
   }
 
-  /// A face of the crowd as a document with a name of its own.
+  /// Converts a face of the crowd to a document with a new name.
   openedFace(name) {
     const face = this.job.crowd.faces.find((entry) => entry.id === name);
     return this.fromWire({ ...face, id: `${name}_edited` }, name);
@@ -558,12 +560,12 @@ class Editor extends ProgramPage {
     }
   }
 
-  /// A face of the crowd as reviews know it.
+  /// A face of the crowd, as Review takes it.
   reviewedFace(name) {
     return this.reviewedCrowd?.byId.get(name) ?? null;
   }
 
-  /// The face before or after the one that is open.
+  /// Opens the face before or after the open one.
   walk(by) {
     const faces = this.job.crowd?.faces ?? [];
     if (faces.length === 0) return;
@@ -604,7 +606,7 @@ class Editor extends ProgramPage {
     return picture;
   }
 
-  /// A picture of a document with the hair and the like that the program gives it.
+  /// A picture of a document's face with the attachments that the program gives it.
   async dressedPicture(document, wears = this.look.wears) {
     const face = await dressedFace({ recipe: wire(this.job, document), face: document.face, wears });
     return this.pictureOf(document, await this.attachmentsOf(face));
@@ -613,7 +615,7 @@ class Editor extends ProgramPage {
   /// A picture of a face of the crowd.
   facePicture(name) { return this.dressedPicture(this.openedFace(name)); }
 
-  /// A picture of the face with an attachment beside those that it has.
+  /// A picture of the face with one more attachment.
   wornPicture(kind, name) { return this.dressedPicture(this.document, { ...this.look.wears, [kind]: name }); }
 
   /// Shows a kept state, or the face again.
@@ -663,7 +665,7 @@ class Editor extends ProgramPage {
 
   // -- the program --
 
-  /// Over a mesh that was there before, the page asks once.
+  /// Saves the mesh. Asks once before it replaces a file.
   async saveMesh(format) {
     const { id } = this.document.recipe;
     const name = `${id}.${format}`;
@@ -695,13 +697,13 @@ class Editor extends ProgramPage {
   putBack() { showPutBack(this); }
   generate() { showGenerate(this); }
 
-  /// Keeps history, kept states and the view with the program, soon.
+  /// Sends history, kept states and view to the program, which stores them, after a short delay.
   remember() {
     clearTimeout(this.keeping);
     this.keeping = setTimeout(() => this.keepNow(false), 250);
   }
 
-  /// The program opens config and crowd as they stand then; the page is loaded with every step.
+  /// Makes the program read config and crowd again; the page is then reloaded and keeps all steps.
   /// \param step  makes the step that this is, of the program's answer
   async openAgain(path, change, step = () => {}) {
     await this.keepNow(false);
@@ -715,7 +717,7 @@ class Editor extends ProgramPage {
     location.reload();
   }
 
-  /// Says something once the page has been loaded again.
+  /// Shows a message after the page has been reloaded.
   tellLater(text) {
     try {
       sessionStorage.setItem(toldLater, text);
@@ -730,7 +732,7 @@ class Editor extends ProgramPage {
     if (text) this.say(text);
   }
 
-  /// Another page edits the face now: this one shows it, and keeps nothing any more.
+  /// Called when another page has begun to edit: this page only shows the face and stores nothing.
   setAside() {
     if (this.isAside) return;
     this.isAside = true;
@@ -758,7 +760,7 @@ class Editor extends ProgramPage {
 
   // -- heads --
 
-  /// The program's face comes first; for its next change it needs heads, the target's before the others.
+  /// Loads the program's face first, then the heads, which changes need: the target before the others.
   async load() {
     this.refresh();
     const shares = targetShares(this.job, this.document.recipe);
@@ -850,8 +852,8 @@ class Editor extends ProgramPage {
   }
 }
 
-/// This page becomes the one that edits. Another one of this browser keeps its last steps first.
-/// \return the state that was kept
+/// Makes this page the one that edits. Another page of this browser stores its last steps first.
+/// \return the stored state
 async function takeOver() {
   await new Promise((done) => {
     pages.onmessage = ({ data }) => { if (data === 'kept') done(); };

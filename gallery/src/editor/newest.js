@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Questions about a face that changes: one at a time, always of the newest.
+// Requests about a face that changes: one request at a time, always for the newest face.
 
 export class Newest {
-  /// \param ask   gives a promise of the answer; \param show  is called with it; \param fail  with an error.
+  /// \param ask   takes what is asked, returns a promise of the answer
+  /// \param show  called with the answer
+  /// \param fail  called with an error
   constructor({ ask, show, fail }) {
     Object.assign(this, { request: ask, show, fail, running: null, next: null });
   }
 
   /// \param asked  what `ask` of the constructor takes
-  /// \return       a promise that is kept once the newest answer is shown
+  /// \return       a promise that resolves when the newest answer has been shown
   ask(asked) {
     this.next = asked;
     this.running ??= this.answerAll().catch(this.fail).finally(() => { this.running = null; });
