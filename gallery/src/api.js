@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a page asks the program, relative to its own address.
+// Requests from a page to the program, relative to the page's address.
 
 const kinds = {
   f32: Float32Array, u32: Uint32Array, i32: Int32Array, i16: Int16Array, u16: Uint16Array, u8: Uint8Array,
 };
 
-/// A binary answer: the length of a JSON head, the head, then the arrays that it lists, each padded
-/// to four bytes. Of a name that both have the array counts; `head` is the whole head.
+/// Unpacks a binary answer: the length of a JSON header, the header, then the arrays that the header lists, each padded to
+/// four bytes. If a name occurs in the header and among the arrays, the array is returned; `head` is the whole header.
 export function unpack(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const head = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
@@ -63,7 +63,7 @@ export async function putBytes(path, bytes) {
   await answer(path, { method: 'PUT', headers: { 'Content-Type': 'application/octet-stream' }, body: bytes });
 }
 
-/// \param leaving  true as the page goes away: the browser sends it all the same, up to 64 kB.
+/// \param leaving  whether the page is being closed: the browser then still sends up to 64 kB
 export async function put(path, body, leaving = false) {
   const options = withBody('PUT', body);
   const text = await (await answer(path, { ...options, keepalive: leaving && options.body.length < 60000 })).text();

@@ -2,24 +2,24 @@
 // Buttons that ask for a change of one face, for the gallery and the editor.
 import { el } from './dom.js';
 
-/// An id without the crowd's name, which all ids begin with: there is little room on a button.
+/// An id without its beginning, the crowd's name, to save room on buttons.
 export function shortName(crowd, name) {
   const start = `${crowd.name}_`;
   return name.startsWith(start) ? name.slice(start.length) : name;
 }
 
-/// \param crowd   name, heads, hairColours and skins, as readCrowd has them.
-/// \param before  the face that was open before, or nothing.
-/// \param change  what is asked for so far: {age: 'older', hair: 'red'}.
+/// \param crowd   {name, heads, hairColours, skins} as in the result of readCrowd
+/// \param before  the face that was open before, or null
+/// \param change  the requested change so far, such as {age: 'older', hair: 'red'}
 /// \param ask     called with a key of the change and a value; the same value again removes the key.
-/// \return  null if the crowd offers no change.
+/// \return  the buttons; null if the crowd offers no change
 export function changeButtons({ crowd, face, before, change, ask }) {
   const has = (tag) => crowd.heads.some((head) => head.tags.includes(tag));
   const button = (name, value, text, title) => el('button', {
     class: `change ${value !== undefined && change[name] === value ? 'on' : ''}`, title,
     onclick: () => ask(name, value),
   }, text);
-  // Each click asks for the next value; after the last, for none.
+  // Each click requests the next value; the click after the last value removes the request.
   const next = (name, values, text) => el('button', {
     class: `change ${change[name] === undefined ? '' : 'on'}`, title: 'Again: the next one',
     onclick: () => ask(name, values[values.indexOf(change[name]) + 1]),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The crowd as the page knows it: faces with what is derived from their recipes, filters and orders.
+// The crowd's faces with values derived from their recipes; filters and orders of faces.
 
 import { loadScript } from './dom.js';
 
-/// The tags of a face: its target's, or of a mixture those of the head in it with whose tags most of it
-/// agrees, as the program has them (cast/typical_head.h).
+/// The tags of a face: those of its target or, if the target is a mixture, of the head in it whose tags agree best with
+/// those of the other heads (cast/typical_head.h).
 export function tagsOf(recipe, heads) {
   const tagsOfHead = (name) => heads.get(name)?.tags ?? [];
   if (!recipe.mixture) return tagsOfHead(recipe.target);
@@ -32,13 +32,13 @@ function facesOf(data, heads) {
   }));
 }
 
-/// The subfolder of a face by the number that its id ends with, as the program has it.
+/// The subfolder with the files of a face, computed from the number at the end of the face's id, as in the program.
 export function folderOf(id, facesPerFolder) {
   const number = Number(id.match(/\d{0,15}$/)[0] || '0');
   return `${String(Math.floor(number / facesPerFolder)).padStart(3, '0')}/`;
 }
 
-/// A face of a large crowd: what all are filtered and ordered by. Its recipe comes with loadFace.
+/// A face of a large crowd, with the values that filters and orders use. loadFace adds the recipe.
 class LightFace {
   constructor(data, order, target) {
     const { columns } = data;
@@ -75,10 +75,10 @@ for (const name of ['nearest', 'mixture', 'colours', 'age', 'age_years', 'asymme
   Object.defineProperty(LightFace.prototype, name, { get() { return this.recipe?.[name]; } });
 }
 
-/// Whether all that is known of a face is there.
+/// Whether all data of a face are loaded.
 export const isLoaded = (face) => !(face instanceof LightFace) || Boolean(face.recipe);
 
-/// Loads the page of recipes that a face of a large crowd stands on.
+/// Loads the file of recipes that contains a face of a large crowd.
 export async function loadFace(crowd, face) {
   if (isLoaded(face)) return;
   const length = crowd.faces_per_page;
@@ -92,8 +92,8 @@ export async function loadFace(crowd, face) {
   });
 }
 
-/// \param data  data/crowd.js: name, seed, regions, bands, shapes (if there are any), heads, faces (the plan's lines), near, likeness;
-///   of a large crowd columns and faces_per_page in place of faces and near.
+/// \param data  contents of data/crowd.js: name, seed, regions, bands, shapes (may be missing), heads, faces (lines of the
+///              plan), near, likeness; for a large crowd, columns and faces_per_page instead of faces and near
 export function readCrowd(data) {
   const heads = new Map(data.heads.map((head) => [head.name, head]));
   const faces = data.columns
@@ -123,20 +123,20 @@ export function readCrowd(data) {
   };
 }
 
-/// The bands of a region's recipe, [name, numbers] from coarse to fine; without bands one of no name.
+/// The bands of a region's recipe from coarse to fine: [name, numbers]. Without bands, one band with an empty name.
 export function bandsOf(crowd, region) {
   return crowd.bands.length > 0
     ? crowd.bands.map((name, at) => [name, at === 0 ? region : region.bands?.[name] ?? region])
     : [['', region]];
 }
 
-/// Whether nothing would be left to draw anew.
+/// Whether all regions or all bands are locked.
 export function locksAll(crowd, lock) {
   const all = (names) => names.length > 0 && names.every((name) => lock.has(name));
   return all(crowd.regions) || all(crowd.bands);
 }
 
-/// Parents, sisters and brothers, and children of a face, as far as they are known.
+/// Parents, siblings and children of a face that are faces of the crowd.
 export function relativesOf(crowd, face) {
   const parents = Object.entries(face.parents ?? {}).map(([role, name]) => ({
     role, name, face: crowd.byId.get(name), head: crowd.heads.find((head) => head.name === name),
@@ -151,12 +151,12 @@ export function relativesOf(crowd, face) {
   };
 }
 
-/// How near the nearest other face of the whole crowd is.
+/// Distance to the nearest other face of the whole crowd.
 export function nearestMm(face) {
   return face.near.length > 0 ? face.near[0].mm : face.nearMm ?? face.nearest?.crowd_mm ?? Infinity;
 }
 
-/// How near the nearest head is.
+/// Distance to the nearest head.
 const headMm = (face) => face.headMm ?? face.nearest?.face_mm ?? Infinity;
 
 const byId = new Intl.Collator('en', { numeric: true });
@@ -174,7 +174,8 @@ const orders = {
     (a.family ?? '\uffff').localeCompare(b.family ?? '\uffff') || a.order - b.order,
 };
 
-/// The order of a filter: one of `orders`, or by a measurement, "+nose_width" or "-nose_width".
+/// The order of faces that a filter asks for: a key of `orders`, or a measurement in ascending ("+nose_width") or
+/// descending ("-nose_width") order.
 function orderOf(sort) {
   if (orders[sort]) return orders[sort];
   const name = sort.slice(1);
@@ -183,13 +184,13 @@ function orderOf(sort) {
   return (a, b) => sign * (value(a) - value(b)) || a.order - b.order;
 }
 
-/// Whether the measurements of a face are in the ranges, {nose_width: [30, 38]}; null is no end.
+/// Whether the measurements of a face are in the ranges, such as {nose_width: [30, 38]}. A null end has no limit.
 const inRanges = (face, ranges) => Object.entries(ranges).every(([name, [low, high]]) => {
   const value = face.traits?.[name];
   return value !== undefined && value >= (low ?? -Infinity) && value <= (high ?? Infinity);
 });
 
-/// What is asked for, word by word: each word must occur in the id, family, group, target, tags, attachments or note.
+/// Whether each word of a search text occurs in the id, family, group, target, tags, attachments or note of a face.
 function matches(face, words, mark) {
   if (words.length === 0) return true;
   const text = [face.id, face.family, face.group, face.target, ...face.tags, ...(face.attachments ?? []), face.note, mark?.note]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/// An element with properties and children: el('button', { class: 'big', onclick: f }, 'Open').
+/// Creates an element with properties and children: el('button', { class: 'big', onclick: f }, 'Open').
 export function el(tag, properties = {}, ...children) {
   const svg = ['svg', 'g', 'circle', 'line', 'text', 'image', 'clipPath', 'path', 'rect', 'title'];
   const node = svg.includes(tag)
@@ -17,9 +17,10 @@ export function el(tag, properties = {}, ...children) {
   return node;
 }
 
-/// A slider. Letting go ends a move even if the browser sends no `change` event, as for a slider that comes back to its
-/// start, or whose value the page has set during the move.
-/// \param moved  (number) while it is held; \param done  (number) once it is let go
+/// Creates a slider. Releasing it ends a move even if the browser sends no `change` event, because the slider is back at
+/// its start or the page has set its value during the move.
+/// \param moved  called with the value while the slider is dragged
+/// \param done   called with the value when the slider is released
 export function sliderNode(properties, moved, done) {
   let isHeld = false;
   const end = () => {
@@ -37,14 +38,14 @@ export function sliderNode(properties, moved, done) {
   return node;
 }
 
-/// A short number: at most `digits` behind the point, no zeros at the end.
+/// Formats a number with at most `digits` decimals and no trailing zeros.
 export function short(value, digits = 2) {
   return String(Number(value.toFixed(digits)));
 }
 
 const loading = new Map();
 
-/// Loads a classic script once, which is how a page opened from disk reads data.
+/// Loads a classic script once. Pages opened from disk read their data this way.
 export function loadScript(path) {
   if (!loading.has(path)) {
     loading.set(path, new Promise((resolve, reject) => {

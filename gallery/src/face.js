@@ -13,9 +13,9 @@ const viewNames = { front: 'Front', three_quarter: 'Three-quarter', profile: 'Pr
 const sharesOf = (mixture) => Object.entries(mixture).sort((a, b) => b[1] - a[1])
   .map(([head, share]) => `${head} ${short(100 * share, 0)} %`).join(', ');
 
-/// One face: a view to turn, marks, recipe, neighbours, renders.
+/// The page of one face: a 3D view, marks, recipe, neighbours and renders.
 export class FacePage {
-  /// \param go  is called with a face to show, or null to leave.
+  /// \param go  called with the face to show next, or null to close the page
   constructor(crowd, review, go) {
     Object.assign(this, { crowd, review, go });
     this.stage = el('div', { class: 'stage' });
@@ -45,7 +45,7 @@ export class FacePage {
     if (next) this.go(next);
   }
 
-  /// \param faces  that the arrows walk through.
+  /// \param faces  the faces that the arrow keys step through
   async show(face, faces) {
     if (this.face && this.face !== face) this.before = this.face;
     this.face = face;
@@ -69,7 +69,7 @@ export class FacePage {
     this.compare(this.isDouble ? this.compared : 'face');
   }
 
-  // -- the view to turn --
+  // -- 3D view --
 
   table(name = 'turntable', stage = this.stage) {
     if (this[name]) return this[name];
@@ -90,7 +90,7 @@ export class FacePage {
     this.status.textContent = text ?? '';
   }
 
-  /// What the face can be compared with: [folder, file, name, what the button says] each.
+  /// The subjects that the face can be compared with: [folder, file, name, label of the button].
   subjects() {
     const { face, crowd } = this;
     const of = (other, word) => [`data/faces/${other.folder}`, other.id, other.id, `${word}${other.id}`];
@@ -105,7 +105,7 @@ export class FacePage {
     };
   }
 
-  /// Shows the face or another subject from the same side; with two views the other one beside the face.
+  /// Shows the face or another subject with the same camera; if there are two views, the other subject beside the face.
   async compare(what) {
     const { face } = this;
     this.compared = this.isDouble && what === 'face' ? 'target' : what;
@@ -208,9 +208,9 @@ export class FacePage {
     if (face === this.face) this.redrawMarks?.();
   }
 
-  // -- what is known of it --
+  // -- facts about the face --
 
-  /// A slider for each expression shape. What is set stays from face to face, so that they compare.
+  /// A slider for each expression shape. The values are kept from face to face, for comparison.
   expressions() {
     const { shapes } = this.crowd;
     if (shapes.length === 0) return null;
@@ -261,7 +261,7 @@ export class FacePage {
       [el('dt', {}, name), el('dd', {}, value)])));
   }
 
-  /// The measurements, and how they differ from the heads' mean.
+  /// The measurements, and their differences from the mean of the heads.
   traits() {
     const { face, crowd } = this;
     if (!face.traits) return null;
@@ -273,7 +273,7 @@ export class FacePage {
     })));
   }
 
-  /// The family as a tree: parents, the face among its sisters and brothers, children.
+  /// The family as a tree: parents; the face and its siblings; children.
   family() {
     const { parents, siblings, children } = relativesOf(this.crowd, this.face);
     if (parents.length + siblings.length + children.length === 0) return null;
@@ -296,7 +296,7 @@ export class FacePage {
       row('Children', children.map((face) => cell(face.id, face, face.family ?? ''))));
   }
 
-  /// The numbers of a region, or of one of its bands, and who lends to it.
+  /// The values of a region, or of one of its bands, and the heads with weight in it.
   lends(numbers) {
     const all = Object.entries(numbers.weights).sort((a, b) => b[1] - a[1]);
     const weights = all.filter(([, weight]) => weight >= 0.005);
@@ -344,7 +344,7 @@ export class FacePage {
         : el('p', { class: 'muted' }, 'There is no other face.'));
   }
 
-  /// \return whether the key meant something here.
+  /// \return whether the key has a function on this page
   key(event) {
     const table = this.turntable;
     const keys = {

@@ -4,7 +4,7 @@ import { nearestMm } from './crowd.js';
 
 const verdictNames = { keep: 'kept', reject: 'rejected' };
 
-/// The picture of a face or head: the first of the views that stand side by side in its file.
+/// The picture of a face or head: the first of the views in its image file, which are side by side.
 export function picture(subject, name) {
   if (!subject?.picture) return el('div', { class: 'portrait blank' }, name);
   const image = el('img', {
@@ -14,14 +14,14 @@ export function picture(subject, name) {
   return el('div', { class: 'portrait' }, image);
 }
 
-/// Faces as cells, a page of them at a time: of a crowd that is not large all on one.
+/// A grid of cells with faces. A large crowd is shown in pages, any other crowd on one page.
 export class Grid {
-  /// \param open, select  are called with a face.
+  /// \param open, select  called with a face
   constructor(crowd, review, { open, select }) {
     Object.assign(this, { review, open, select_: select });
     this.length = crowd.faces_per_page ?? Infinity;
     this.page = 0;
-    this.cells = new Map(); // of the page that is shown; without pages of all faces
+    this.cells = new Map(); // cells of the visible page, by id
     this.grid = el('div', { class: 'grid', role: 'list' });
     this.place = el('span', {});
     const turn = (by, text, title) => el('button', { onclick: () => this.turn(this.page + by), title }, text);
@@ -109,7 +109,7 @@ export class Grid {
     cell.querySelector('.badges').replaceChildren(...badges);
   }
 
-  /// How many cells stand side by side, for the arrow keys.
+  /// Number of cells in a row, for the arrow keys.
   columns() {
     const cells = [...this.grid.children];
     const next = cells.findIndex((cell) => cell.offsetTop > cells[0].offsetTop);

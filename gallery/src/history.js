@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every step of a page: undo, redo, states that are kept to compare with.
+// The steps of a page, for undo and redo, and states that are kept for comparison.
 
-const most = 400; // steps; some hundred bytes each
+const most = 400; // largest number of steps; a step has some hundred bytes
 
 export class History {
   /// \param document  {recipe, anchors}: replaced by each step, never changed.
-  /// \param kept      what toJson() gave, or nothing.
+  /// \param kept      a result of toJson(), or null
   constructor(document, kept) {
     this.now = kept?.now ?? document;
     this.label = kept?.label ?? '';
@@ -14,7 +14,7 @@ export class History {
     this.listeners = [];
   }
 
-  /// \param letters  about how many at most: the oldest steps are left out beyond.
+  /// \param letters  approximate largest length of the result; the oldest steps are omitted beyond it
   toJson(letters = Infinity) {
     const { now, label, future } = this;
     let { past } = this;
@@ -22,8 +22,7 @@ export class History {
     return { now, label, past, future };
   }
 
-  /// A step done. Steps of one kind that follow each other within a moment are one: keys that are
-  /// held down, a wheel that is turned.
+  /// Adds a step. Steps of one kind in quick succession, such as repeats of a key or of a wheel, become one step.
   commit(document, label, { joins = false, time = Date.now() } = {}) {
     if (JSON.stringify(document) === JSON.stringify(this.now)) return;
     const joined = joins && this.label === label && time - this.time < 800;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// The first triangle that a ray meets, by Möller & Trumbore (1997), or null.
-/// \param points     three a vertex; \param part  vertices that are no skin, which are passed by.
-/// \return           triangle, u and v of its second and third corner, point, normal.
+/// \param points  three numbers per vertex
+/// \param part    per vertex: nonzero if it is not skin; triangles of such vertices are skipped
+/// \return        triangle, barycentric coordinates u and v of its second and third corner, point, normal
 export function hitTriangle(origin, way, points, triangles, part) {
   let best = null;
   let nearest = Infinity;
@@ -23,7 +24,7 @@ export function hitTriangle(origin, way, points, triangles, part) {
     const py = dz * e2x - dx * e2z;
     const pz = dx * e2y - dy * e2x;
     const det = e1x * px + e1y * py + e1z * pz;
-    if (det <= 1e-12) continue; // turned away
+    if (det <= 1e-12) continue; // the triangle faces away
     const sx = ox - points[a];
     const sy = oy - points[a + 1];
     const sz = oz - points[a + 2];

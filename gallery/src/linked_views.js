@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
-/// One camera for several views (stage.js): where one looks from, all look from.
-/// \param isLinked  whether they follow each other now
+/// Links the cameras of several views (stage.js): a move of one camera moves all.
+/// \param isLinked  function: whether the views are linked at present
 export function linkViews(views, isLinked = () => true) {
   let isFollowing = false;
   const others = (view, act) => {

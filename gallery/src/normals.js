@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Unit normals as means of the triangles' by their areas.
-/// \param twin      as of cornersAround; null: no vertices share a place.
-/// \param normals   takes them. \param stride  numbers a vertex of points and normals.
-/// \param vertices  in ascending order, the corners with their twins; null: all.
+/// Computes unit normals of vertices: area-weighted means of the normals of triangles.
+/// \param twin      per vertex: a vertex at the same position, as in cornersAround; null: there are none
+/// \param normals   receives the normals
+/// \param stride    numbers per vertex in points and normals
+/// \param vertices  the corners and their twins, ascending; null: all vertices
 export function normalsOf(points, triangles, twin, normals, stride = 4, vertices = null) {
   const count = vertices ? vertices.length : normals.length / stride;
   for (let i = 0; i < count; i += 1) {
@@ -35,7 +36,7 @@ export function normalsOf(points, triangles, twin, normals, stride = 4, vertices
     const v = stride * (vertices ? vertices[i] : i);
     const from = twin ? stride * twin[v / stride] : v;
     const length = Math.hypot(normals[from], normals[from + 1], normals[from + 2]) || 1;
-    if (from !== v) { // the twin stands before and is of unit length by now
+    if (from !== v) { // the twin comes earlier, so its normal has unit length already
       normals[v] = normals[from];
       normals[v + 1] = normals[from + 1];
       normals[v + 2] = normals[from + 2];

@@ -3,17 +3,18 @@ import { el, short } from './dom.js';
 import { bandsOf } from './crowd.js';
 import { picture } from './grid.js';
 
-// Okabe & Ito's colours (2008), which colour-blind eyes tell apart too, then lighter ones.
+// Colours that colour-blind people can distinguish (Okabe & Ito 2008), then lighter ones.
 const colours = ['#56b4e9', '#e69f00', '#3fbf96', '#d98cb8', '#f0e442', '#5a8fd6', '#e07b4f',
   '#a8c686', '#b79be0', '#8fd3d1', '#d6c3a5', '#c7667f'];
-/// Of a list of any length, each another: beyond those above hues a golden angle apart, lighter and darker in turn.
+/// A different colour for each index: first the colours above, then hues a golden angle apart, alternately lighter and
+/// darker.
 export const colourOf = (k) => colours[k] ??
   `hsl(${((k * 137.508) % 360).toFixed(1)} ${k % 2 ? 75 : 45}% ${[72, 52, 62][k % 3]}%)`;
 const markColours = { keep: '#86bd92', reject: '#d17a6e' };
 export const side = 460;
 
-/// How a square of `side` shows the part of the plane that holds these points with some room around
-/// them, and the way back.
+/// The map from the part of the weight plane that contains these points, with a margin, to a square of `side` pixels, and
+/// its inverse.
 export function planeFrame(points, room = 1.36) {
   const xs = points.map((p) => p[0]);
   const ys = points.map((p) => p[1]);
@@ -28,7 +29,7 @@ export function planeFrame(points, room = 1.36) {
   };
 }
 
-/// Names keep their size on the screen.
+/// Text that keeps its size on the screen when the plane is zoomed.
 function legible(svg) {
   new ResizeObserver(([{ contentRect: { width } }]) => {
     if (width > 0) svg.style.setProperty('--unit', `${side / width}px`);
@@ -36,7 +37,7 @@ function legible(svg) {
   return svg;
 }
 
-/// A head's picture in a ring, drawn around the origin.
+/// A head's picture in a ring, centred at the origin.
 export function anchorMark(head, radius = 17) {
   const id = `clip ${head.name} ${Math.random()}`.replace(/[^\w]/g, '_');
   const size = 2 * radius + 4;
@@ -51,7 +52,7 @@ export function anchorMark(head, radius = 17) {
     el('text', { y: radius + 11 }, head.name));
 }
 
-/// Where every face lies on the weight plane, one picture a region, or a band of it.
+/// The positions of all faces on the weight plane: one diagram for each region or band.
 export class Plane {
   constructor(crowd, review, { open, select }) {
     Object.assign(this, { crowd, review, open, select });

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Marks: kept in the browser across reloads, exported as the review.yaml that `crowdface generate
-// --review` takes.
+// Marks of faces. The browser stores them across reloads; they are exported as a review.yaml for `crowdface generate
+// --review`.
 
 import { locksAll } from './crowd.js';
 
-/// A text as a double-quoted YAML scalar on one line.
+/// Formats a text as a double-quoted YAML scalar on one line.
 function quoted(text) {
   const escaped = text
     .replace(/\\/g, '\\\\').replace(/"/g, '\\"').replace(/\r?\n/g, '\\n').replace(/\t/g, '\\t')
@@ -12,7 +12,7 @@ function quoted(text) {
   return `"${escaped}"`;
 }
 
-/// A face's id as a key: of letters, digits, '_', '-' and '.', and `null` would be none.
+/// Formats a face's id as a YAML key. Ids consist of letters, digits, '_', '-' and '.'; `null` must be quoted.
 function key(id) {
   return id.toLowerCase() === 'null' ? quoted(id) : id;
 }
@@ -29,7 +29,7 @@ function formatMark(mark, locks) {
   return `{${parts.join(', ')}}`;
 }
 
-/// A change as review files have it: the pages ask for `colours` by a head.
+/// Formats a change as in review files, where `colours` is a mapping from heads to weights.
 const asWritten = (change) => (change.colours ? { ...change, colours: { [change.colours]: 1 } } : change);
 
 function formatChange(change) {
@@ -39,13 +39,13 @@ function formatChange(change) {
 }
 
 export class Review {
-  /// \param storage  localStorage, or null where there is none.
+  /// \param storage  localStorage, or null if the browser has none
   constructor(crowd, storage) {
     this.crowd = crowd;
     this.storage = storage;
     this.key = `crowdface review · ${crowd.name} · ${crowd.seed}`;
     this.listeners = [];
-    this.kept = true; // whether marks outlast the page
+    this.kept = true; // whether the browser stores the marks
     this.marks = new Map();
     try {
       const stored = JSON.parse(storage?.getItem(this.key) ?? '{}');
@@ -56,7 +56,7 @@ export class Review {
     }
   }
 
-  /// A mark is about the face that was looked at: a face that was redrawn or changed since has none.
+  /// The mark of a face. A mark made before the face was redrawn or changed does not count.
   of(face) {
     const mark = this.marks.get(face.id);
     const isSame = mark?.attempt === face.attempt && (mark?.changes ?? 0) === face.changes;
@@ -82,7 +82,7 @@ export class Review {
     for (const listener of this.listeners) listener(face);
   }
 
-  /// \return why not, or null.
+  /// \return  the reason if the verdict was refused, or null
   verdict(face, verdict) {
     if (verdict === 'reject' && face.byHand) {
       return 'This face is written by hand or has children: change the config.';
@@ -91,7 +91,7 @@ export class Review {
     return null;
   }
 
-  /// Locks a region or band, or lets it go: the face is drawn anew but for what is locked.
+  /// Locks or unlocks a region or band. A face with locks is redrawn except for the locked parts.
   lock(face, part) {
     if (face.byHand) return 'This face is written by hand or has children: change the config.';
     const lock = new Set(this.of(face)?.lock ?? []);
@@ -105,7 +105,7 @@ export class Review {
     return null;
   }
 
-  /// Sets a key of the face's change. The same value again, or none, removes the key.
+  /// Sets a key of the face's change. The same value again, or null, removes the key.
   ask(face, name, value) {
     const change = { ...this.of(face)?.change };
     if (value === undefined || change[name] === value) delete change[name];
@@ -113,7 +113,7 @@ export class Review {
     this.change(face, { change });
   }
 
-  /// The change that is asked for, as review files have it; {} if none is.
+  /// The requested change as in review files; {} if there is none.
   changeOf(face) {
     return asWritten(this.of(face)?.change ?? {});
   }
@@ -122,7 +122,7 @@ export class Review {
     return this.crowd.faces.filter((face) => this.of(face)?.verdict === verdict).length;
   }
 
-  /// The review file: a line for each mark and for each change, in the plan's order.
+  /// The text of the review file: a line for each mark and each change, in the plan's order.
   toYaml() {
     const all = this.crowd.faces.map((face) => [face, this.of(face)]).filter(([, mark]) => mark);
     const section = (name, lines) => (lines.length > 0 ? `${name}:\n${lines.join('\n')}\n` : '');

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of contact sheets (src/crowdface/render/studio.cpp, shading.cpp and light.cpp), so that a face in a page
-// looks as it does there.
+// The light of contact sheets (src/crowdface/render/studio.cpp, shading.cpp and light.cpp), so that a face looks the same
+// in pages and sheets.
 import { Matrix3, MeshStandardMaterial, ShaderChunk, Vector3 } from 'three';
 
-const mostShaded = 0.85; // what sees more of the sky lies in no shadow
+const mostShaded = 0.85; // visible fraction of the sky above which a point lies in no shadow of the key light
 const rimGloss = 0.4; // factor on the highlights of the rim lights, which the face partly hides
-const hairSky = 0.72; // the sky that hair sees, most of which lies under other hair
+const hairSky = 0.72; // visible fraction of the sky on hair, most of which lies under other hair
 
 const unit = (...way) => new Vector3(...way).normalize();
 
-/// Lamps that go with the camera: directions towards them, x right, y up, z to the camera.
+/// Lamps that move with the camera: directions towards them; x right, y up, z to the camera.
 export const lamps = {
   key: { way: unit(-0.62, 0.62, 0.62), colour: [1.55, 1.49, 1.39] },
   fill: { way: unit(0.85, 0.05, 0.55), colour: [0.15, 0.165, 0.185] },
@@ -21,41 +21,41 @@ export const lamps = {
   below: [0.1, 0.093, 0.086],
 };
 
-/// How far light is seen beyond the terminator, roughness, reflectance at normal incidence.
+/// Per kind of surface: how far light reaches beyond the terminator, roughness, and reflectance at normal incidence.
 export const surfaces = {
   skin: { wrap: [0.3, 0.19, 0.14], roughness: 0.48, reflectance: 0.03, specular: 1, darkens: true, sky: 1 },
   eye: { wrap: [0.15, 0.12, 0.1], roughness: 0.16, reflectance: 0.04, specular: 1, darkens: false, sky: 1 },
   attachment: { wrap: [0.3, 0.28, 0.26], roughness: 0.45, reflectance: 0.03, specular: 0.3, darkens: true, sky: hairSky },
 };
 
-/// What a pixel shows of a linear value, before the curve of sRGB: highlights are compressed.
+/// The tone curve for linear values, applied before sRGB encoding: compresses highlights.
 export function shoulder(x) {
   if (x <= 0.6) return x;
   const over = (x - 0.6) / 0.4;
   return 0.6 + (0.4 * over) / (1 + 0.55 * over);
 }
 
-/// Diffuse light from a lamp past the terminator.
+/// Diffuse light from a lamp, also beyond the terminator.
 function wrapped(cosine, wrap) {
   const lit = Math.max((cosine + wrap) / (1 + wrap), 0);
   return (0.5 * (lit * lit + lit)) / (1 + wrap);
 }
 
-/// The part of the key light that reaches a place, told from the sky that it sees.
+/// The fraction of the key light that reaches a point, estimated from the visible fraction of the sky.
 export function keyShare(sky) {
   const x = Math.min(sky / mostShaded, 1);
   return x * x * (3 - 2 * x);
 }
 
-/// The sky that reaches a place, with light that bounces in a crevice (Jimenez et al. 2016).
+/// The light of the sky at a point, with interreflections in crevices (Jimenez et al. 2016).
 export function withBounces(sky, albedo) {
   const sum = ((sky * (2.0404 * albedo - 0.3324) + (-4.7951 * albedo + 0.6417)) * sky + (2.7552 * albedo + 0.6903)) * sky;
   return Math.min(Math.max(sum, sky), 1);
 }
 
-/// The light of the studio in the axes of what turns: lamps stand elsewhere there whenever the camera moves.
-/// \return  diffuse(x, y, z, sky, key, open, sum): writes to `sum` what reaches a white surface with the normal x, y, z;
-///          gloss(x, y, z, sky, key, brightness, sum): adds what it mirrors to the eye, seen from far away
+/// The studio's light in the axes of the turned group, for the present camera.
+/// \return  diffuse(x, y, z, sky, key, open, sum): writes the diffuse light on a white surface with the normal x, y, z
+///          to `sum`; gloss(x, y, z, sky, key, brightness, sum): adds the specular light towards a distant camera
 export function lightIn(camera, group, kind) {
   const turn = new Matrix3().setFromMatrix4(camera.matrixWorldInverse.clone().multiply(group.matrixWorld)).transpose();
   const local = ({ way, colour }) => ({ way: way.clone().applyMatrix3(turn).normalize(), colour });
@@ -98,11 +98,11 @@ export function lightIn(camera, group, kind) {
   return { diffuse, gloss };
 }
 
-/// Numbers as a vector of shaders.
+/// Formats numbers as a GLSL vector.
 const text = (numbers) => `vec3(${[...numbers].map((number) => number.toFixed(6)).join(', ')})`;
 const lamp = ({ way, colour }) => `${text(way)}, ${text(colour)}`;
 
-/// For shaders: inStudio(albedo, normal, to the eye, surface, share of the sky, share of the key light).
+/// GLSL: inStudio(albedo, normal, direction to the eye, surface, fraction of the sky, fraction of the key light).
 const shading = `
   struct Surface { vec3 wrap; float roughness, reflectance, specular, sky; };
   vec3 wrapped(float cosine, vec3 wrap) {
@@ -136,24 +136,25 @@ const shading = `
     ${lamps.rims.map((rim) => `light += lampLight(${lamp(rim)}, n, eye, albedo * sky * max(dot(n, ${text(rim.way)}), 0.0), alpha2, surface.reflectance, ${rimGloss} * soft);`).join('\n    ')}
     return light;
   }
-  // No shadows are cast here: what sees little of the sky sees little of the key light.
+  // Pages trace no shadow rays: points that see little of the sky get little of the key light.
   float keyShare(float sky) { return smoothstep(0.0, ${mostShaded.toFixed(2)}, sky); }
   vec3 shoulder(vec3 x) {
     vec3 over = max(x - 0.6, 0.0) / 0.4;
     return min(x, 0.6) + 0.4 * over / (1.0 + 0.55 * over);
   }`;
 
-/// Which way a surface looks is told from its smooth normal. By the triangle, as three.js does, coarse
-/// ones that just turn away at a jaw's edge would be lit as if from behind: bright specks.
+/// The smooth normal decides which side of a surface faces the camera. If the triangle decided, as in three.js, coarse
+/// triangles at the edge of a jaw would be lit from behind and show as bright specks.
 const faceDirection = ShaderChunk.normal_fragment_begin.replace('gl_FrontFacing', '!isInside()');
 
-/// A surface of shaders.
+/// A surface as GLSL.
 function surfaceText(kind, roughness = surfaces[kind].roughness.toFixed(3)) {
   const { wrap, reflectance, specular, sky } = surfaces[kind];
   return `Surface(${text(wrap)}, ${roughness}, ${[reflectance, specular, sky].map((number) => number.toFixed(3)).join(', ')})`;
 }
 
-/// Adds to what the material's shaders do. \param change  (shader) => shader with other text
+/// Adds a change to the material's shaders.
+/// \param change  function that modifies the text of a shader
 export function extend(material, change) {
   const before = material.onBeforeCompile;
   material.onBeforeCompile = (shader, renderer) => {
@@ -163,8 +164,8 @@ export function extend(material, change) {
 }
 
 /// \param kind      of `surfaces`
-/// \param options   of three.js
-/// \param skin      {lightness: {value}}: how light a texture's skin is; darker texels are painted hair
+/// \param options   options of three.js materials
+/// \param skin      {lightness: {value}}: lightness of the skin in the texture; darker texels are painted hair
 export function studioMaterial(kind, options, skin = { value: 0 }) {
   const { roughness, darkens } = surfaces[kind];
   const material = new MeshStandardMaterial({ roughness, ...options });
@@ -211,7 +212,7 @@ export function studioMaterial(kind, options, skin = { value: 0 }) {
   return material;
 }
 
-/// Other numbers of the surface where a condition of the shader holds.
+/// Uses another surface kind where a GLSL condition holds.
 export function surfaceWhere(shader, condition, kind) {
   shader.fragmentShader = shader.fragmentShader.replace('// <surface>', `// <surface>
         if (${condition}) {

@@ -4,21 +4,21 @@ import { el, short } from './dom.js';
 const bins = 24;
 const size = { width: 200, height: 56 };
 
-/// "nose_width" as words.
+/// Formats the name of a measurement, such as "nose_width", as words.
 export const wordsOf = (name) => name.replaceAll('_', ' ');
 
-/// A value with its unit.
+/// Formats a value with its unit.
 export const traitText = (trait, value) => `${short(value, trait.unit ? 1 : 3)}${trait.unit ?? ''}`;
 
-/// The mean of the heads.
+/// The mean of a measurement over the heads.
 export function headsMean(crowd, name) {
   return crowd.heads.reduce((sum, head) => sum + head.traits[name], 0) / crowd.heads.length;
 }
 
-/// The measurements of a crowd in the sidebar: a choice, a histogram of the faces, the heads as lines
-/// below, and the ends of a filter.
+/// The measurements of a crowd in the sidebar: a menu, a histogram of the faces, the heads as lines below the histogram,
+/// and the two ends of a filter.
 export class TraitPanel {
-  /// \param change  is called with {traits: ranges} when the filter changes.
+  /// \param change  called with {traits: ranges} when the filter changes
   constructor(crowd, change) {
     Object.assign(this, { crowd, change, ranges: {} });
     this.choice = el('select', { name: 'trait', title: 'Which measurement the histogram and the filter are about', onchange: () => this.draw() },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reduced meshes in 3D. All faces of a crowd share one set of triangles, so a face is points and
-// normals; where it stood before, the camera stays, so that two faces compare.
+// 3D views of reduced meshes. All faces of a crowd share one list of triangles, so the data of a face are positions and
+// normals. The camera stays the same from face to face, for comparison.
 import { BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Mesh } from 'three';
 import { bytesOf } from './bytes.js';
 import { loadScript } from './dom.js';
@@ -10,9 +10,9 @@ import { normalsOf } from './normals.js';
 import { eyeShader, eyeUniforms, linearColours, paintEyes, roughAtVertices, skinLightness, skinMaterial, Stage } from './stage.js';
 import { pictureAt, pointsOf, Worn } from './worn.js';
 
-/// Points: three whole numbers of 16 bits each, steps from the frame's low corner; then normals,
-/// two numbers each on the unfolded octahedron (Meyer et al. 2010, "On floating-point normal
-/// vectors"); then perhaps a byte for each point, its roughness.
+/// Unpacks the data of a face: per vertex three 16-bit numbers, steps from the low corner of the bounding box; then per
+/// vertex a normal as two numbers on the unfolded octahedron (Meyer et al. 2010, "On floating-point normal vectors");
+/// then, in some files, one byte of roughness per vertex.
 export function unpackFace(base64, mesh) {
   const bytes = bytesOf(base64);
   const count = mesh.vertices;
@@ -34,7 +34,8 @@ export function unpackFace(base64, mesh) {
   return { points, normals, roughness };
 }
 
-/// The face's expression shapes: for each its number, the vertices that it moves (the same in all faces) and how far.
+/// The face's expression shapes: for each shape its number, the vertices that it moves (the same in all faces) and their
+/// displacements.
 export function unpackMoves(base64, mesh) {
   const moves = new Int16Array(bytesOf(base64).buffer);
   let at = 0;
@@ -46,14 +47,17 @@ export function unpackMoves(base64, mesh) {
   });
 }
 
-/// The same of what is worn: a shape's vertices stand before its moves.
+/// The expression shapes of attachments: for each shape first the vertices, then their displacements.
 function unpackSome(base64) {
   const bytes = bytesOf(base64);
   const count = bytes.length / 10;
   return { vertices: new Uint32Array(bytes.buffer, 0, count), moves: new Int16Array(bytes.buffer, 4 * count) };
 }
 
-/// Points with a share of each shape added. \param shapes  [number, shape] each
+/// Positions with weighted shapes added.
+/// \param shapes  pairs [number of the shape, shape]
+/// \param values  weight of each shape, by number
+/// \param step    length of a displacement of 1, in the unit of the points
 export function inShapes(points, shapes, values, step) {
   const moved = points.slice();
   shapes.forEach(([s, { vertices, moves }]) => {
@@ -127,7 +131,8 @@ export class Turntable extends Stage {
     this.group.add(this.draft.node);
   }
 
-  /// \param path  of the face's data; \param name  under which it then stands.
+  /// \param path  path of the script with the face's data
+  /// \param name  key under which the script stores the data
   async show(path, name) {
     this.wanted = name;
     await this.prepare();
@@ -148,9 +153,9 @@ export class Turntable extends Stage {
     this.act(this.values);
   }
 
-  /// Where a look has a picture its vertices are white.
-  /// \param skin, relief  {pictures, ofLook}: colours and normals
-  /// \param own           the face's colours at vertices; none: those that all faces share.
+  /// Sets the textures. Vertices of a material with a colour texture become white.
+  /// \param skin, relief  {pictures, ofLook}: colour textures and normal maps
+  /// \param own           the face's vertex colours; null: the colours that all faces share
   wear(skin, relief, own) {
     for (const picture of this.pictures ?? []) picture.dispose();
     this.pictures = [...skin.pictures, ...relief.pictures];
@@ -170,7 +175,7 @@ export class Turntable extends Stage {
     this.face.colours = colours;
   }
 
-  /// What a face wears: [parts, points, shapes] each.
+  /// The attachments of a face: [parts, positions, shapes] of each.
   attachments(worn = {}) {
     return Promise.all(Object.entries(worn).map(async ([item, packed]) => {
       await loadScript(`data/attachments/${item}.js`);
@@ -180,7 +185,7 @@ export class Turntable extends Stage {
     }));
   }
 
-  /// \param values  a share of each expression shape; none: at rest.
+  /// \param values  weight of each expression shape; null: the neutral face
   act(values = []) {
     this.values = values;
     if (!this.face) return;
@@ -190,7 +195,7 @@ export class Turntable extends Stage {
     this.worn.show(this.face.worn.map(([parts, at, own]) => [parts, inShapes(at, own, values, this.mesh.step)]));
     if (shapes.some(([s]) => values[s])) {
       points = inShapes(points, shapes, values, this.mesh.step);
-      // The whole mesh's normals, turned as the reduced mesh's are.
+      // Rotate the whole mesh's normals as the shapes rotate those of the reduced mesh.
       const triangles = geometry.index.array;
       const ofReduced = (at) => {
         const rough = new Float32Array(at.length);
@@ -213,7 +218,8 @@ export class Turntable extends Stage {
     this.draw();
   }
 
-  /// How much of the sky each vertex sees; the shape that opens most lets more of it in.
+  /// The visible fraction of the sky at each vertex, which shapes that open the mouth increase.
+  /// \param share  largest weight of these shapes
   skyIn(share = 0) {
     return this.light.map((light, v) => Math.min(1, (light * (1 + share * ((this.opened?.[v] ?? 1) - 1))) ** 2));
   }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heads, with their textures, that are dropped on the page or chosen: the program checks them, and they join the plane.
+// Adds heads with textures that the user drops on the page or chooses in a dialog. The program checks them; then they
+// appear on the plane.
 import { post, putBytes } from '../api.js';
 import { el } from '../dom.js';
 import { asWeights } from './recipe.js';
 
-const piece = 2 ** 21; // bytes of a request
+const piece = 2 ** 21; // largest number of bytes per request
 
-/// Whether all are pictures, which may be a photo of somebody.
+/// Whether all files are images, so that they may be reference photos.
 export const arePictures = (files) => files.every(({ type }) => type.startsWith('image/'));
 
 export class AddedHeads {
@@ -47,7 +48,7 @@ export class AddedHeads {
     }
     editor.say('Checking and preparing the heads …', false, true);
     await editor.openAgain('heads', {}, ({ faces, heads }) => {
-      // Places on the plane mean other weights once there are more heads: the faces stay as they are.
+      // With more heads, a position on the plane has other weights. Store weights, so that the faces stay the same.
       const { history, job } = editor;
       editor.kept = editor.kept.map((entry) => ({ ...entry, document: asWeights(job, entry.document) }));
       history.commit({ ...asWeights(job, history.now), config_faces: faces }, `${heads.join(', ')} joined`);

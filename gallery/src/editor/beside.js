@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Another face beside the edited one, seen by the same camera.
+// A second view beside the edited face, with another face and the same camera.
 import { getJson, postForBinary } from '../api.js';
 import { el } from '../dom.js';
 import { linkViews } from '../linked_views.js';
@@ -42,7 +42,7 @@ export class Beside {
     this.refresh();
   }
 
-  /// What the face shows, as the edited one; a head's texture is for that one alone.
+  /// Shows surfaces, distances or regions, as in the edited face's view. Textures of heads are shown there only.
   shown(show) { return show.startsWith('texture') ? 'surface' : show; }
 
   open() {
@@ -58,7 +58,7 @@ export class Beside {
     this.view.lookAs(editor.view);
   }
 
-  /// Shows what is chosen, of the faces that there are now.
+  /// Shows the chosen face, and lists the present faces.
   refresh() {
     if (!this.on) return;
     const { editor } = this;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eq. 7 on the graphics card: one pass for the points, one for the normals, a texel a vertex. Of a
-// change only the coefficients go to the card.
+// Eq. 7 on the graphics card: one pass for positions and one for normals, one texel per vertex. A change uploads only
+// the coefficients.
 import {
   DataArrayTexture, DataTexture, FloatType, GLSL3, NearestFilter, RawShaderMaterial, RGBAFormat,
   RGBAIntegerFormat, RGIntegerFormat, ShortType, UnsignedIntType, WebGLRenderTarget,
@@ -85,7 +85,7 @@ function pairs(values, width) {
   return texture;
 }
 
-/// Whether these heads fit on this card.
+/// Whether the data of these heads fit into textures of this graphics card.
 export function fitsOnCard(renderer, regions, heads) {
   const gl = renderer.getContext();
   const layers = heads.reduce((sum, head) => sum + head.rank, 0);
@@ -94,7 +94,7 @@ export function fitsOnCard(renderer, regions, heads) {
 }
 
 export class CardBlend {
-  /// \param heads  all of them: what lies on the card is laid out once.
+  /// \param heads  all heads; they are uploaded once
   constructor(renderer, mesh, regions, heads) {
     Object.assign(this, { renderer, mesh, regions, heads, name: 'card' });
     this.layout = layoutOf(mesh.vertices);
@@ -235,7 +235,7 @@ export class CardBlend {
     this.pass(this.difference, target);
   }
 
-  /// As ProcessorBlend.settle.
+  /// See ProcessorBlend.settle.
   settle(positions, given) {
     const exact = floatTexture(this.layout, padded(positions, this.layout));
     const exactNormals = floatTexture(this.layout, padded(given, this.layout));

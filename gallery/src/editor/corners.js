@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which triangles meet at a vertex, in order of vertices.
+// Lists the triangles that meet at each vertex.
 
-/// \param triangles  three vertices each.
-/// \param twin       of each vertex the first one at its place: those that a texture's seam splits
-///                   share their triangles, so that the seam does not show. May be missing.
-/// \return           `first`, where each vertex's corners begin, and one more; `next` and `after`, the
-///                   two other vertices of each corner.
+/// \param triangles  three vertices per triangle
+/// \param twin       per vertex: the first vertex at the same position. Vertices that a texture seam splits have all
+///                   triangles of their twins, so that normals do not show the seam. May be missing.
+/// \return           `first`: per vertex the index of its first corner, and the total number; `next` and `after`: the
+///                   two other vertices of each corner
 export function cornersAround(vertices, triangles, twin) {
   const place = twin ?? Uint32Array.from({ length: vertices }, (_, v) => v);
   const count = new Uint32Array(vertices + 1);

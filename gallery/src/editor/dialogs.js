@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes back into the crowd, and the run of the whole crowd.
+// Dialogs that save the face to the crowd and that generate the whole crowd.
 import { getJson, post } from '../api.js';
 import { changeButtons } from '../changes.js';
 import { openDialog } from '../dialog.js';
 import { el } from '../dom.js';
 
-/// Puts the face back: into the config, or as what is said about a face of the crowd.
+/// Saves the face as a recipe of the config, or as a review of a face of the crowd.
 export function showPutBack(editor) {
   const { face } = editor.document;
   const note = el('textarea', { rows: 2, placeholder: 'Note', 'aria-label': 'Note' });
@@ -56,7 +56,7 @@ export function showPutBack(editor) {
         : el('p', { class: 'muted' }, 'Open a face of the crowd first.')) : null);
 }
 
-/// \param save  saves over the file
+/// \param save  called to replace the file
 export function showReplace(name, save) {
   const dialog = openDialog(`${name} exists`,
     el('p', {}, 'Save over it? Another name at the top keeps both.'),
@@ -65,7 +65,7 @@ export function showReplace(name, save) {
       el('button', { title: 'Saves nothing', onclick: () => dialog.close() }, 'Cancel')));
 }
 
-/// Of two pages, the one that was opened last edits.
+/// Shown if another page has begun to edit: the page opened last edits.
 export function showElsewhere() {
   const dialog = openDialog('Open in another tab',
     el('p', {}, 'This face is edited in a tab that was opened later. All steps of this tab are there.'),
@@ -75,7 +75,7 @@ export function showElsewhere() {
   dialog.querySelector('[aria-label=Close]').remove();
 }
 
-/// \param painting  use(change), which opens the page anew.
+/// \param painting  the function use(change) of this object opens the page again
 export function showAddRegion(painting) {
   const name = el('input', { type: 'text', 'aria-label': 'Name of the region', placeholder: 'cheeks', spellcheck: 'false', maxlength: 64 });
   const dialog = openDialog('Another region',
@@ -104,7 +104,7 @@ function duration(seconds) {
   return `${Math.round(seconds / 60)} min`;
 }
 
-/// Sends the crowd to generate, and tells how far it is for as long as the dialog stands open.
+/// Starts `generate` for the whole crowd, and shows its progress while the dialog is open.
 export function showGenerate(editor) {
   const bar = el('progress', { max: 1, value: 0, 'aria-label': 'Progress' });
   const text = el('p', { role: 'status' }, '');

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The config's expressions, as sliders. They are shown, and stay from face to face; meshes are saved at rest.
+// Sliders for the config's expressions. The weights stay the same from face to face; meshes are saved neutral.
 import { el, sliderNode } from '../dom.js';
 
 export class Expressions {
-  /// \param editor  job.shapes, look.expression: shares above zero by name; express(shares, isMoving), remember
+  /// \param editor  job.shapes, look.expression: weights above zero by name; express(shares, isMoving), remember
   constructor(editor) {
     this.editor = editor;
     const { shapes = [] } = editor.job;

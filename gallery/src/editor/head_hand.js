@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hand on the head: a click selects the region that is there, a drag that begins on the selected region moves its
-// controller; every other drag turns the head.
+// Pointer actions on the head: a click selects the region at the pointer, a drag that begins on the selected region
+// moves its controller, any other drag turns the head.
 import { still } from './plane_board.js';
 
 export class HeadHand {
@@ -15,14 +15,14 @@ export class HeadHand {
     this.select(null);
   }
 
-  /// \param name  of a region; null: none is selected any more
+  /// \param name  name of a region; null: deselects
   select(name) {
     const { editor } = this;
     this.selected = name;
     for (const part of editor.node.querySelectorAll('.handle, .regioncard')) {
       const is = part.dataset.region === name;
       part.classList.remove('pulse');
-      part.getBoundingClientRect(); // so that the pulse begins again
+      part.getBoundingClientRect(); // restarts the animation
       part.classList.toggle('pulse', is);
       part.classList.toggle('chosen', is);
     }
@@ -41,7 +41,7 @@ export class HeadHand {
     if (!this.selected || this.pressed.region !== this.selected) return;
     this.pressed.drag = this.editor.board.dragOf(this.selected);
     const { controls, node } = this.editor.view;
-    controls.enabled = false; // the view does not turn
+    controls.enabled = false; // so that the view does not turn
     node.setPointerCapture(pointerId);
   }
 

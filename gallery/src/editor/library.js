@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heads, faces of the crowd and what faces can wear, by picture: put onto the face, a region or the plane.
+// The library: pictures of heads, faces of the crowd and attachments, which can be dropped on the face, a region or the
+// plane.
 import { el } from '../dom.js';
 import { AddedHeads } from './added_heads.js';
 import { bandNames, takeOver, underAnchors } from './recipe.js';
 
 const kindOfDrag = 'application/x-crowdface';
-const mostShown = 400; // cards; more are found by their name
-const pause = 100; // ms
+const mostShown = 400; // largest number of cards; the search finds the others
+const pause = 100; // ms between two checks whether a drag has ended
 
 export class Library {
   /// \param editor  job, look, board, document, commit(document, label), setTarget, open, wear, withRegions, headPlace(name),
@@ -66,7 +67,7 @@ export class Library {
     const source = { head: `api/heads/${this.editor.job.heads.findIndex((head) => head.name === name)}/thumbnail`, face: `api/faces/${name}` }[kind];
     const image = el('img', {
       src: source ?? this.pictures.get(this.keyOf(item)), alt: '', loading: 'lazy', draggable: 'false',
-      onerror: () => { // a crowd without pictures
+      onerror: () => { // the crowd has no pictures
         if (kind === 'face') this.editor.attempt(async () => { image.src = await this.editor.facePicture(name); });
       },
     });
@@ -83,7 +84,7 @@ export class Library {
 
   keyOf({ of, name }) { return `${of} ${name}`; }
 
-  /// What is worn is shown on the face as it is now, one after the other; none is made while something is dragged.
+  /// Makes pictures of attachments on the present face, one at a time; waits while something is being dragged.
   async takePictures() {
     const { shelf } = this;
     for (const item of this.shelves.get(shelf) ?? []) {
@@ -96,10 +97,10 @@ export class Library {
     }
   }
 
-  // -- where it is put --
+  // -- drop targets --
 
-  /// Lets a part of the page take what is dropped on it.
-  /// \param where  (event) => {region}, {point} of the plane, or {} for the face
+  /// Makes an element accept dropped pictures.
+  /// \param where  function of the event: {region}, {point} on the plane, or {} for the face
   takesDrops(node, where) {
     const isOurs = (event) => event.dataTransfer?.types.includes(kindOfDrag);
     node.addEventListener('dragover', (event) => {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// From where a photo was taken: the camera whose picture of some points differs least from the photo's points, up to
-// size, place and roll of the photo.
+// Estimates the camera of a photo: the camera for which the projections of some points differ least from the points in
+// the photo, up to scale, translation and roll of the photo.
 import { Matrix4, Vector3 } from 'three';
 
-const away = [2.5, 3.5, 5, 7, 10, 14]; // distances to try: the perspective tells them apart
-const enough = 6; // points that tell the distance, too
+const away = [2.5, 3.5, 5, 7, 10, 14]; // distances to try; they differ in perspective
+const enough = 6; // number of points from which the distance is estimated, too
 
-/// The similarity z ↦ (a + ib) z + (x + iy) that takes points to others with the least squares, and what is left.
+/// The least-squares similarity z ↦ (a + ib) z + (x + iy) between two lists of points, and its residual.
 function similarityOf(from, to) {
   const mean = (points) => [0, 1].map((c) => points.reduce((sum, point) => sum + point[c], 0) / points.length);
   const [p, q] = [mean(from), mean(to)];
@@ -29,10 +29,11 @@ function positionOf([yaw, pitch, distance], target) {
     .multiplyScalar(distance).add(target);
 }
 
-/// \param points  on the head, in the scene; \param photo  [x, y] of each in pixels, y down
-/// \param target  that the camera looks at
-/// \return        position of the camera; similarity [a, b, x, y] of the photo's pixels with y up to the view at the
-///                distance one; error: root mean square at the head, in the scene
+/// \param points  points on the head, in the scene
+/// \param photo   [x, y] of each point in the photo, in pixels, y down
+/// \param target  the point that the camera looks at
+/// \return        position of the camera; similarity [a, b, x, y] from the photo's pixels (y up) to the image plane at
+///                distance 1; error: root mean square at the head, in scene units
 export function matchCamera(points, photo, target) {
   const from = photo.map(([x, y]) => [x, -y]);
   const at = (numbers) => {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The measurements of the face, as sliders: the program finds the weights at which the face has the wanted one.
+// Sliders for the measurements of the face: the program finds the weights that give the wanted value.
 import { post } from '../api.js';
 import { el, sliderNode } from '../dom.js';
 import { wordsOf } from '../traits.js';
 import { Newest } from './newest.js';
 import { wire, withWeights } from './recipe.js';
 
-const steps = 200; // of a slider
-const near = 0.02; // of its range: what counts as reached
+const steps = 200; // steps of a slider
+const near = 0.02; // difference that counts as reached, as a fraction of the slider's range
 
 const numberOf = ({ unit }, value) => value.toFixed(unit ? 1 : 3);
 const textOf = (trait, value) => `${numberOf(trait, value)}${trait.unit === ' degrees' ? '°' : trait.unit}`;
@@ -28,7 +28,7 @@ export class Measurements {
     });
   }
 
-  /// \param all  as the program tells them
+  /// \param all  the measurements, as in the program's answer
   show(all) {
     if (all.map(({ name }) => name).join() !== [...this.rows.keys()].join()) this.build(all);
     for (const trait of all) {

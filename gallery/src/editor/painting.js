@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Painting the regions' masks on the head: the brush, its numbers, and what the program makes of a
-// stroke. The program measures along the surface; the page tells where the brush was.
+// Painting of the regions' masks on the head: brush, options and strokes. The page sends the brush positions; the program
+// computes distances along the surface and the new masks.
 import { Mesh, MeshBasicMaterial, RingGeometry, Vector3 } from 'three';
 import { el } from '../dom.js';
 import { post, postForBinary } from '../api.js';
 import { showAddRegion, showProposeRegions } from './dialogs.js';
 
-const pause = 30; // ms between points of a stroke
+const pause = 30; // ms between two points of a stroke
 
 export class Painting {
   /// \param editor  job, view, attempt, say, refresh, setShow, masksChanged(alpha).
@@ -80,7 +80,7 @@ export class Painting {
     if (on && !this.on) this.shownBefore = this.editor.look.show;
     this.on = on;
     this.node.hidden = !on;
-    this.editor.view.worn.node.visible = !on; // it would lie before the skin
+    this.editor.view.worn.node.visible = !on; // attachments would hide the skin
     this.editor.setShow(on ? 'regions' : this.shownBefore);
     this.showRing(null);
     if (on) this.node.scrollIntoView({ block: 'nearest' });
@@ -88,7 +88,7 @@ export class Painting {
 
   get numbers() { return { radius: this.radius, strength: this.strength, falloff: this.falloff }; }
 
-  /// What the page keeps across a reload.
+  /// The state that the page keeps across a reload.
   state() {
     const numbers = Object.entries(this.numbers).map(([name, { input }]) => [name, input.value]);
     return {
@@ -112,7 +112,7 @@ export class Painting {
 
   // -- the brush --
 
-  /// Where a pixel lies on the head; nothing beside it.
+  /// The point of the head at a pixel; null beside the head.
   at(x, y) {
     const { view } = this.editor;
     this.points ??= view.read();
@@ -163,7 +163,7 @@ export class Painting {
     this.points = null;
   }
 
-  /// Space, for those who use keys: turn the head until the place is in the middle.
+  /// The space key paints at the middle of the view, for users without a pointer.
   paintMiddle() {
     const box = this.editor.view.node.getBoundingClientRect();
     this.points = null;
@@ -178,8 +178,7 @@ export class Painting {
     this.send();
   }
 
-  /// While the brush is out, Ctrl+Z takes back strokes first, then changes of regions and heads. The program keeps no
-  /// strokes to paint again.
+  /// While painting, Ctrl+Z first undoes strokes, then changes of regions and heads. Strokes cannot be redone.
   heldKeys(event) {
     const { editor } = this;
     const isOfConfig = (way) => editor.history[way].length > 0 && !editor.hasConfigOf(editor.history[way].at(-1).document);
@@ -193,7 +192,8 @@ export class Painting {
     return { z: () => (event.shiftKey ? redo() : undo()), y: redo };
   }
 
-  /// One request at a time; what is painted meanwhile goes with the next, up to where a stroke begins or is taken back.
+  /// Sends one request at a time. Points painted meanwhile are sent with the next request, up to the beginning or the
+  /// undoing of a stroke.
   async send() {
     if (this.sending || this.waiting.length === 0) return;
     const another = this.waiting.findIndex((point, i) => i > 0 && (point.begin || point.undo));
@@ -217,8 +217,8 @@ export class Painting {
     });
   }
 
-  /// The config gets these regions and is opened again with them.
-  /// \param change  {add: name}, {remove: name}, {propose: names} or nothing more than what is painted.
+  /// Writes the regions to the config, and opens the config again.
+  /// \param change  {add: name}, {remove: name}, {propose: names}, or {} for the painted masks only
   async use(change) {
     const { editor } = this;
     const label = change.add ? `region ${change.add} added` : change.remove ? `region ${change.remove} removed`
@@ -228,14 +228,14 @@ export class Painting {
       editor.history.commit({ ...editor.history.now, config_regions: regions }, label));
   }
 
-  /// Images in the layout of the textures, which a config names.
+  /// Saves the masks as images in the texture layout, which a config can name.
   async save() {
     const { files } = await post('masks/save', {});
     this.editor.say(`Saved. In the config: regions: {mask: ${files.length === 1 ? files[0] : `[${files.join(', ')}]`}}`);
   }
 }
 
-/// The panel, or nothing where the program paints no masks.
+/// The painting panel; null if the program cannot paint masks.
 export function openPainting(editor) {
   return editor.job.can_paint ? new Painting(editor) : null;
 }

@@ -6,8 +6,8 @@ import { arePictures } from './added_heads.js';
 import { matchCamera } from './match_camera.js';
 import { still } from './plane_board.js';
 
-const fewest = 4; // points on both
-const largest = 1600; // pixels of a side of the photo that the page keeps
+const fewest = 4; // smallest number of points that match a camera
+const largest = 1600; // largest side of the stored photo, in pixels
 const stored = 'crowdface photo';
 
 export class Photo {
@@ -86,13 +86,13 @@ export class Photo {
     this.tools.hidden = false;
   }
 
-  /// Until this tab is closed the photo and its points stay.
+  /// Stores the photo and its points until this tab is closed.
   keep() {
     const { mode, pairs, fit, from } = this;
     try {
       sessionStorage.setItem(stored, JSON.stringify({ source: this.image.src, opacity: this.opacity.value, mode, pairs, fit, from }));
     } catch {
-      // only a comfort
+      // without storage, the photo is lost at a reload
     }
   }
 
@@ -128,7 +128,7 @@ export class Photo {
     this.matchButton.setAttribute('aria-pressed', String(matching));
     this.again.disabled = !this.from;
     this.clear.disabled = this.pairs.length === 0;
-    // Where both lie on each other, the one that is to be clicked is seen.
+    // If photo and head overlap, show the one that is to be clicked next.
     const waits = this.pairs.at(-1)?.photo === null;
     const shares = mode !== 'behind' ? 1 : matching ? (waits ? 0.08 : 1) : Number(this.opacity.value);
     this.editor.view.node.style.opacity = shares;
@@ -182,16 +182,16 @@ export class Photo {
 
   lookAgain() { this.editor.view.restore(this.from); }
 
-  // -- where it lies --
+  // -- placement --
 
-  /// The middle of the view, and how many pixels the length one at the distance one has.
+  /// The middle of the view, and the number of pixels per unit of length at distance 1.
   frame() {
     const { clientWidth, clientHeight } = this.stage;
     const { camera } = this.editor.view;
     return { x: clientWidth / 2, y: clientHeight / 2, unit: clientHeight / 2 / Math.tan((camera.fov * Math.PI) / 360) };
   }
 
-  /// The photo's pixels in the stage: as [a, b, x, y], multiplied by a + ib and moved.
+  /// The map from the photo's pixels to the stage: [a, b, x, y] for z ↦ (a + ib) z + (x + iy).
   placement() {
     const { x, y, unit } = this.frame();
     const { naturalWidth: width, naturalHeight: height } = this.image;
@@ -203,8 +203,8 @@ export class Photo {
     return [scale, 0, x - (scale * width) / 2, y - (scale * height) / 2];
   }
 
-  /// Paints the photo as it lies on the page.
-  /// \param left  of the picture, in the window
+  /// Draws the photo at its place on the page.
+  /// \param left  left edge of the picture, in the window
   paint(context, left) {
     if (this.mode === 'off') return;
     const [a, b, x, y] = this.placement();

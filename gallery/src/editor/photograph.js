@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture of what the editor's views show.
-const backdrop = ['#83868a', '#46484c']; // of the views, from top to bottom: program_page.css
+// Makes a picture of the editor's views.
+const backdrop = ['#83868a', '#46484c']; // colours of the views' background, from top to bottom, as in program_page.css
 
 /// \param editor  stage, view, beside, photo
-/// \return        photo, face and face beside as they stand on the page, in full, as a canvas
+/// \return        a canvas with photo, face and second face as on the page, drawn in full
 export function photograph({ stage, view, beside, photo }) {
   const own = stage.getBoundingClientRect();
   const stages = [stage, beside.stage, photo.stage].map((node) => node.getBoundingClientRect());
-  const width = Math.max(...stages.map(({ right }) => right)) - own.left; // what is hidden has no box
+  const width = Math.max(...stages.map(({ right }) => right)) - own.left; // hidden stages have an empty box
   const picture = document.createElement('canvas');
   [picture.width, picture.height] = [Math.floor(view.fullRatio * width), Math.floor(view.fullRatio * own.height)];
   const context = picture.getContext('2d');

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane of Fig. 8: heads at their anchors, one controller a region, all to be dragged.
+// The weight plane (Fig. 8) with heads at their anchors and one controller per region. Heads and controllers can be
+// dragged.
 import { el, short } from '../dom.js';
 import { anchorMark, planeFrame, side } from '../plane.js';
 import { anchorsOf, headIndex, weightsOf } from './recipe.js';
 
-const finger = 14.5; // pixels: radius of what is to be taken, on a board of any size
-const letterWidth = 7.2; // pixels, of a name
-export const still = 4; // pixels: below, a press is a click
-const reach = 2; // beyond so many half-widths of the heads' place from its middle no controller stands
+const finger = 14.5; // pixels: radius of the elements that can be dragged, on a board of any size
+const letterWidth = 7.2; // mean width of a letter in a name, pixels
+export const still = 4; // pixels; a press that moves less is a click
+const reach = 2; // largest distance of a controller from the middle of the heads, in half-widths of the heads' bounding box
 
-/// A letter for each region, none twice: the first of its name that is free.
+/// A letter for each region: the first letter of its name that no other region has.
 function lettersOf(names) {
   const used = new Set();
   return new Map(names.map((name) => {
@@ -45,13 +46,13 @@ export class PlaneBoard {
     }).observe(this.svg);
   }
 
-  /// What is taken with a mouse or a finger, and names, have their size on the screen.
-  /// \param unit  a pixel of the screen, in the board's units
+  /// Sizes handles and names, which have the same size on any screen.
+  /// \param unit  size of a screen pixel, in the board's units
   sizeAnew(unit) {
     if (unit === this.unit) return;
     this.unit = unit;
     this.knobRadius = finger * unit;
-    this.ring = 1.9 * this.knobRadius; // how far controllers at one place stand from it, so that each can be taken
+    this.ring = 1.9 * this.knobRadius; // radius at which controllers with the same position are spread, so that each can be dragged
     this.headRadius = Math.min(30, Math.max(finger * unit, (0.2 * side) / Math.sqrt(this.editor.job.heads.length)));
     this.svg.style.setProperty('--unit', `${unit}px`);
     this.headNodes = this.editor.job.heads.map((head, h) => this.headNode(head, h));
@@ -63,8 +64,7 @@ export class PlaneBoard {
     this.show();
   }
 
-  /// The part of the plane that is seen; it stays while something is dragged. A controller far outside does not
-  /// make it large: it stands at the edge.
+  /// The visible part of the plane, constant during a drag. Controllers far outside are shown at its edge.
   frameAnew() {
     const { editor } = this;
     const { job, document } = editor;
@@ -75,7 +75,7 @@ export class PlaneBoard {
     this.frame = planeFrame(points);
   }
 
-  /// [low, high] corners of where controllers may be put: farther away the weights hardly change.
+  /// Corners [low, high] of the box in which controllers can be placed; farther away, weights hardly change.
   limits() {
     const anchors = anchorsOf(this.editor.job, this.editor.document.anchors);
     const ends = [0, 1].map((axis) => {
@@ -97,7 +97,7 @@ export class PlaneBoard {
       click: () => this.editor.setTarget(head.name),
     });
     node.addEventListener('pointerenter', () => {
-      if (!this.drag && this.heads.lastChild !== node) this.heads.append(node); // over those that it touches
+      if (!this.drag && this.heads.lastChild !== node) this.heads.append(node); // drawn over the heads that it overlaps
     });
     node.addEventListener('dblclick', () => this.editor.gather(head.name));
     return node;
@@ -119,7 +119,8 @@ export class PlaneBoard {
     return node;
   }
 
-  /// Where a region's controller stands: of weights by hand, in the heads' middle by these weights.
+  /// Position of a region's controller. If the region has weights instead of a position: the weighted mean of the heads'
+  /// anchors.
   placeOf(name) {
     const { job, document } = this.editor;
     const { position } = this.editor.numbersOf(name);
@@ -129,7 +130,8 @@ export class PlaneBoard {
     return [0, 1].map((axis) => weights.reduce((sum, weight, h) => sum + weight * anchors[h][axis], 0));
   }
 
-  /// The printed formula takes positions alone, and these speak of heads where the config puts them.
+  /// A copy of the document with the anchor of a head moved. With the printed normalization, anchors cannot move: recipes
+  /// then contain positions, which refer to the config's anchors.
   withAnchor(name, point) {
     const { document, job } = this.editor;
     if (job.normalization === 'printed') {
@@ -194,33 +196,34 @@ export class PlaneBoard {
     });
   }
 
-  /// Where a place of the board comes to, so many pixels of the screen away, on the plane.
+  /// The point of the plane at an offset in screen pixels from a point of the board.
   moved(start, dx, dy, frame = this.frame) {
     const inside = (value) => Math.min(Math.max(value, 4), side - 4);
     const point = frame.back([inside(start[0] + this.unit * dx), inside(start[1] + this.unit * dy)]);
     return point.map((value) => Number(value.toFixed(4)));
   }
 
-  /// The place of the plane under a pixel of the window.
+  /// The point of the plane at a pixel of the window.
   placeAt(x, y) {
     const at = new DOMPoint(x, y).matrixTransform(this.svg.getScreenCTM().inverse());
     return this.frame.back([at.x, at.y]).map((value) => Number(value.toFixed(4)));
   }
 
-  /// A drag of a region's controller from elsewhere: (dx, dy) => document, in pixels as on the board.
+  /// Begins a drag of a region's controller from outside the board.
+  /// \return  (dx, dy) => document; offsets in pixels, as on the board
   dragOf(name) {
     const { frame } = this;
     const start = frame.at(this.placeOf(name));
     return (dx, dy) => this.withPosition(name, this.moved(start, dx, dy, frame));
   }
 
-  /// One arrow: a fortieth of what is seen.
+  /// Moves by one press of an arrow key: a fortieth of the visible part.
   step() {
     const [a, b] = [this.frame.back([0, 0]), this.frame.back([side, 0])];
     return (b[0] - a[0]) / 40;
   }
 
-  // -- what stands there --
+  // -- drawing --
 
   show() {
     if (!this.drag) this.frameAnew();
@@ -228,7 +231,7 @@ export class PlaneBoard {
     this.showHandles();
   }
 
-  /// Changes nothing if the heads already stand there, because pictures in the plane take long to draw.
+  /// Changes nothing if the heads have not moved, because drawing their pictures takes long.
   showHeads() {
     const { job, document } = this.editor;
     const places = anchorsOf(job, document.anchors).map((anchor) => this.frame.at(anchor));
@@ -250,11 +253,12 @@ export class PlaneBoard {
     });
   }
 
-  /// How high a name stands in its head's mark. \param side  1 below the picture, -1 above
+  /// Vertical position of a name in its head's mark.
+  /// \param side  1 below the picture, -1 above
   nameAt(side) { return side > 0 ? this.headRadius + 11 : -(this.headRadius + 11 + 3 * this.unit); }
 
-  /// The heads whose names touch no other name and no picture; the target's name comes first, and may stand above its
-  /// picture, where controllers stand. Others show theirs when they are pointed at.
+  /// The heads whose names overlap no other name and no picture. The target's name is placed first, and may be above its
+  /// picture if controllers are below. The other heads show their names when the pointer is on them.
   headsWithRoom(places) {
     const { headRadius, unit } = this;
     const { job, document } = this.editor;
@@ -284,10 +288,10 @@ export class PlaneBoard {
       const node = this.handleNodes.get(place.name);
       const here = places.filter((other) => shares(place, other));
       let [x, y] = place.at;
-      const onHead = heads.some((head) => shares(head, place)); // whose picture is to be seen
+      const onHead = heads.some((head) => shares(head, place)); // the controller must not hide the head's picture
       if ((here.length > 1 || onHead) && this.drag?.node !== node) {
         const away = onHead ? this.headRadius + knobRadius / 2 : ring;
-        // Side by side above, where no name stands; all around where they are many.
+        // A few controllers stand side by side above the head, many all around.
         const step = Math.min(2 * Math.asin(knobRadius * 1.2 / away), (2 * Math.PI) / here.length);
         const angle = (here.indexOf(place) - (here.length - 1) / 2) * step - Math.PI / 2;
         x += away * Math.cos(angle);

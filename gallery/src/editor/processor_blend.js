@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Eq. 7 on the processor, in typed arrays: where shaders run on the processor anyway, this is
-// faster, because only what a region's change touches is computed again.
+// Eq. 7 on the processor, in typed arrays. Without a graphics card this is faster than shaders, because a change of a
+// region computes only this region's sums again.
 import { normalsOf } from '../normals.js';
 import { floatTexture, layoutOf, padded, targetPositions } from './surface.js';
 
-const block = 512; // vertices whose sums stay in the nearest cache while the fields pass over them
+const block = 512; // vertices per block; the sums of a block stay in the first-level cache while all fields are added
 
-/// The corners of triangles and the vertices whose normals they share, in ascending order.
+/// The corners of triangles and their twins, ascending.
 function verticesOf(triangles, twin) {
   const vertices = new Set(triangles);
   if (twin) for (const v of triangles) vertices.add(twin[v]);
@@ -14,8 +14,8 @@ function verticesOf(triangles, twin) {
 }
 
 export class ProcessorBlend {
-  /// \param mesh  vertices, triangles, twin, alpha (vertices by regions), perhaps draft: the triangles of a coarser mesh
-  ///              with the same vertices.
+  /// \param mesh  vertices, triangles, twin, alpha (#vertices by #regions) and, if there is one, draft: the triangles of a
+  ///              coarser mesh with the same vertices
   constructor(mesh, regions) {
     Object.assign(this, { mesh, regions, name: 'processor', heads: [] });
     this.layout = layoutOf(mesh.vertices);
@@ -55,13 +55,13 @@ export class ProcessorBlend {
     this.blendForm(this.whole, lists, shares);
   }
 
-  /// The same, only at the corners of the draft.
+  /// Blends only the vertices of the draft.
   blendDraft(lists, shares) {
     if (this.isWhole) this.keepNormals();
     this.blendForm(this.draft, lists, shares);
   }
 
-  /// The draft's own normals are those of larger triangles. What the whole mesh's have beyond them is kept.
+  /// Stores the difference between the normals of the whole mesh and those of the draft's larger triangles.
   keepNormals() {
     const { points, normals, draft: { triangles, vertices, turned } } = this;
     const fine = normals.slice();
@@ -91,7 +91,7 @@ export class ProcessorBlend {
     this.finish(form);
   }
 
-  /// Σ c_f · field_f over a region's vertices, unless it stands there already.
+  /// Computes Σ c_f · field_f at a region's vertices, unless the coefficients have not changed.
   sum(part, list) {
     const key = list.map(({ head, field, value }) => `${head} ${field} ${value}`).join(';');
     if (key === part.key) return;
@@ -115,7 +115,8 @@ export class ProcessorBlend {
     }
   }
 
-  /// Adds what the program's last face had beyond ours, measures, and shades.
+  /// Adds the stored differences (the program's last face minus its blend) to the positions; computes normals and
+  /// distances to the target.
   finish(form) {
     const { points, normals, base, moved } = this;
     const { triangles, vertices, turned } = form;
@@ -136,8 +137,7 @@ export class ProcessorBlend {
     this.normalTexture.needsUpdate = true;
   }
 
-  /// Takes the program's own face for the one blended last: that is what is shown from now on, and
-  /// what it has beyond ours is kept until the next.
+  /// Shows the program's face in place of the last blend, and stores the differences for the next blends.
   settle(positions, given) {
     const { mesh, points, normals, moved, whole } = this;
     const exact = padded(positions, this.layout);
@@ -154,7 +154,7 @@ export class ProcessorBlend {
     this.finish(whole);
   }
 
-  /// The program's own face, while heads are missing to blend one.
+  /// Shows the program's face while the heads for a blend are not loaded.
   place(positions, given) {
     this.points.set(padded(positions, this.layout));
     this.normals.set(padded(given, this.layout));
@@ -163,13 +163,13 @@ export class ProcessorBlend {
     this.normalTexture.needsUpdate = true;
   }
 
-  /// Forgets what the program's last face had: the target is another.
+  /// Clears the stored differences, because the target has changed.
   unsettle() {
     this.moved.fill(0);
     this.whole.turned.fill(0);
   }
 
-  /// The points on the screen, three numbers a vertex.
+  /// The positions that are shown, three numbers per vertex.
   read() {
     const result = new Float32Array(3 * this.mesh.vertices);
     for (let i = 0; i < result.length; i += 1) result[i] = this.points[4 * Math.floor(i / 3) + (i % 3)];

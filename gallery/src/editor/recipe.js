@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recipes as the config spells them, and what they mean: weights (Eqs. 3 and 4), shares, levels.
+// Recipes in the form of the config, and the values computed from them: weights (Eqs. 3 and 4), shares, levels.
 
-const last = 256; // of the 257 levels that the server tells, evenly spaced in the root of smoothness
+const last = 256; // index of the last of the server's 257 levels, which are evenly spaced in the square root of smoothness
 
-/// Where `value` lies between the steps of an ascending table, as a part 0 … 1 of its length.
+/// The position of `value` in an ascending table: 0 at the first entry, 1 at the last, linear between entries.
 function placeIn(table, value) {
   if (value <= table[0]) return 0;
   let low = 0;
@@ -24,19 +24,19 @@ function valueIn(table, place) {
   return table[low] + (x - low) * (table[low + 1] - table[low]);
 }
 
-/// In which of '%', 'iterations' and 'mm' a region's smoothness is written.
+/// The unit in which a region's smoothness is given: '%', 'iterations' or 'mm'.
 export function unitOf(region) {
   if (region.iterations !== undefined) return 'iterations';
   return typeof region.smoothness === 'string' ? 'mm' : '%';
 }
 
-/// The number in that unit.
+/// The smoothness in this unit.
 export function amountOf(region) {
   if (region.iterations !== undefined) return region.iterations;
   return typeof region.smoothness === 'string' ? parseFloat(region.smoothness) : 100 * region.smoothness;
 }
 
-/// The same region with another smoothness.
+/// A copy of a region with another smoothness.
 export function withAmount(region, unit, amount) {
   const { smoothness, iterations, ...rest } = region;
   if (unit === 'iterations') return { ...rest, iterations: Math.max(0, Math.round(amount)) };
@@ -44,20 +44,20 @@ export function withAmount(region, unit, amount) {
   return { ...rest, smoothness: Math.min(Math.max(amount / 100, 0), 1) };
 }
 
-/// √(L/L_max) of a region, which is what sliders and tables are even in.
+/// √(L/L_max) of a region; sliders and tables are evenly spaced in this value.
 export function levelOf(region, levels) {
   const unit = unitOf(region);
   if (unit === '%') return Math.sqrt(region.smoothness);
   return placeIn(unit === 'mm' ? levels.size_mm : levels.iterations, amountOf(region));
 }
 
-/// What a level is called in a unit.
+/// Formats a level in a unit.
 export function amountAt(level, unit, levels) {
   if (unit === '%') return 100 * level * level;
   return valueIn(unit === 'mm' ? levels.size_mm : levels.iterations, level);
 }
 
-/// The anchor of each head: those that were moved by hand, and the config's.
+/// The anchor of each head: the position to which the user moved it, else the config's.
 export function anchorsOf(job, moved) {
   return job.heads.map((head) => moved?.[head.name] ?? head.anchor);
 }
@@ -83,13 +83,13 @@ export function weightsAt(job, anchors, target, sources, position) {
   return weights;
 }
 
-/// The names of a region's bands, coarse to fine; without bands one of no name.
+/// The names of a region's bands from coarse to fine; without bands, one empty name.
 export function bandNames(job) {
   return job.bands?.length > 0 ? job.bands.map(({ name }) => name) : [''];
 }
 
-/// The numbers of a band of a region. The first one's are the region's own; so are those of a band that
-/// has none, but for where it begins.
+/// The values of a band of a region. The first band, and bands without values, have the region's values, except for the
+/// smoothness at which they begin.
 export function bandOf(job, recipe, name, band) {
   const { bands, ...own } = recipe.regions[name];
   const at = bandNames(job).indexOf(band);
@@ -98,7 +98,7 @@ export function bandOf(job, recipe, name, band) {
   return bands?.[band] ?? { ...rest, smoothness: job.bands[at].smoothness[regionIndex(job, name)] };
 }
 
-/// A region with each band's numbers changed; all bands have their own then.
+/// A copy of a region with the values of all bands changed; then all bands have values.
 function withBands(job, recipe, name, change) {
   const of = (band) => change(bandOf(job, recipe, name, band), band);
   const [first, ...finer] = bandNames(job);
@@ -106,7 +106,7 @@ function withBands(job, recipe, name, change) {
   return { ...of(first), bands: Object.fromEntries(finer.map((band) => [band, of(band)])) };
 }
 
-/// A region with other numbers of one band.
+/// A copy of a region with other values of one band.
 export function withBand(job, recipe, name, band, numbers) {
   return withBands(job, recipe, name, (old, at) => (at === band ? numbers : old));
 }
@@ -116,13 +116,13 @@ function beginningLike(other, { smoothness, iterations, ...rest }) {
   return { ...rest, smoothness: other.smoothness };
 }
 
-/// The recipe with bands of another, [region, band] each; coarser ones do not begin below those
+/// A recipe with some bands [region, band] taken from another recipe; coarser bands then do not begin below them
 /// (cast/band_order.h, take_over).
 export function takeOver(job, parts, from, recipe) {
   const regions = Object.fromEntries(job.regions.map(({ name }) => {
     const isTaken = (band) => parts.some(([region, part]) => region === name && part === band);
     const numbers = new Map();
-    let finer = null; // that was taken
+    let finer = null; // the next finer band that was taken
     for (const band of bandNames(job).reverse()) {
       let own = bandOf(job, isTaken(band) ? from : recipe, name, band);
       if (isTaken(band)) finer = own;
@@ -148,7 +148,7 @@ export function headIndex(job, name) {
   return job.heads.findIndex((head) => head.name === name);
 }
 
-/// How much each head lends to a band of a region, one a head.
+/// The weight of each head in a band of a region.
 export function weightsOf(job, document, name, band = bandNames(job)[0]) {
   const { recipe } = document;
   const numbers = bandOf(job, recipe, name, band);
@@ -161,19 +161,19 @@ export function weightsOf(job, document, name, band = bandNames(job)[0]) {
   return weights.map((weight) => (sum > 0 ? weight / sum : 0));
 }
 
-/// Weights by the heads' names, those above zero.
+/// The weights above zero, by names of heads.
 function named(job, weights) {
   return Object.fromEntries(weights.map((weight, h) => [job.heads[h].name, weight])
     .filter(([, weight]) => weight > 0));
 }
 
-/// τ_h of the target, one a head: of a child of two heads those of both.
+/// The weights τ_h of the target, one per head; a child of two heads has the weights of both.
 export function targetShares(job, recipe) {
   return job.heads.map((head) => (recipe.mixture
     ? recipe.mixture[head.name] ?? 0 : Number(head.name === recipe.target)));
 }
 
-/// What a recipe says of the face as a whole, beside its id and regions.
+/// The values of a recipe for the whole face, without id and regions.
 export function wholeFace({ target, mixture, colours, asymmetry, mirrored }) {
   return {
     target,
@@ -184,8 +184,8 @@ export function wholeFace({ target, mixture, colours, asymmetry, mirrored }) {
   };
 }
 
-/// Which heads a region smooths to which level: per band {level, shares}, one share a head
-/// (blend/recipe.h, level_shares). No band begins above the one before it.
+/// The levels to which a region smooths heads: per band {level, shares}, one share per head (blend/recipe.h,
+/// level_shares). No band begins above the band before it.
 function levelShares(job, document, name) {
   let coarser = targetShares(job, document.recipe);
   let most = 1;
@@ -199,10 +199,9 @@ function levelShares(job, document, name) {
   });
 }
 
-/// What is multiplied with which field: of each region the numbers that are not zero,
-/// Σ_L s_kLh φ_hp(L) (blend/crowd_blender.h).
-/// \param heads  per head {rank, functions: 257 rows of rank}; those not loaded yet are undefined.
-/// \return       per region a list of {head, field, value}.
+/// The nonzero coefficients of the fields: per region Σ_L s_kLh φ_hp(L) (blend/crowd_blender.h).
+/// \param heads  per head {rank, functions: 257 rows of `rank` numbers}; undefined while a head is not loaded
+/// \return       per region a list of {head, field, value}
 export function coefficients(job, document, heads) {
   return job.regions.map(({ name }) => {
     const levels = levelShares(job, document, name);
@@ -226,8 +225,8 @@ export function coefficients(job, document, heads) {
   });
 }
 
-/// The recipe as the program reads it. Where heads were moved on the page's plane a position would
-/// mean something else to the program, so that the weights themselves are told.
+/// The recipe in the form that the program reads. If heads were moved on the plane, it contains weights instead of
+/// positions, because positions refer to the config's anchors.
 export function wire(job, document) {
   const { recipe, anchors } = document;
   const moved = Object.keys(anchors ?? {}).length > 0;
@@ -243,8 +242,8 @@ export function wire(job, document) {
   return { id: recipe.id, ...wholeFace(recipe), regions };
 }
 
-/// The face with the weights that changed from one recipe to another, as the program told both; what did not change stays
-/// as it is, places on the plane among it.
+/// A face with the weights that differ between two recipes of the program; everything else, such as positions on the
+/// plane, stays the same.
 export function withWeights(job, document, before, after) {
   const regions = Object.fromEntries(job.regions.map(({ name }) => [name, withBands(job, document.recipe, name, (numbers, band) => {
     const { weights } = bandOf(job, after, name, band);
@@ -255,13 +254,13 @@ export function withWeights(job, document, before, after) {
   return { ...document, recipe: { ...document.recipe, regions } };
 }
 
-/// The same face with heads where they were moved to: positions that speak of other places become weights.
+/// The same face after heads were moved: positions that refer to the former anchors become weights.
 export function underAnchors(job, document, anchors) {
   if (JSON.stringify(document.anchors ?? {}) === JSON.stringify(anchors ?? {})) return document;
   return { ...asWeights(job, document), anchors };
 }
 
-/// The same face with weights in place of positions, where the program takes them.
+/// The same face with weights instead of positions, where recipes allow weights.
 export function asWeights(job, document) {
   if (job.normalization === 'printed') return document;
   const { recipe } = document;
@@ -272,8 +271,9 @@ export function asWeights(job, document) {
   return { ...document, recipe: { ...recipe, regions } };
 }
 
-/// A part `t` of the way from one recipe to another. Positions stay positions where both have one;
-/// the target is that of the nearer one, as a face stands on one head.
+/// Interpolates between two recipes. Regions for which both have positions keep positions; the target is that of the
+/// nearer recipe.
+/// \param t  0: the first recipe, 1: the second
 export function between(job, from, to, t) {
   const near = t < 0.5 ? from : to;
   const mix = (a, b) => a + t * (b - a);
@@ -300,7 +300,7 @@ export function between(job, from, to, t) {
   };
 }
 
-/// A head unblended: every controller on it.
+/// The recipe of an unblended head: all controllers lie on it.
 export function headAlone(job, name, id) {
   const head = job.heads[headIndex(job, name)];
   return {

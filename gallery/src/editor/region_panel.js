@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers of each region: sliders, and the same values typed.
+// The values of each region, as sliders and as number fields.
 import { el, short, sliderNode } from '../dom.js';
 import { amountAt, amountOf, bandNames, levelOf, unitOf, withAmount } from './recipe.js';
 
@@ -20,14 +20,14 @@ export class RegionPanel {
     this.show();
   }
 
-  /// A slider that previews while it is moved and is a step when it is let go.
+  /// A slider that previews while it is dragged, and makes a step when it is released.
   slider(label, options, change) {
     return sliderNode({ 'aria-label': label, ...options }, (value) => this.editor.preview(change(value)),
       (value) => this.editor.commit(change(value), label, { joins: true }));
   }
 
-  /// A number to type. What cannot be read is put back, and what is limited says so.
-  /// \param limits  () => [least, most]
+  /// A number field. Unreadable input is replaced by the former value; clamped input is reported.
+  /// \param limits  () => [smallest, largest]
   number(label, change, limits) {
     const node = el('input', {
       type: 'number', step: 'any', 'aria-label': label,
@@ -91,7 +91,7 @@ export class RegionPanel {
     return card;
   }
 
-  /// \param typed  the field whose number was just typed: it shows what came of it.
+  /// \param typed  the field that the user has just edited: it shows the resulting value
   show(typed = null) {
     const { editor } = this;
     for (const [band, button] of this.bands) {

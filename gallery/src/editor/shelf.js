@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// States that are kept to compare with, faces to pick from, and the way between two of them.
+// Kept states for comparison, proposals of faces, and interpolation between two faces.
 import { el, short } from '../dom.js';
 import { post } from '../api.js';
 import { between, headAlone, takeOver, underAnchors } from './recipe.js';
 
 const mostKept = 12;
-const mostOffered = 400; // faces of the crowd to go between; others are opened and kept first
+const mostOffered = 400; // largest number of the crowd's faces in the menus; other faces must be opened and kept first
 
 export class Shelf {
   /// \param editor  job, document, preview, commit(document, label), pictureOf(document),
