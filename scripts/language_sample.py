@@ -14,12 +14,13 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
 def sources(*endings):
-    return sorted(p for p in (ROOT / "src").rglob("*") if p.suffix in endings)
+    folders = [ROOT / "src", ROOT / "gallery/src"]
+    return sorted(p for folder in folders for p in folder.rglob("*") if p.suffix in endings)
 
 
 def comments():
     """Comments with the code that they describe: the first line below them, or the line that they end."""
-    for path in sources(".h", ".cpp"):
+    for path in sources(".h", ".cpp", ".js"):
         block, code_before = [], ""
         for line in path.read_text().split("\n"):
             text = line.strip()
