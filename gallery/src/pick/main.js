@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The page of `crowdface wrap --pick`: places that are found on template and scan, name by name.
+// The page of `crowdface wrap --pick`: landmarks are picked on template and scan, name by name.
 import { getBinary, getJson, post, put } from '../api.js';
 import { openDialog, showKeys } from '../dialog.js';
 import { el } from '../dom.js';
@@ -26,8 +26,8 @@ class Picker extends ProgramPage {
     this.history.listeners.push(() => this.stepped());
     this.saved = this.wire();
     this.suggested = nothing;
-    this.confirmed = new Set(); // landmarks that lie far from the others, and are right
-    this.passing = null; // a document that is shown while a place is dragged
+    this.confirmed = new Set(); // names of outliers that the user has confirmed
+    this.passing = null; // the document that is shown while a landmark is dragged
     this.asked = 0;
     this.linked = false;
     this.active = (landmarks.find((one) => !one.template || !one.scan) ?? landmarks[0]).name;
@@ -35,7 +35,7 @@ class Picker extends ProgramPage {
       template: new MeshView('template', meshes[0], job.template.stands, '#c9a58f'),
       scan: new MeshView('scan', meshes[1], job.scan.stands, '#a9adb1'),
     };
-    this.last = this.views.scan; // the one that keys speak of
+    this.last = this.views.scan; // the view that keys act on
     this.build();
     for (const side of sides) this.listen(side);
     linkViews(Object.values(this.views), () => this.linked);
@@ -93,9 +93,9 @@ class Picker extends ProgramPage {
     view.node.addEventListener('focus', () => { this.last = view; });
   }
 
-  // -- what is picked --
+  // -- picking --
 
-  /// {landmarks: [{name, template, scan}]}, never changed in place.
+  /// The document: {landmarks: [{name, template, scan}]}, never changed in place.
   get document() {
     return this.passing ?? this.history.now;
   }
@@ -138,7 +138,8 @@ class Picker extends ProgramPage {
     return (await post('pick', ray)).place;
   }
 
-  /// A click: the chosen name is there. What its shape tells of the template is taken along.
+  /// Handles a click: picks the selected landmark there. A click on the scan also accepts the point suggested on the
+  /// template.
   async pick(side, ray) {
     const { active: name } = this;
     const place = await this.ask(ray);
@@ -152,7 +153,7 @@ class Picker extends ProgramPage {
     this.goOn(name);
   }
 
-  /// Takes what is suggested for the chosen name.
+  /// Accepts the suggested points of the selected landmark.
   accept() {
     const { name, template, scan } = this.landmark();
     const places = {};
@@ -166,7 +167,7 @@ class Picker extends ProgramPage {
     this.goOn(name);
   }
 
-  /// The next name that is not picked on both, once this one is.
+  /// If the selected landmark is picked on both meshes, selects the next one that is not.
   goOn(name) {
     const { landmarks } = this.history.now;
     const at = landmarks.findIndex((one) => one.name === name);
@@ -205,8 +206,8 @@ class Picker extends ProgramPage {
     this.choose(landmarks[(at + way + landmarks.length) % landmarks.length].name);
   }
 
-  /// A picked mark is chosen, and dragged as long as the button is down. (Rings, which are only suggested, let the
-  /// mouse through to the surface.)
+  /// Selects a picked landmark, and drags it while the button is down. Rings, which show suggestions, do not receive
+  /// pointer events.
   pressMark(side, name, event) {
     this.choose(name);
     const view = this.views[side];
@@ -214,7 +215,7 @@ class Picker extends ProgramPage {
     let wanted = null;
     let moved = null;
     let asking = null;
-    const look = async () => { // one request at a time, always of the newest place
+    const look = async () => { // one request at a time, always for the newest point
       while (wanted) {
         const ray = wanted;
         wanted = null;
@@ -243,9 +244,9 @@ class Picker extends ProgramPage {
     addEventListener('pointercancel', up);
   }
 
-  // -- what the program says of it --
+  // -- answers of the program --
 
-  /// As the program reads and writes it.
+  /// The landmarks in the program's format.
   wire() {
     return this.history.now.landmarks.filter(({ template, scan }) => template || scan).map(({ name, template, scan }) => ({
       name, template: template?.vertex ?? null, scan: scan ? scan.vertex ?? scan.point : null,
@@ -267,8 +268,7 @@ class Picker extends ProgramPage {
     return JSON.stringify(this.wire()) !== JSON.stringify(this.saved);
   }
 
-  /// Landmarks that lie far from where the others put them, left and right swapped perhaps, are saved once they are
-  /// confirmed.
+  /// Saves the landmarks. Outliers, such as a swapped left and right, must be confirmed first.
   async save() {
     const landmarks = this.wire();
     const far = landmarks.filter(({ name, template, scan }) =>
@@ -284,7 +284,7 @@ class Picker extends ProgramPage {
     this.say(`Saved: ${file}, ${pairs} pairs${pairs < fewest ? `; wrapping takes at least ${fewest}` : ''}`);
   }
 
-  /// \param done  is called when the question is answered
+  /// \param done  called when the question is answered
   confirmOutliers(names, done) {
     const dialog = openDialog('Far from the others',
       el('ul', {}, names.map((name) => el('li', { class: 'outlier' }, `${name}: ${this.suggested.residuals[name].mm.toFixed(1)} mm`))),
@@ -301,7 +301,7 @@ class Picker extends ProgramPage {
     dialog.addEventListener('close', done);
   }
 
-  /// Another scan of the folder, this one saved.
+  /// Saves this scan's landmarks, and opens another scan of the folder.
   async open(scan) {
     if (!this.job.scans[scan]) return;
     if (this.isChanged() && await this.save() === false) return;
@@ -309,7 +309,7 @@ class Picker extends ProgramPage {
     location.reload();
   }
 
-  // -- what is shown --
+  // -- display --
 
   align() {
     if (this.suggested.pose) this.views.scan.alignTo(this.views.template, this.suggested.pose);

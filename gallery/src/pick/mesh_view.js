@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A mesh in 3D with named places on it. What is pointed at, the program finds on the whole mesh: this one has
-// fewer triangles.
+// A 3D view of a reduced mesh with named landmarks. The program finds the point at the pointer on the whole mesh.
 import {
   BufferAttribute, BufferGeometry, Color, Matrix4, Mesh, Raycaster, Vector2, Vector3,
 } from 'three';
@@ -8,13 +7,13 @@ import { el } from '../dom.js';
 import { hitTriangle } from '../hit.js';
 import { linearColours, skinMaterial, Stage } from '../stage.js';
 
-const hides = 0.004; // of the distance: what lies deeper behind the surface is hidden
-const still = 4; // pixels that a hand moves as it clicks
+const hides = 0.004; // a landmark is hidden if it lies deeper than this behind the surface, as a fraction of its distance
+const still = 4; // pixels; a press that moves less is a click
 
 export class MeshView extends Stage {
   /// \param kind    'template' or 'scan'
-  /// \param mesh    the program's preview
-  /// \param stands  {up, front}
+  /// \param mesh    the reduced mesh from the program
+  /// \param stands  {up, front}: axes of the mesh
   constructor(kind, mesh, stands, colour) {
     super({ pan: true });
     Object.assign(this, { kind, mesh, stands, markers: new Map() });
@@ -43,9 +42,9 @@ export class MeshView extends Stage {
     this.stand({ ...stands, box: [this.mesh.head.low, this.mesh.head.high] });
   }
 
-  /// Puts the mesh where another one stands.
-  /// \param to   the other view
-  /// \param pose of the other mesh on this one: scale, rotation, translation
+  /// Moves the mesh to the place of another view's mesh.
+  /// \param to    the other view
+  /// \param pose  the similarity from the other mesh to this one: scale, rotation, translation
   alignTo(to, { scale, rotation, translation }) {
     const move = new Matrix4().set(
       ...rotation[0].map((x) => scale * x), translation[0], ...rotation[1].map((x) => scale * x), translation[1],
@@ -66,7 +65,7 @@ export class MeshView extends Stage {
     this.draw();
   }
 
-  /// From now on the standard views see from here what they call the front.
+  /// Makes the present direction the front of the standard views.
   takeAsFront() {
     const back = new Matrix4().extractRotation(this.camera.matrixWorld).invert();
     const away = this.camera.position.distanceTo(this.controls.target);
@@ -78,7 +77,7 @@ export class MeshView extends Stage {
     this.draw();
   }
 
-  /// The ray under a place of the window, in the file's own coordinates.
+  /// The ray at a pixel of the window, in the coordinates of the mesh file.
   ray(x, y) {
     const box = this.node.getBoundingClientRect();
     this.camera.updateMatrixWorld();
@@ -101,14 +100,14 @@ export class MeshView extends Stage {
     this.onpick?.(this.ray(event.clientX, event.clientY));
   }
 
-  /// Where a place stands in the view, in pixels, and whether it is before the camera.
+  /// The pixel at which a point is visible, and whether the point lies in front of the camera.
   project({ point }) {
     const at = new Vector3(...point).sub(this.middle).applyMatrix4(this.group.matrix).project(this.camera);
     const { clientWidth, clientHeight } = this.node;
     return { x: (at.x + 1) / 2 * clientWidth, y: (1 - at.y) / 2 * clientHeight, ahead: at.z < 1 };
   }
 
-  /// Once nothing moves any more, marks that the mesh hides are dimmed.
+  /// When nothing moves any more, dims the landmarks that the mesh hides.
   dimHidden() {
     const camera = this.camera.position.clone().applyMatrix4(this.group.matrix.clone().invert());
     const enough = hides * camera.distanceTo(new Vector3(...this.mesh.head.low).add(new Vector3(...this.mesh.head.high)).divideScalar(2));
@@ -134,7 +133,7 @@ export class MeshView extends Stage {
       const { node } = this.markers.get(entry.name);
       const behind = node.classList.contains('behind') ? 'behind' : '';
       node.setAttribute('class', ['mark', entry.kind, entry.active ? 'active' : '', entry.outlier ? 'outlier' : '', behind].join(' '));
-      if (entry.active) this.marks.append(node); // before the others
+      if (entry.active) this.marks.append(node); // drawn over the others
     }
     this.place();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The names, and how far each has been picked.
+// The list of landmarks, and whether each is picked on template and scan.
 import { el } from '../dom.js';
 
 export class NameList {
