@@ -65,7 +65,8 @@ void add_body(const fs::path& folder, const SyntheticHeads& heads, const Synthet
   if (skins == nullptr) return;
   files.push_back(text_file(folder / library, "newmtl skin\nKd 1 1 1\nmap_Kd body.png\n"));
   files.push_back({folder / "body.png", [skins, seed] {
-                     return encode_png(skins->size(), skins->size(), 3, skins->body_albedo(seed));
+                     return encode_png(skins->body_size(), skins->body_size(), 3,
+                                       skins->body_albedo(seed));
                    }});
 }
 

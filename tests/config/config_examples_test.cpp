@@ -29,7 +29,7 @@ TEST_F(ExampleConfigs, AllAreReadWithStandIns) {
         "faces: {tags: {synth_01: [female, old, light_skin], synth_02: [male, young, dark_skin],\n"
         "               synth_03: [female], synth_04: [male, old]}}");
     touch(concat(heads, "/attachments/attachments.yaml"), "attachments: {items: []}");
-    touch(concat(heads, "/body/body.obj"));
+    for (const char* body : {"/body/body.obj", "/body/body.png"}) touch(concat(heads, body));
   }
   touch("heads/ict/ict_bands.1001.png");
   touch("heads/makehuman/makehuman_bands.png");

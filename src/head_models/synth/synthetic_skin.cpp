@@ -61,8 +61,8 @@ std::vector<std::uint8_t> SyntheticSkins::body_albedo(std::uint64_t seed) const 
   const std::uint64_t youngest = *std::ranges::min_element(
       kFirstHeads, {}, [&](std::uint64_t i) { return synth::random_person(seed, i).age_years; });
   const synth::SkinPaint paint(seed, youngest, scalp_hair_);
-  const std::size_t side = atlas_.side();
-  std::vector<std::uint8_t> bytes(3 * atlas_.size());
+  const auto side = static_cast<std::size_t>(body_size());
+  std::vector<std::uint8_t> bytes(3 * side * side);
   synth::for_each_texel(side, [&](std::size_t i) {
     const std::size_t row = i / side, column = i % side;
     const double u = (static_cast<double>(column) + 0.5) / static_cast<double>(side);

@@ -21,6 +21,9 @@ class SyntheticSkins {
 
   /// Returns the width and height of the textures in texels.
   int size() const { return static_cast<int>(atlas_.side()); }
+  /// Returns the width and height of the body's texture in texels: half of size(), because bodies
+  /// are seen from farther away than faces.
+  int body_size() const { return size() / 2; }
   /// Returns the albedo (sRGB) of head `index` of a seed, for the texture coordinates of
   /// SyntheticHeads: size × size × 3 bytes, row by row, first row at v = 1. The bytes are the same
   /// on every machine.
@@ -31,7 +34,8 @@ class SyntheticSkins {
   std::vector<std::uint8_t> normals(std::uint64_t seed, std::uint64_t index, double edge_cm) const;
   /// Returns the albedo of the body with the skin colour of the youngest of a seed's first five
   /// heads, because the skin of young people is the most even. The albedo is made for the texture
-  /// coordinates of SyntheticHeads::body(), in the layout of albedo().
+  /// coordinates of SyntheticHeads::body(): body_size() × body_size() × 3 bytes, first row at
+  /// v = 1.
   std::vector<std::uint8_t> body_albedo(std::uint64_t seed) const;
   /// Returns the roughness: size × size bytes, first row at v = 1.
   std::vector<std::uint8_t> roughness(std::uint64_t seed, std::uint64_t index) const;
