@@ -32,7 +32,7 @@ function facesOf(data, heads) {
   }));
 }
 
-/// The subfolder with the files of a face, computed from the number at the end of the face's id, as in the program.
+/// The name of the subfolder with the files of a face. The number at the end of the face's id determines it.
 export function folderOf(id, facesPerFolder) {
   const number = Number(id.match(/\d{0,15}$/)[0] || '0');
   return `${String(Math.floor(number / facesPerFolder)).padStart(3, '0')}/`;

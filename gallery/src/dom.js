@@ -45,7 +45,8 @@ export function short(value, digits = 2) {
 
 const loading = new Map();
 
-/// Loads a classic script once. Pages opened from disk read their data this way.
+/// Loads a script that is not a module, once. Pages opened from disk read their data this way, because browsers load no
+/// modules from disk.
 export function loadScript(path) {
   if (!loading.has(path)) {
     loading.set(path, new Promise((resolve, reject) => {

@@ -204,6 +204,35 @@ TEST_F(NeckColour, PicturesShowTheBodyInTheFacesColour) {
             testing::read_text(folder_ / "shown/meshes/mob_0002.obj"));
 }
 
+/// Number of vertices of the reduced mesh in a crowd's gallery.
+int gallery_vertices(const fs::path& crowd) {
+  const std::string script = testing::read_text(crowd / "gallery/data/mesh.js");
+  constexpr std::string_view kKey = "\"vertices\":";
+  return std::stoi(script.substr(script.find(kKey) + kKey.size()));
+}
+
+TEST_F(NeckColour, TheGallerySplitsNoBodyThatHasNoTexture) {
+  // If each polygon of the body had texture coordinates of its own, its vertices would be split, and
+  // the reduction of the mesh could remove triangles of the face only.
+  paint_heads();
+  paint_body(folder_, body_);
+  const auto crowd = [&](const std::string& neck, const std::string& name) {
+    const fs::path config = folder_.write(
+        concat(name, ".yaml"),
+        concat("schema: 1\ncrowd: {name: mob, count: 0}\n",
+               "faces: {directory: heads, units: cm}\nneck: ", neck, '\n', kThreeRecipes,
+               "output: {directory: ", name, ", meshes: [], contact_sheet: {cell: 32}}\n"));
+    generate(config, {}, {folder_ / "cache", Replace::kRefuse, false});
+    return folder_ / name;
+  };
+  const fs::path textured =
+      crowd("{body: body.obj, body_texture: body.png, show_body: true}", "textured");
+  const fs::path plain = crowd("{body: body.obj, show_body: true}", "plain");
+  EXPECT_LE(gallery_vertices(plain), gallery_vertices(textured));
+  const std::string face = testing::read_text(plain / "gallery/data/faces/a.js");
+  EXPECT_NE(face.find("\"colours\":"), std::string::npos) << "the body has the face's colour";
+}
+
 /// The largest change of light from one row to the next at the seam, in the middle of a picture.
 /// \param below  the picture whose lowest rows, which show the body, are used
 double largest_step(const Image& image, const Image& below) {

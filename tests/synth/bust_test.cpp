@@ -2,6 +2,7 @@
 #include "head_models/synth/bust.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -49,22 +50,26 @@ TEST(Bust, BeginsAtTheRimOfTheAverageHead) {
   }
 }
 
-TEST(Bust, HasANotchBetweenTheCollarbones) {
-  // The largest z of the bust's front at the height of the notch, in the middle and beside it. On
-  // a bust without collarbones, the middle would be in front.
-  constexpr double kNotch = -21.8;  // height in cm
-  double middle = -100, beside = -100;
+/// The largest z of the bust's front near a point (x, y) of the front view, cm.
+double front_at(double x, double y) {
+  double z = -100;
   constexpr int kSide = 600;
   for (int i = 0; i < kSide * kSide; ++i) {  // the front half of the texture
     const int row = i / kSide, column = i % kSide;
     const Eigen::RowVector2d uv(static_cast<double>(column) / kSide, 0.5 * row / kSide);
     const Eigen::Vector3d point = synth::bust_point(uv);
-    if (std::abs(point.y() - kNotch) > 0.1) continue;
-    if (std::abs(point.x()) < 0.2) middle = std::max(middle, point.z());
-    if (std::abs(std::abs(point.x()) - 2.2) < 0.2) beside = std::max(beside, point.z());
+    if (std::hypot(std::abs(point.x()) - x, point.y() - y) < 0.15) z = std::max(z, point.z());
   }
-  EXPECT_GT(middle, 0);
-  EXPECT_LT(middle, beside - 0.1);
+  return z;
+}
+
+TEST(Bust, HasCollarbonesWithANotchBetween) {
+  // The collarbone lies more than 4 mm in front of the mean of two points above and below it.
+  const double bone = front_at(5, -21.2);
+  EXPECT_GT(bone - (front_at(5, -20) + front_at(5, -22.4)) / 2, 0.4);
+  // Without a notch, z rises outwards from the middle more and more quickly.
+  const double middle = front_at(0, -21.8), beside = front_at(2.2, -21.8);
+  EXPECT_GT(beside - middle, front_at(4.4, -21.8) - beside);
 }
 
 TEST(Bust, IsASmoothSurfaceThatFacesOutward) {

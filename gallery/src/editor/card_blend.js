@@ -85,7 +85,7 @@ function pairs(values, width) {
   return texture;
 }
 
-/// Whether the data of these heads fit into textures of this graphics card.
+/// Whether the graphics card has textures large enough for the data of these heads.
 export function fitsOnCard(renderer, regions, heads) {
   const gl = renderer.getContext();
   const layers = heads.reduce((sum, head) => sum + head.rank, 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the triangles that meet at each vertex.
+// Lists, for each vertex of a mesh, the triangles around it.
 
 /// \param triangles  three vertices per triangle
 /// \param twin       per vertex: the first vertex at the same position. Vertices that a texture seam splits have all

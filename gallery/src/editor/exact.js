@@ -27,14 +27,14 @@ export class Exact {
 
   /// \param document  the document on the page
   /// \param asked     the request for its face
-  /// \param wait      milliseconds without another call after which the request is sent
-  ask(document, asked, wait = rest) {
+  /// \param isFinal   whether to send the request at once; otherwise it is sent after a time without another call
+  ask(document, asked, isFinal = false) {
     clearTimeout(this.timer);
     this.running?.abort();
     this.running = null;
     this.waiting(true);
-    if (wait === 0) this.send(document, asked); // before the page draws again
-    else this.timer = setTimeout(() => this.send(document, asked), wait);
+    if (isFinal) this.send(document, asked);
+    else this.timer = setTimeout(() => this.send(document, asked), rest);
   }
 
   async send(document, asked) {

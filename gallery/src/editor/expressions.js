@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sliders for the config's expressions. The weights stay the same from face to face; meshes are saved neutral.
+// Sliders for the config's expressions. Another face keeps the weights. Saved meshes show the neutral face.
 import { el, sliderNode } from '../dom.js';
 
 export class Expressions {

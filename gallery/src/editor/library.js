@@ -84,7 +84,7 @@ export class Library {
 
   keyOf({ of, name }) { return `${of} ${name}`; }
 
-  /// Makes pictures of attachments on the present face, one at a time; waits while something is being dragged.
+  /// Makes a picture of the present face with each attachment, one after another. Waits while the user drags something.
   async takePictures() {
     const { shelf } = this;
     for (const item of this.shelves.get(shelf) ?? []) {

@@ -66,7 +66,7 @@ class Editor extends ProgramPage {
       });
     }
     this.passing = null; // a document that is shown while something is dragged
-    this.isReleased = false; // whether a drag has just ended: its face is asked for at once
+    this.isReleased = false; // whether a drag has ended since the last blend: its face is requested at once
     this.comparing = null; // which kept state is shown
     this.comparedWith = this.kept.length - 1;
     this.heads = [];
@@ -271,8 +271,9 @@ class Editor extends ProgramPage {
   }
 
   blendNow() {
-    const { document } = this;
-    this.askExact(document);
+    const { document, isReleased } = this;
+    this.isReleased = false;
+    this.askExact(document, isReleased);
     const shares = targetShares(this.job, document.recipe);
     const isMissing = shares.some((share, h) => share !== 0 && !this.heads[h]); // it comes with the head
     if (isMissing || (!this.ready && this.exactOf === document)) return;
@@ -284,13 +285,13 @@ class Editor extends ProgramPage {
       this.showTexture();
     }
     this.view.setMoving(this.passing !== null || this.exactOf !== document);
-    if (this.isReleased) this.view.hold();
-    this.isReleased = false;
+    if (isReleased) this.view.hold();
     this.view.blend(...this.coefficientsOf(document), isOther && this.exactFaceOf === document ? this.exactFace : null);
   }
 
   /// Requests the program's face, unless the page shows it or has requested it.
-  askExact(document) {
+  /// \param isReleased  whether a drag has just ended: the face and its textures are then requested at once
+  askExact(document, isReleased) {
     const asked = JSON.stringify([this.look.wears, this.look.expression, this.masksTurn, this.ready]);
     if (this.exactOf === document) return;
     this.exactOf = null;
@@ -299,8 +300,8 @@ class Editor extends ProgramPage {
     if (!this.view.draft) this.view.worn.node.visible = false;
     const request = this.faceRequest(document);
     if (this.passing) this.measures.ask({ recipe: request.recipe, face: document.face });
-    this.exact.ask(document, { ...request, measure: Boolean(this.ready) }, this.isReleased ? 0 : undefined);
-    if (!this.passing) this.askSkin(document);
+    this.exact.ask(document, { ...request, measure: Boolean(this.ready) }, isReleased);
+    if (isReleased) this.askSkin(document);
     clearTimeout(this.holding);
     this.holding = setTimeout(() => this.view.setMoving(this.passing !== null), patient);
   }
@@ -543,7 +544,7 @@ class Editor extends ProgramPage {
     return { recipe: { id: told.id, ...wholeFace(told), regions }, anchors: {}, ...(face ? { face } : {}) };
   }
 
-  /// Converts a face of the crowd to a document with a new name.
+  /// Converts a face of the crowd to a document. The copy's id is new.
   openedFace(name) {
     const face = this.job.crowd.faces.find((entry) => entry.id === name);
     return this.fromWire({ ...face, id: `${name}_edited` }, name);
@@ -560,12 +561,13 @@ class Editor extends ProgramPage {
     }
   }
 
-  /// A face of the crowd, as Review takes it.
+  /// A face of the crowd in the form that Review's functions take.
   reviewedFace(name) {
     return this.reviewedCrowd?.byId.get(name) ?? null;
   }
 
-  /// Opens the face before or after the open one.
+  /// Opens another face of the crowd.
+  /// \param by  1: the next face, −1: the previous face
   walk(by) {
     const faces = this.job.crowd?.faces ?? [];
     if (faces.length === 0) return;

@@ -130,8 +130,8 @@ export class PlaneBoard {
     return [0, 1].map((axis) => weights.reduce((sum, weight, h) => sum + weight * anchors[h][axis], 0));
   }
 
-  /// A copy of the document with the anchor of a head moved. With the printed normalization, anchors cannot move: recipes
-  /// then contain positions, which refer to the config's anchors.
+  /// Moves the anchor of a head, and returns the changed document. With the normalization `printed`, recipes contain
+  /// positions, which refer to the config's anchors; so anchors cannot be moved, and the document stays as it is.
   withAnchor(name, point) {
     const { document, job } = this.editor;
     if (job.normalization === 'printed') {

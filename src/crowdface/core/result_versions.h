@@ -46,6 +46,6 @@ inline constexpr int kLevelsVersion = 1;
 /// Version of the blended textures of faces.
 inline constexpr int kTextureVersion = 4;
 /// Version of the contact sheets and galleries made from rendered images.
-inline constexpr int kSheetVersion = 17;
+inline constexpr int kSheetVersion = 18;
 
 }  // namespace crowdface

@@ -166,7 +166,7 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
   const std::vector<std::uint32_t> labels =
       texture_labels_of(inputs.textures, surfaces.kinds,
                         static_cast<std::size_t>(inputs.head_set.topology.face_count()));
-  const SplitMesh split = split_mesh(topology, surfaces.uvs, labels);
+  const SplitMesh split = split_mesh(topology_to_split(), surfaces.uvs, labels);
   const Positions split_mean = split.corner_positions(mean);
   // Reduce the mesh to 2 · kMaxTriangles, and find out which of the remaining triangles are hidden.
   std::vector<Triangle> triangles =
@@ -202,6 +202,40 @@ GalleryMeshes::GalleryMeshes(const Config& config, const Inputs& inputs, const P
     box_max_ = box_max_.cwiseMax(shown.lowest_shown_point());
   }
   add_shapes(surfaces, mean);
+}
+
+bool GalleryMeshes::colours_body_at_vertices() const {
+  return pictured_mesh_.has_body() && config_.neck.body_texture.empty();
+}
+
+/// The topology of the pictured mesh. If the gallery colours the body at its vertices, the body has
+/// no texture coordinates: BodyPainter's coordinates would split all vertices of the body, and
+/// then reduce_triangles could remove triangles of the face only.
+Topology GalleryMeshes::topology_to_split() const {
+  Topology topology = pictured_mesh_.topology();
+  if (!colours_body_at_vertices() || topology.corner_uvs.empty()) return topology;
+  const Index faces = inputs_.head_set.topology.face_count();
+  const auto first = topology.face_offsets[static_cast<std::size_t>(faces)];
+  std::fill(topology.corner_uvs.begin() + first, topology.corner_uvs.end(), kNoIndex);
+  return topology;
+}
+
+/// Sets the colours of the body's vertices in the reduced mesh to those of the body's texture.
+void GalleryMeshes::colour_body(const BlendedPicture& body, VertexColours& colours) const {
+  const Topology& topology = pictured_mesh_.topology();
+  const Texture texture = texture_of(body, std::max(body.width, body.height));
+  const auto faces = static_cast<std::uint32_t>(inputs_.head_set.topology.face_count());
+  for (std::size_t v = 0; v < mesh_.vertices.size(); ++v) {
+    const std::uint32_t polygon = mesh_.face_of_vertex[v];
+    if (polygon < faces) continue;
+    const auto corners = topology.face(polygon);
+    const auto corner = std::ranges::find(corners, mesh_.vertices[v]) - corners.begin();
+    const std::uint32_t uv = topology.face_uvs(polygon)[static_cast<std::size_t>(corner)];
+    colours.row(static_cast<Index>(v)) =
+        to_srgb(colour_at(texture, pictured_mesh_.uvs().row(uv).transpose().cast<float>()))
+            .matrix()
+            .transpose();
+  }
 }
 
 double GalleryMeshes::min_displacement() const {
@@ -335,7 +369,9 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
                                        const VertexColours* face_colours,
                                        const std::vector<PlacedAttachment>& placed,
                                        const BlendedPicture* body) const {
-  const PicturedFace shown(pictured_mesh_, face, face_textures, face_colours, body, kMaxTexels);
+  const bool at_vertices = colours_body_at_vertices();
+  const PicturedFace shown(pictured_mesh_, face, face_textures, face_colours,
+                           at_vertices ? nullptr : body, kMaxTexels);
   const Positions& positions = shown.positions();
   const TextureSet* const texture_set = shown.textures();
   const VertexColours* const colours = shown.colours();
@@ -360,10 +396,11 @@ std::string GalleryMeshes::face_script(const std::string& name, const Positions&
       parts.push_back(concat("\"relief\":", textures_as_json(texture_set->slopes, normal_picture)));
     }
   }
-  if (colours != nullptr) {
-    parts.push_back(concat("\"colours\":\"",
-                           base64(pack_vertex_colours((*colours)(mesh_.vertices, kAllColumns))),
-                           '"'));
+  if (colours != nullptr || (at_vertices && body != nullptr)) {
+    VertexColours reduced =
+        colours != nullptr ? VertexColours((*colours)(mesh_.vertices, kAllColumns)) : colours_;
+    if (at_vertices && body != nullptr) colour_body(*body, reduced);
+    parts.push_back(concat("\"colours\":\"", base64(pack_vertex_colours(reduced)), '"'));
   }
   return concat("crowdface.setFace(", Json(name).dump(), ",{", join(parts, ","), "});\n");
 }

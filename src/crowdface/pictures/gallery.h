@@ -47,6 +47,11 @@ class GalleryMeshes {
                                 const AttachmentSurfaces& surfaces) const;
 
  private:
+  /// Whether the page colours the body at its vertices instead of with a texture: if the config
+  /// names no texture for the body.
+  bool colours_body_at_vertices() const;
+  Topology topology_to_split() const;
+  void colour_body(const BlendedPicture& body, VertexColours& colours) const;
   /// Returns the vertex colours as three sRGB bytes per vertex.
   std::string pack_vertex_colours(const VertexColours& colours) const;
   /// Returns JSON with the textures of a layer and, for each material of the reduced mesh, the

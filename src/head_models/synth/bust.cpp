@@ -88,8 +88,9 @@ Vector2d spline_point(const Section& points, double share) {
          6;
 }
 
-/// Returns how far collarbones, the hollows above them and the notch between them displace a point
-/// of the bust outwards, cm.
+/// Returns the distance by which the relief of the collarbones moves a point of the bust away from
+/// the axis, cm: positive on a collarbone, negative in the hollow above it and in the notch between
+/// both collarbones.
 /// \param way    direction from the axis, unit vector (x, z)
 /// \param point  distance from the axis and height above the rim, cm
 double collarbone_height(const Vector2d& way, const Vector2d& point) {

@@ -21,8 +21,8 @@ class SyntheticSkins {
 
   /// Returns the width and height of the textures in texels.
   int size() const { return static_cast<int>(atlas_.side()); }
-  /// Returns the width and height of the body's texture in texels: half of size(), because bodies
-  /// are seen from farther away than faces.
+  /// Returns the width and height of the body's texture in texels: half of size(), because crowds
+  /// store a tinted copy for each face, and the body has no fine detail.
   int body_size() const { return size() / 2; }
   /// Returns the albedo (sRGB) of head `index` of a seed, for the texture coordinates of
   /// SyntheticHeads: size × size × 3 bytes, row by row, first row at v = 1. The bytes are the same
