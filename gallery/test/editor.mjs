@@ -89,6 +89,18 @@ const view = await page.locator('canvas.turntable').first().boundingBox();
 const still = await drawing();
 assert.equal(still.width, Math.round(view.width));
 assert.ok(still.between > 400, `${still.between} pixels smooth the outline`);
+// A picture for the library leaves the face as it stands: the draft does not appear, the program is not asked again.
+const stood = await points();
+const isLeft = await page.evaluate(async () => {
+  const { editor } = window.crowdface;
+  const { exactFace } = editor;
+  await editor.wornPicture('hat', 'card');
+  await new Promise((done) => { requestAnimationFrame(() => requestAnimationFrame(done)); });
+  return editor.exactFace === exactFace && editor.exactOf === editor.document && !editor.view.moving;
+});
+assert.ok(isLeft, 'the face moved for a picture');
+assert.ok(farthest(await points(), stood) < 1e-6);
+assert.deepEqual(await drawing(), still);
 await page.mouse.move(view.x + view.width / 2, view.y + view.height / 2);
 await page.mouse.down();
 for (let i = 1; i <= 6; i += 1) await page.mouse.move(view.x + view.width / 2 + i, view.y + view.height / 2);

@@ -590,7 +590,7 @@ class Editor extends ProgramPage {
     const [lists, shares] = this.coefficientsOf(document);
     const other = shares.join() !== this.shares || Object.keys(this.look.expression).length > 0;
     if (other) view.blender.unsettle();
-    const { shown, skin } = view.worn;
+    const { shown, skin, node: { visible } } = view.worn;
     if (dressed) {
       view.worn.show(dressed);
       view.worn.setForm(view.software ? 'draft' : 'whole');
@@ -602,8 +602,8 @@ class Editor extends ProgramPage {
       view.worn.show(shown, skin);
       view.worn.setForm(view.moving ? 'draft' : 'whole');
     }
-    if (other) this.shares = null;
-    this.exactOf = null;
+    view.worn.node.visible = visible;
+    this.shares = null; // so that the page's face is blended again, or the program's placed again
     this.refresh();
     return picture;
   }
