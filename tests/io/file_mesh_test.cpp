@@ -104,6 +104,23 @@ TEST(ParsePly, ReadsTexturesThatCommentsName) {
   EXPECT_EQ(mesh.textures[1].bytes, "second");
 }
 
+// MeshLab once wrote a list of colours that its header did not name, and Blender a comment without
+// the word "comment".
+TEST(ParsePly, ReadsTextWhoseLinesAreLongerThanItsHeaderSays) {
+  const std::string head = "ply\nformat ascii 1.0\nCreated by a program\n" + kPlyHead +
+                           "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                           "0 0 0\n1 0 0\n0 1 0\n1 1 0\n\n";
+  const FileMesh mesh = parse_ply(head + "3 0 1 2 6 3 3 3 1 1 1\r\n3 2 1 3\n", "head.ply");
+  EXPECT_EQ(mesh.topology.corner_vertices, (std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3}));
+  EXPECT_THAT(mesh.notes,
+              ::testing::ElementsAre(::testing::HasSubstr("\"Created by a program\""),
+                                     ::testing::HasSubstr("1 of its lines have more numbers")));
+  expect_error(ExitCode::kBadData, {"line 16 has fewer numbers"},
+               [&] { parse_ply(head + "3 0 1\n3 2 1 3\n", "head.ply"); });
+  // PLY separates numbers by any blanks.
+  EXPECT_EQ(parse_ply(head + "3 0 1 2 3 2 1 3\n", "head.ply").topology.face_count(), 2);
+}
+
 TEST(ParsePly, SaysWhyItRefuses) {
   const auto refuse = [](const std::string& text, const char* reason) {
     expect_error(ExitCode::kBadData, {reason}, [&] { parse_ply(text, "head.ply"); });
@@ -259,6 +276,21 @@ TEST(ParseGltf, ReadsIntegersThatANodeScales) {
   parts.node =
       concat(R"({"mesh":0,"scale":[)", 1.0 / 32767, ',', 1.0 / 32767, ',', 1.0 / 32767, "]}");
   expect_square(mesh_of(parts), 1e-4);
+}
+
+// Eyes, lashes and teeth are often one mesh that several nodes use.
+TEST(ParseGltf, ReadsAMeshThatManyNodesUse) {
+  GltfParts parts = plain_parts();
+  for (int i = 0; i < 200; ++i) parts.node += R"(,{"mesh":0})";
+  std::string children = "1";
+  for (int i = 2; i <= 200; ++i) children += concat(",", i);
+  parts.node = concat(R"({"mesh":0,"children":[)", children, "]}", parts.node.substr(10));
+  EXPECT_EQ(mesh_of(parts).topology.face_count(), 2 * 201);
+}
+
+TEST(ParseGltf, NamesTheOldVersion) {
+  expect_error(ExitCode::kBadData, {"old.gltf", "found version 1"},
+               [] { parse_gltf(R"({"asset":{"version":"1.0"},"meshes":{}})", "old.gltf"); });
 }
 
 TEST(ParseGltf, RefusesUnknownRequiredExtensionsByName) {
@@ -671,6 +703,24 @@ TEST(ParseFbx, ReadsNoHiddenNodes) {
   expect_error(ExitCode::kBadData,
                {"head.fbx: expected a mesh that is shown", "its hidden meshes are not used: head"},
                [&] { parse_fbx(text, "head.fbx"); });
+}
+
+// 3ds Max writes a geometric offset for an object whose pivot was moved. The offset moves the
+// object's mesh, and not the objects below it.
+TEST(ParseFbx, AppliesAGeometricOffsetToItsOwnMeshOnly) {
+  std::string text = square_fbx({});
+  text.insert(text.find("\"Mesh\" {\n}") + 9,
+              " Properties70:  {\n  P: \"GeometricTranslation\", \"Vector3D\", \"Vector\", "
+              "\"\",10,0,0\n }\n");
+  text.insert(text.find("Material: 3"), "Model: 20, \"Model::eye\", \"Mesh\" {\n}\n");
+  text.insert(text.rfind('}'), "C: \"OO\",20,2\nC: \"OO\",1,20\nC: \"OO\",3,20\n");
+  const FileMesh mesh = parse_fbx(text, "head.fbx");
+  ASSERT_EQ(mesh.positions.rows(), 8);
+  std::vector<double> left_ends;
+  for (const Index first : {0, 4})
+    left_ends.push_back(mesh.positions.col(0).segment(first, 4).minCoeff());
+  std::ranges::sort(left_ends);
+  EXPECT_EQ(left_ends, (std::vector<double>{0, 10}));
 }
 
 TEST(ParseFbx, SaysThatAFileHasNoMesh) {

@@ -114,9 +114,6 @@ TEST_F(ObjCorpus, EveryBadLineIsNamed) {
   for (const char* line : {"v", "v 1", "v 1 2"}) {
     expect_refused(vertex, line);
   }
-  std::string many = "f";
-  for (int i = 0; i < 256; ++i) many += " 1/1/1";
-  expect_refused(face, many);
 }
 
 TEST_F(ObjCorpus, CutAnywhereIsReadOrRefused) {

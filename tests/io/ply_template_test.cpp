@@ -2,16 +2,19 @@
 #include "crowdface/io/ply_template.h"
 
 #include <limits>
+#include <numeric>
 
 #include <gtest/gtest.h>
 
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
+#include "crowdface/io/read_mesh.h"
 #include "crowdface/mesh/normals.h"
 
 #include "support/binary_reader.h"
 #include "support/expect_error.h"
 #include "support/meshes.h"
+#include "support/temporary_folder.h"
 
 namespace crowdface {
 namespace {
@@ -72,17 +75,24 @@ TEST(PlyTemplate, HasNoNegativeZero) {
   EXPECT_EQ(text.substr(text.find("end_header\n") + 11, 36), std::string(36, '\0'));
 }
 
-TEST(PlyTemplate, RefusesWhatIsNotFiniteOrDoesNotFit) {
+TEST(PlyTemplate, RefusesWhatIsNotFinite) {
   const PlyTemplate form(mixed_topology());
   Positions positions = testing::random_positions(9, 1);
   EXPECT_THROW(form.encode(positions.topRows(8), {}, "head_3"), BrokenPrecondition);
   positions(8, 2) = std::numeric_limits<double>::infinity();
   testing::expect_error(ExitCode::kBadData, {"head_3", "not finite"},
                         [&] { form.encode(positions, {}, "head_3"); });
-  std::vector<std::uint32_t> face(256);
-  for (std::uint32_t i = 0; i < 256; ++i) face[i] = i;
-  testing::expect_error(ExitCode::kBadData, {"at most 255 corners", "256", "face 1"},
-                        [&] { PlyTemplate(testing::make_topology(256, {face})); });
+}
+
+TEST(PlyTemplate, WritesPolygonsOfMoreCornersThanAByteCounts) {
+  std::vector<std::uint32_t> cap(300);
+  std::iota(cap.begin(), cap.end(), 0U);
+  const PlyTemplate form(testing::make_topology(300, {cap, {0, 1, 2}}));
+  const testing::TemporaryFolder folder;
+  folder.write("cap.ply", form.encode(testing::random_positions(300, 1), {}, "cap").text());
+  const FileMesh mesh = read_mesh(folder / "cap.ply");
+  EXPECT_EQ(mesh.topology.face_offsets, (std::vector<std::uint32_t>{0, 300, 303}));
+  EXPECT_EQ(read_ply_positions(folder / "cap.ply").rows(), 300);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ bool is_hidden(const aiNode& node) {
 /// \param hidden  whether a parent of the node is hidden
 void collect_node(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, bool hidden,
                   int depth, Collected& all) {
-  constexpr int kDeepest = 256;
+  constexpr int kDeepest = 2048;
   if (depth > kDeepest) throw std::runtime_error("its nodes are nested too deeply");
   const aiMatrix4x4 world_transform = above * node.mTransformation;
   hidden = hidden || is_hidden(node);
@@ -194,7 +194,9 @@ void note_shapes(const aiScene& scene, FileMesh& mesh) {
 
 void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& external_textures) {
   Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  // One node for each part of a transform (the default of Assimp). With a single node for all
+  // parts, Assimp 5.2 applies geometric offsets to children, too, and post-rotations not at all.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx");
   if (scene == nullptr || scene->mRootNode == nullptr) {

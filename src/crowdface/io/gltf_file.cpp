@@ -21,8 +21,13 @@ using GltfJson = GltfFile::Json;
 
 /// Largest absolute value that the matrix of a node may contain; for a translation, 1000 km.
 constexpr double kMaxMatrixEntry = 1e6;
-/// The reader may read at most this many numbers for each byte of the file's buffers.
-constexpr std::size_t kMaxNumbersPerByte = 4;
+/// The reader may read at most kNumbersOfAnyFile numbers, plus kMaxNumbersPerByte numbers for each
+/// byte of the file's buffers.
+constexpr std::size_t kNumbersOfAnyFile = 1U << 22U, kMaxNumbersPerByte = 4;
+
+constexpr const char* kIsVersion1 =
+    "expected glTF 2.0, found version 1: export it again, or convert it (gltf-pipeline -i in.glb "
+    "-o out.glb)";
 
 std::size_t size_of_type(int type) {
   if (type == kUnsignedByte || type == kByte) return 1;
@@ -119,11 +124,8 @@ Eigen::Vector3d transform_point(const Eigen::Matrix4d& matrix, const double* poi
 
 GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(std::move(path)) {
   if (bytes.starts_with("glTF")) {
-    if (bytes.size() >= glb::kFileHeaderSize && number_at<std::uint32_t>(bytes.data() + 4) == 1) {
-      fail(
-          "expected glTF 2.0, found version 1: export it again, or convert it (gltf-pipeline -i "
-          "in.glb -o out.glb)");
-    }
+    if (bytes.size() >= glb::kFileHeaderSize && number_at<std::uint32_t>(bytes.data() + 4) == 1)
+      fail(kIsVersion1);
     const auto chunks = glb_chunks(bytes);
     if (!chunks)
       fail(
@@ -136,7 +138,12 @@ GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(s
   }
   if (!scene_.is_object())
     fail("expected a glTF 2.0 file, found JSON that cannot be read: export it again");
-  remaining_numbers_ = kMaxNumbersPerByte * binary_.size();
+  const Json& asset = scene_["asset"];
+  if (asset.is_object() && asset.contains("version") && asset["version"].is_string() &&
+      asset["version"].get<std::string>().starts_with("1.")) {
+    fail(kIsVersion1);
+  }
+  remaining_numbers_ = kNumbersOfAnyFile + kMaxNumbersPerByte * binary_.size();
 }
 
 void GltfFile::fail(const std::string& what) const {

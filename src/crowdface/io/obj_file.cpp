@@ -5,6 +5,7 @@
 #include <istream>
 #include <map>
 #include <optional>
+#include <span>
 #include <streambuf>
 #include <utility>
 
@@ -40,44 +41,66 @@ class ViewBuffer : public std::streambuf {
   std::string_view rest_;
 };
 
-/// Ignores material files; the mesh reader does not need them.
-class NoMaterials : public tinyobj::MaterialReader {
- public:
-  bool operator()(const std::string&, std::vector<tinyobj::material_t>*,
-                  std::map<std::string, int>*, std::string*, std::string*) override {
-    return true;
-  }
-};
-
-std::uint32_t to_index(int index) {
-  return index < 0 ? kNoIndex : static_cast<std::uint32_t>(index);
-}
-
 void clear_if_all_none(std::vector<std::uint32_t>& indices) {
   if (std::ranges::count(indices, kNoIndex) == std::ssize(indices)) indices.clear();
 }
 
-void take_faces(const std::vector<tinyobj::shape_t>& shapes, ObjFile& result) {
-  Topology& topology = result.topology;
-  for (const tinyobj::shape_t& shape : shapes) {
-    for (const std::uint32_t corners : shape.mesh.num_face_vertices) {
-      topology.face_offsets.push_back(topology.face_offsets.back() + corners);
-    }
-    for (const tinyobj::index_t& corner : shape.mesh.indices) {
-      topology.corner_vertices.push_back(to_index(corner.vertex_index));
-      topology.corner_uvs.push_back(to_index(corner.texcoord_index));
-      result.corner_normals.push_back(to_index(corner.normal_index));
-    }
+/// Takes the polygons from tinyobjloader, and counts the rows that come before each polygon, to
+/// which relative indices refer.
+class PolygonCollector {
+ public:
+  explicit PolygonCollector(ObjFile& result) : result_(result) {}
+
+  Index vertex_count() const { return vertex_count_; }
+
+  /// \throws InvalidInput if tinyobjloader cannot load the text.
+  void load(std::string_view text) {
+    tinyobj::callback_t callbacks;
+    callbacks.vertex_cb = [](void* self, auto...) { ++collector(self).vertex_count_; };
+    callbacks.texcoord_cb = [](void* self, auto...) { ++collector(self).uv_count_; };
+    callbacks.normal_cb = [](void* self, auto...) { ++collector(self).normal_count_; };
+    callbacks.index_cb = [](void* self, tinyobj::index_t* corners, int count) {
+      collector(self).take_polygon({corners, static_cast<std::size_t>(count)});
+    };
+    ViewBuffer buffer(text);
+    std::istream stream(&buffer);
+    std::string warning, error;
+    const bool is_loaded =
+        tinyobj::LoadObjWithCallback(stream, callbacks, this, nullptr, &warning, &error);
+    throw_if_interrupted();
+    if (!is_loaded) refuse_file(result_.path, concat("cannot be loaded: ", error));
+    clear_if_all_none(result_.topology.corner_uvs);
+    clear_if_all_none(result_.corner_normals);
   }
-  clear_if_all_none(topology.corner_uvs);
-  clear_if_all_none(result.corner_normals);
-}
+
+ private:
+  static PolygonCollector& collector(void* self) { return *static_cast<PolygonCollector*>(self); }
+
+  /// \param number  as in the text: from 1, or negative and relative to the rows so far; 0: none
+  static std::uint32_t index_of(int number, Index rows_so_far) {
+    if (number == 0) return kNoIndex;
+    return static_cast<std::uint32_t>(number > 0 ? number - 1 : rows_so_far + number);
+  }
+
+  void take_polygon(std::span<const tinyobj::index_t> corners) {
+    Topology& topology = result_.topology;
+    for (const tinyobj::index_t& corner : corners) {
+      topology.corner_vertices.push_back(index_of(corner.vertex_index, vertex_count_));
+      topology.corner_uvs.push_back(index_of(corner.texcoord_index, uv_count_));
+      result_.corner_normals.push_back(index_of(corner.normal_index, normal_count_));
+    }
+    topology.face_offsets.push_back(static_cast<std::uint32_t>(topology.corner_vertices.size()));
+  }
+
+  ObjFile& result_;
+  Index vertex_count_ = 0, uv_count_ = 0, normal_count_ = 0;
+};
 
 /// Checks that tinyobjloader and `scan_obj` read the same content; a difference means that one of
 /// the two readers has a bug.
-void compare(const ObjScan& scan, const tinyobj::attrib_t& attributes, const ObjFile& result) {
+/// \param loaded  number of vertices that tinyobjloader read
+void compare(const ObjScan& scan, Index loaded, const ObjFile& result) {
   const Topology& topology = result.topology;
-  const auto loaded = static_cast<Index>(attributes.vertices.size() / 3);
   const bool in_range =
       std::ranges::all_of(topology.corner_vertices,
                           [&](std::uint32_t vertex) { return vertex < scan.positions.rows(); }) &&
@@ -132,23 +155,10 @@ ObjFile read_obj(const std::filesystem::path& path, MappedFile file, const ObjSu
   result.path = path;
   result.file = std::move(file);
   ObjScan scan = scan_or_mend(result, summary);
-
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
-  std::string warning, error;
-  ViewBuffer buffer(result.file.bytes());
-  std::istream stream(&buffer);
-  NoMaterials no_materials;
-  constexpr bool kTriangulate = false, kDefaultColours = false;
-  const bool loaded = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
-                                       &no_materials, kTriangulate, kDefaultColours);
-  throw_if_interrupted();
-  if (!loaded) refuse_file(path, concat("cannot be loaded: ", error));
-
-  take_faces(shapes, result);
+  PolygonCollector polygons(result);
+  polygons.load(result.file.bytes());
   result.topology.vertex_count = scan.positions.rows();
-  compare(scan, attributes, result);
+  compare(scan, polygons.vertex_count(), result);
   result.uvs = std::move(scan.uvs);
   take_scanned_values(std::move(scan), result);
   return result;

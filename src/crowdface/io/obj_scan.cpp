@@ -14,7 +14,6 @@
 namespace crowdface {
 namespace {
 
-constexpr std::size_t kMaxCorners = 255;  // the loader counts corners in one byte
 constexpr std::uint64_t kMaxPerVertex = 8;
 // Maximum length in bytes of a material name, a group name, or a list of material files.
 constexpr std::size_t kLongestObjName = 1000;
@@ -294,10 +293,6 @@ class Scanner {
   void face() {
     if (words_.size() < 4) {
       fail(concat("expected a face of at least 3 corners, found ", words_.size() - 1));
-    }
-    if (words_.size() - 1 > kMaxCorners) {
-      fail(concat("expected a face of at most ", kMaxCorners, " corners, found ",
-                  words_.size() - 1));
     }
     int form = -1;
     for (std::size_t c = 1; c < words_.size(); ++c) {

@@ -57,6 +57,7 @@ struct Element {
   std::vector<Property> properties;
 };
 
+constexpr const char* kBlanks = " \t\r\n";
 constexpr const char* kEndsTooSoon = "it ends too soon: copy or export it again";
 constexpr std::size_t kNoColumn = std::numeric_limits<std::size_t>::max();
 
@@ -85,6 +86,11 @@ class PlyReader {
     if (flat_faces_ > 0) {
       mesh_.notes.push_back(
           concat(flat_faces_, " of its faces have fewer than 3 corners and are left out"));
+    }
+    if (long_lines_ > 0) {
+      mesh_.notes.push_back(concat(long_lines_,
+                                   " of its lines have more numbers than its header says; the "
+                                   "numbers at their ends are not read"));
     }
     return std::move(mesh_);
   }
@@ -141,8 +147,11 @@ class PlyReader {
                  !elements_.empty()) {
         elements_.back().properties.push_back(
             {lower_case(words[4]), type_of(words[3]), type_of(words[2])});
-      } else {
+      } else if (words[0] == "format" || words[0] == "element" || words[0] == "property") {
         fail(concat("its header says ", quoted(join(words, " "))));
+      } else {
+        mesh_.notes.push_back(concat("the line ", quoted(join(words, " ")),
+                                     " of its header is not understood and is not used"));
       }
     }
     for (const Element& element : elements_) {
@@ -151,6 +160,31 @@ class PlyReader {
         fail("it is a Gaussian splat, which has no surface: export a mesh");
       }
     }
+    has_line_per_element_ = coding_ == Coding::kText && has_as_many_lines_as_elements();
+  }
+
+  bool has_as_many_lines_as_elements() const {
+    std::uint64_t lines = 0, elements = 0;
+    for (const Element& element : elements_) elements += element.count;
+    for (std::size_t at = at_; (at = bytes_.find_first_not_of(kBlanks, at)) != bytes_.npos;) {
+      ++lines;
+      at = std::min(bytes_.find_first_of("\r\n", at), bytes_.size());
+    }
+    return lines == elements;
+  }
+
+  void begin_element() {
+    if (!has_line_per_element_) return;
+    at_ = std::min(bytes_.find_first_not_of(kBlanks, at_), bytes_.size());
+    line_end_ = std::min(bytes_.find_first_of("\r\n", at_), bytes_.size());
+  }
+
+  /// Passes over the rest of the element's line: some programs write numbers that the header does
+  /// not name.
+  void end_element() {
+    if (!has_line_per_element_) return;
+    if (bytes_.substr(at_, line_end_ - at_).find_first_not_of(" \t") != bytes_.npos) ++long_lines_;
+    at_ = line_end_;
   }
 
   /// Adds the texture that a comment in the header names, as Metashape and MeshLab write it.
@@ -174,9 +208,13 @@ class PlyReader {
 
   /// Reads a word as a number. Normals and quality values may be non-numeric words such as "nan".
   double word() {
-    const std::size_t begin = bytes_.find_first_not_of(" \t\r\n", at_);
+    const std::size_t begin = bytes_.find_first_not_of(kBlanks, at_);
     if (begin == std::string_view::npos) fail(kEndsTooSoon);
-    at_ = std::min(bytes_.find_first_of(" \t\r\n", begin), bytes_.size());
+    if (has_line_per_element_ && begin >= line_end_) {
+      const auto line = 1 + std::ranges::count(bytes_.substr(0, at_), ends_in_cr_ ? '\r' : '\n');
+      fail(concat("line ", line, " has fewer numbers than its header says: export it again"));
+    }
+    at_ = std::min(bytes_.find_first_of(kBlanks, begin), bytes_.size());
     const std::string_view word = bytes_.substr(begin, at_ - begin);
     if (const auto number = parse_double(word)) return *number;
     const std::string lower = lower_case(word);
@@ -221,6 +259,7 @@ class PlyReader {
     mesh_.uvs.resize(has_vertex_uvs_ ? count : 0, 2);
     std::vector<double> values(element.properties.size());
     for (Index v = 0; v < count; ++v) {
+      begin_element();
       for (std::size_t p = 0; p < values.size(); ++p) {
         const Property& property = element.properties[p];
         if (property.count) {
@@ -229,6 +268,7 @@ class PlyReader {
           values[p] = value(property.type);
         }
       }
+      end_element();
       for (std::size_t c = 0; c < 3; ++c) {
         const auto column = static_cast<Index>(c);
         mesh_.positions(v, column) = values[place[c]];
@@ -262,6 +302,7 @@ class PlyReader {
     if (element.properties.empty()) return;  // no data, whatever the count
     const bool faces = element.name == "face", strips = element.name == "tristrips";
     for (std::uint64_t f = 0; f < element.count; ++f) {
+      begin_element();
       std::vector<std::int64_t> corners;
       std::vector<double> uvs;
       double texture = 0;
@@ -290,6 +331,7 @@ class PlyReader {
           }
         }
       }
+      end_element();
       if (strips) {
         add_strips(corners);
       } else if (faces) {
@@ -374,10 +416,14 @@ class PlyReader {
   std::vector<std::string> texture_files_;
   std::size_t at_ = 0;
   bool ends_in_cr_ = false, has_vertex_uvs_ = false;
+  /// whether each element of a text file has a line of its own, which all common programs write;
+  /// PLY separates numbers by any blanks
+  bool has_line_per_element_ = false;
+  std::size_t line_end_ = 0;  ///< end of the line of the element that is being read
   Coding coding_ = Coding::kText;
   std::vector<Element> elements_;
   std::vector<double> corner_uvs_;
-  std::size_t flat_faces_ = 0;
+  std::size_t flat_faces_ = 0, long_lines_ = 0;
   FileMesh mesh_;
 };
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "crowdface/core/error.h"
 #include "crowdface/core/file.h"
 #include "crowdface/core/parallel.h"
 #include "crowdface/core/require.h"
@@ -14,7 +13,10 @@
 namespace crowdface {
 namespace {
 
-std::string ply_header(Index vertices, Index faces, bool with_normals, bool with_colours) {
+/// \param small_polygons  whether no polygon has more than 255 corners. Their number of corners is a
+///                        byte, because not all readers support other types.
+std::string ply_header(Index vertices, Index faces, bool with_normals, bool with_colours,
+                       bool small_polygons) {
   return concat(
       "ply\nformat binary_little_endian 1.0\nelement vertex ", vertices,
       "\nproperty float x\nproperty float y\nproperty float z\n",
@@ -22,7 +24,7 @@ std::string ply_header(Index vertices, Index faces, bool with_normals, bool with
       with_colours ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "",
       "element face ", faces,
       // Use "int" instead of "uint" for the indices, because all readers support "int".
-      "\nproperty list uchar int vertex_indices\nend_header\n");
+      "\nproperty list ", small_polygons ? "uchar" : "uint", " int vertex_indices\nend_header\n");
 }
 
 std::size_t vertex_size(bool with_normals, bool with_colours) {
@@ -33,16 +35,20 @@ std::size_t vertex_size(bool with_normals, bool with_colours) {
 
 PlyTemplate::PlyTemplate(const Topology& topology)
     : vertex_count_(topology.vertex_count), face_count_(topology.face_count()) {
-  encoded_polygons_.reserve(static_cast<std::size_t>(face_count_) +
+  constexpr std::size_t kMaxByte = 255;
+  for (Index f = 0; f < face_count_; ++f) {
+    has_small_polygons_ = has_small_polygons_ && topology.face(f).size() <= kMaxByte;
+  }
+  encoded_polygons_.reserve(static_cast<std::size_t>(face_count_) *
+                                (has_small_polygons_ ? 1 : sizeof(std::uint32_t)) +
                             topology.corner_vertices.size() * sizeof(std::uint32_t));
   for (Index f = 0; f < face_count_; ++f) {
     const auto face = topology.face(f);
-    constexpr std::size_t kMaxCorners = 255;
-    if (face.size() > kMaxCorners) {
-      throw InvalidInput(concat("PLY: expected faces of at most 255 corners, found one of ",
-                                face.size(), ", face ", f + 1));
+    if (has_small_polygons_) {
+      encoded_polygons_.push_back(static_cast<char>(face.size()));
+    } else {
+      append_number(encoded_polygons_, static_cast<std::uint32_t>(face.size()));
     }
-    encoded_polygons_.push_back(static_cast<char>(face.size()));
     for (const std::uint32_t vertex : face) append_number(encoded_polygons_, vertex);
   }
 }
@@ -60,7 +66,7 @@ EncodedFile PlyTemplate::encode(const Positions& positions, const Positions& nor
   require(!with_colours || colours.rows() == vertex_count_, "PlyTemplate: a colour of each vertex");
   const std::size_t size = vertex_size(with_normals, with_colours);
   EncodedFile file;
-  file.add(ply_header(vertex_count_, face_count_, with_normals, with_colours));
+  file.add(ply_header(vertex_count_, face_count_, with_normals, with_colours, has_small_polygons_));
   char* vertices = file.reserve(static_cast<std::size_t>(vertex_count_) * size);
   parallel_blocks(vertex_count_, kRowsPerBlock, [&](Index begin, Index end) {
     char* out = vertices + static_cast<std::size_t>(begin) * size;
@@ -87,8 +93,9 @@ Positions read_ply_positions(const std::filesystem::path& path) {
   const bool with_normals = head.find("property float nx") != head.npos;
   const bool with_colours = head.find("property uchar red") != head.npos;
   const auto vertices = static_cast<Index>(count_after("element vertex "));
-  const std::string header = ply_header(vertices, static_cast<Index>(count_after("element face ")),
-                                        with_normals, with_colours);
+  const std::string header =
+      ply_header(vertices, static_cast<Index>(count_after("element face ")), with_normals,
+                 with_colours, head.find("list uint") == head.npos);
   const std::size_t size = vertex_size(with_normals, with_colours);
   if (!bytes.starts_with(header) ||
       static_cast<std::size_t>(vertices) > (bytes.size() - header.size()) / size) {

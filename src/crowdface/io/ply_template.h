@@ -16,7 +16,6 @@ namespace crowdface {
 /// which would split vertices at seams and change the order of vertices.
 class PlyTemplate {
  public:
-  /// \throws InvalidInput if a polygon has more than 255 corners.
   explicit PlyTemplate(const Topology& topology);
 
   /// Encodes the file of one face. The result references memory of this object.
@@ -36,7 +35,8 @@ class PlyTemplate {
  private:
   Index vertex_count_;
   Index face_count_;
-  std::string encoded_polygons_;  ///< the polygons, encoded as in the file
+  bool has_small_polygons_ = true;  ///< whether no polygon has more than 255 corners
+  std::string encoded_polygons_;    ///< the polygons, encoded as in the file
 };
 
 /// Reads the positions of a file that `PlyTemplate` wrote.
