@@ -23,7 +23,7 @@ using GltfJson = GltfFile::Json;
 constexpr double kMaxMatrixEntry = 1e6;
 /// The reader may read at most kNumbersOfAnyFile numbers, plus kMaxNumbersPerByte numbers for each
 /// byte of the file's buffers.
-constexpr std::size_t kNumbersOfAnyFile = 1U << 22U, kMaxNumbersPerByte = 4;
+constexpr std::size_t kNumbersOfAnyFile = 1U << 21U, kMaxNumbersPerByte = 4;
 
 constexpr const char* kIsVersion1 =
     "expected glTF 2.0, found version 1: export it again, or convert it (gltf-pipeline -i in.glb "
@@ -138,9 +138,10 @@ GltfFile::GltfFile(std::string_view bytes, std::filesystem::path path) : path_(s
   }
   if (!scene_.is_object())
     fail("expected a glTF 2.0 file, found JSON that cannot be read: export it again");
-  const Json& asset = scene_["asset"];
-  if (asset.is_object() && asset.contains("version") && asset["version"].is_string() &&
-      asset["version"].get<std::string>().starts_with("1.")) {
+  const auto asset = scene_.find("asset");
+  if (asset != scene_.end() && asset->is_object() && asset->contains("version") &&
+      asset->at("version").is_string() &&
+      asset->at("version").get<std::string>().starts_with("1.")) {
     fail(kIsVersion1);
   }
   remaining_numbers_ = kNumbersOfAnyFile + kMaxNumbersPerByte * binary_.size();

@@ -45,8 +45,8 @@ void clear_if_all_none(std::vector<std::uint32_t>& indices) {
   if (std::ranges::count(indices, kNoIndex) == std::ssize(indices)) indices.clear();
 }
 
-/// Takes the polygons from tinyobjloader, and counts the rows that come before each polygon, to
-/// which relative indices refer.
+/// Takes the polygons from tinyobjloader's callbacks; tinyobj::LoadObj counts corners in one byte.
+/// Counts the rows before each polygon, to which relative indices refer.
 class PolygonCollector {
  public:
   explicit PolygonCollector(ObjFile& result) : result_(result) {}

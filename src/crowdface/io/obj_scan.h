@@ -53,8 +53,9 @@ enum class ObjLineSelection {
 };
 
 /// Checks an OBJ text line by line for errors that the loader accepts: words in place of numbers,
-/// numbers that overflow, indices out of range or wrapping around, a byte-order mark, binary data. Quads, larger polygons, relative indices, `w` and
-/// vertex colours are valid; statements of other programs are ignored.
+/// numbers that overflow, indices out of range or wrapping around, a byte-order mark, binary data.
+/// Polygons of any size, relative indices, `w` and vertex colours are valid; statements of other
+/// programs are ignored.
 /// \param name  name of the file, for messages.
 /// \param summary  summary of the text.
 /// \param line_selection  the lines to check; with kAllButMesh the result has no texture

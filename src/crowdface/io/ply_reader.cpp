@@ -149,7 +149,7 @@ class PlyReader {
             {lower_case(words[4]), type_of(words[3]), type_of(words[2])});
       } else if (words[0] == "format" || words[0] == "element" || words[0] == "property") {
         fail(concat("its header says ", quoted(join(words, " "))));
-      } else {
+      } else if (mesh_.notes.empty()) {
         mesh_.notes.push_back(concat("the line ", quoted(join(words, " ")),
                                      " of its header is not understood and is not used"));
       }
@@ -165,7 +165,9 @@ class PlyReader {
 
   bool has_as_many_lines_as_elements() const {
     std::uint64_t lines = 0, elements = 0;
-    for (const Element& element : elements_) elements += element.count;
+    for (const Element& element : elements_) {
+      if (!element.properties.empty()) elements += element.count;
+    }
     for (std::size_t at = at_; (at = bytes_.find_first_not_of(kBlanks, at)) != bytes_.npos;) {
       ++lines;
       at = std::min(bytes_.find_first_of("\r\n", at), bytes_.size());
