@@ -122,7 +122,8 @@ await page.evaluate(() => { // from when it is let go until it is drawn in full
 const movingCard = await page.evaluate(`(${wornPixels})(window.crowdface.editor.view)`);
 await page.mouse.up();
 assert.ok(moving.triangles > 4000 && moving.triangles < 26000, `${moving.triangles} triangles move`);
-assert.ok(movingCard.left > 100 && movingCard.red > 0.9 * movingCard.left, `what moves is worn: ${JSON.stringify(movingCard)}`);
+// At the lowest resolution, a tenth of the card's pixels are mixed with what lies behind its edges.
+assert.ok(movingCard.left > 100 && movingCard.red > 0.7 * movingCard.left, `what moves is worn: ${JSON.stringify(movingCard)}`);
 await rested();
 assert.equal((await drawing()).width, still.width, 'at rest there are all pixels');
 const [restMs, wholeMs] = await page.evaluate(() => {

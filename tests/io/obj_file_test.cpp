@@ -165,7 +165,7 @@ const std::vector<Malformed> kMalformed = {
     {"no_faces", kTriangle, {"no face"}},
     {"binary", std::string("\x7f\x45\x4c\x46\x00\x01\x02\n v\n", 11), {":1:"}},
     {"words", "this is no mesh\nat all\n", {":1:", "OBJ statement", "\"this\""}},
-    {"nul_byte", kTriangle + std::string("f 1 2 3 \0\n", 10), {":4:"}},
+    {"nul_byte", kTriangle + std::string("f 1 2 \0 3\n", 10), {":4:"}},
 };
 
 /// Names a case in test lists; without it they would show addresses.
@@ -229,6 +229,7 @@ const std::vector<Dialect> kDialects = {
     {"old_mac", "v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", kTriangle + "f 1 2 3\r", ""},
     {"byte_order_mark", "\xEF\xBB\xBF" + kTriangle + kFace, kTriangle + kFace, ""},
     {"padding", kTriangle + kFace + std::string(3, '\0'), kTriangle + kFace, ""},
+    {"padding_line", kTriangle + kFace + std::string("\n\0\n", 3), kTriangle + kFace + "\n", ""},
     {"comment_behind", "v 0 0 0 # nose\nv 1 0 0\nv 0 1 0\n" + kFace, kTriangle + kFace, ""},
     {"capitals", "V 0 0 0\nV 1 0 0\nV 0 1 0\nVT 0 0\nG Head\nF 1/1 2/1 3/1\n",
      kTriangle + "vt 0 0\ng Head\nf 1/1 2/1 3/1\n", ""},

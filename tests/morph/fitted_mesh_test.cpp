@@ -124,7 +124,9 @@ TEST_F(Wardrobe, SkinsAreMixedByAgeAndAncestry) {
     const double men = makehuman_skin_optical_density_factor(person, 1, i);
     const double women = makehuman_skin_optical_density_factor(woman, 1, i);
     EXPECT_GE(women, 0.6);
-    if (women > 0.6 && men < 1.25) EXPECT_LT(women, men - 0.1);
+    if (women > 0.6 && men < 1.25) {
+      EXPECT_LT(women, men - 0.1);
+    }
     EXPECT_LE(men, 1.25);
   }
   // Light colours are recessive: at a share of 0.75, Caucasian ancestry counts for 0.25 / 0.3.

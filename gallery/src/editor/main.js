@@ -334,7 +334,7 @@ class Editor extends ProgramPage {
     this.attempt(() => this.showWorn(face));
     if (face.bare) {
       setTimeout(() => {
-        if (this.exactOf !== document) return;
+        if (this.exactFace !== face || this.exactOf !== document) return;
         this.exactOf = null;
         this.refresh();
       }, undressed);

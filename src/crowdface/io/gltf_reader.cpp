@@ -96,10 +96,10 @@ class GltfMeshReader {
     constexpr std::array<std::string_view, 6> kRead = {
         "KHR_draco_mesh_compression", "KHR_mesh_quantization", "EXT_meshopt_compression",
         "KHR_meshopt_compression",    "KHR_texture_transform", "KHR_node_visibility"};
-    constexpr std::array<std::string_view, 11> kNotOfMeshes = {
-        "KHR_materials_", "KHR_texture_", "EXT_texture_", "MSFT_texture_",
-        "MSFT_packing_",  "KHR_lights_",  "EXT_lights_",  "KHR_xmp",
-        "KHR_animation_", "KHR_node_",    "VRM"};
+    constexpr std::array<std::string_view, 12> kNotOfMeshes = {
+        "KHR_materials_", "KHR_technique",  "KHR_texture_", "EXT_texture_",
+        "MSFT_texture_",  "MSFT_packing_",  "KHR_lights_",  "EXT_lights_",
+        "KHR_xmp",        "KHR_animation_", "KHR_node_",    "VRM"};
     std::vector<std::string> unknown;
     for (const GltfJson& one : file_.scene().value("extensionsRequired", GltfJson::array())) {
       const auto name = one.get<std::string>();
