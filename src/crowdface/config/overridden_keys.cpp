@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "crowdface/cast/family.h"
 #include "crowdface/cast/shares.h"
 #include "crowdface/config/config_draft.h"
 #include "crowdface/config/yaml.h"
