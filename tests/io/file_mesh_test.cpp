@@ -117,7 +117,7 @@ TEST(ParsePly, ReadsTextWhoseLinesAreLongerThanItsHeaderSays) {
                                      ::testing::HasSubstr("1 of its lines have more numbers")));
   expect_error(ExitCode::kBadData, {"line 16 has fewer numbers"},
                [&] { parse_ply(head + "3 0 1\n3 2 1 3\n", "head.ply"); });
-  // PLY separates numbers by any blanks.
+  // PLY allows several elements in one line.
   EXPECT_EQ(parse_ply(head + "3 0 1 2 3 2 1 3\n", "head.ply").topology.face_count(), 2);
 }
 

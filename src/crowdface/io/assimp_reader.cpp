@@ -194,8 +194,9 @@ void note_shapes(const aiScene& scene, FileMesh& mesh) {
 
 void read(std::string_view bytes, FileMesh& mesh, std::vector<std::string>& external_textures) {
   Assimp::Importer importer;
-  // One node for each part of a transform (the default of Assimp). With a single node for all
-  // parts, Assimp 5.2 applies geometric offsets to children, too, and post-rotations not at all.
+  // With this default, Assimp makes one node for each part of a transform, such as a pivot or a
+  // rotation. Without it, Assimp 5.2 also moves the children of a node by the node's geometric
+  // offset, and places nodes with post-rotations wrongly.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "fbx");

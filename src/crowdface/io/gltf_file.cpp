@@ -21,8 +21,8 @@ using GltfJson = GltfFile::Json;
 
 /// Largest absolute value that the matrix of a node may contain; for a translation, 1000 km.
 constexpr double kMaxMatrixEntry = 1e6;
-/// The reader may read at most kNumbersOfAnyFile numbers, plus kMaxNumbersPerByte numbers for each
-/// byte of the file's buffers.
+/// The reader reads at most kNumbersOfAnyFile + kMaxNumbersPerByte · (bytes in the file's buffers)
+/// numbers.
 constexpr std::size_t kNumbersOfAnyFile = 1U << 21U, kMaxNumbersPerByte = 4;
 
 constexpr const char* kIsVersion1 =

@@ -45,8 +45,9 @@ void clear_if_all_none(std::vector<std::uint32_t>& indices) {
   if (std::ranges::count(indices, kNoIndex) == std::ssize(indices)) indices.clear();
 }
 
-/// Takes the polygons from tinyobjloader's callbacks; tinyobj::LoadObj counts corners in one byte.
-/// Counts the rows before each polygon, to which relative indices refer.
+/// Collects the polygons that tinyobjloader reports to its callbacks. The other function of
+/// tinyobjloader, LoadObj, stores the number of corners of a polygon in one byte. Relative indices
+/// refer to the rows before their polygon; therefore the class counts these rows.
 class PolygonCollector {
  public:
   explicit PolygonCollector(ObjFile& result) : result_(result) {}

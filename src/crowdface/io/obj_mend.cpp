@@ -46,7 +46,7 @@ class Mender {
  private:
   void join_lines(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    // ZBrush ends its files with a NUL; programs of old systems, with the byte 0x1A.
+    // Some versions of ZBrush end a file with a NUL byte. Old DOS programs end it with 0x1A.
     const std::size_t end = text.find_last_not_of(std::string_view("\0\x1a\r\n\t ", 6)) + 1;
     text = text.substr(0, text.find_first_of(std::string_view("\0\x1a", 2), end));
     std::string plain;  // text with lines that end in LF or CR LF

@@ -149,7 +149,7 @@ class PlyReader {
             {lower_case(words[4]), type_of(words[3]), type_of(words[2])});
       } else if (words[0] == "format" || words[0] == "element" || words[0] == "property") {
         fail(concat("its header says ", quoted(join(words, " "))));
-      } else if (mesh_.notes.empty()) {
+      } else if (mesh_.notes.empty()) {  // one note is enough, however damaged the header is
         mesh_.notes.push_back(concat("the line ", quoted(join(words, " ")),
                                      " of its header is not understood and is not used"));
       }
@@ -418,8 +418,8 @@ class PlyReader {
   std::vector<std::string> texture_files_;
   std::size_t at_ = 0;
   bool ends_in_cr_ = false, has_vertex_uvs_ = false;
-  /// whether each element of a text file has a line of its own, which all common programs write;
-  /// PLY separates numbers by any blanks
+  /// Whether each element of a text file has a line of its own. Common programs write such files;
+  /// the format also allows several elements in one line, and line breaks within an element.
   bool has_line_per_element_ = false;
   std::size_t line_end_ = 0;  ///< end of the line of the element that is being read
   Coding coding_ = Coding::kText;

@@ -13,8 +13,8 @@
 namespace crowdface {
 namespace {
 
-/// \param small_polygons  whether no polygon has more than 255 corners. Their number of corners is a
-///                        byte, because not all readers support other types.
+/// \param small_polygons  whether no polygon has more than 255 corners. The file then stores each
+///                        number of corners in one byte, the type that most readers support.
 std::string ply_header(Index vertices, Index faces, bool with_normals, bool with_colours,
                        bool small_polygons) {
   return concat(

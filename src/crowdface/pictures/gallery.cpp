@@ -208,9 +208,9 @@ bool GalleryMeshes::colours_body_at_vertices() const {
   return pictured_mesh_.has_body() && config_.neck.body_texture.empty();
 }
 
-/// The topology of the pictured mesh. If the gallery colours the body at its vertices, the body has
-/// no texture coordinates: BodyPainter's coordinates would split all vertices of the body, and
-/// then reduce_triangles could remove triangles of the face only.
+/// Returns the topology of the pictured mesh. If the gallery colours the body at its vertices, the
+/// result has no texture coordinates on the body. With those of BodyPainter, split_mesh would split
+/// all vertices of the body, and reduce_triangles could only remove triangles of the face.
 Topology GalleryMeshes::topology_to_split() const {
   Topology topology = pictured_mesh_.topology();
   if (!colours_body_at_vertices() || topology.corner_uvs.empty()) return topology;
