@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crowdface/io/file_mesh.h"
 
-#include <utility>
+#include <algorithm>
+#include <cctype>
 
 #include <gtest/gtest.h>
 
@@ -139,9 +140,8 @@ TEST(RightSideOut, TurnsFacesInTheTextToo) {
 TEST(ReadMesh, TellsFormatsByWhatTheyHoldAndWhatIsNone) {
   const TemporaryFolder folder;
   const std::string ply =
-      "ply\nformat ascii 1.0\n" +
-      std::string("element vertex 4\nproperty float x\nproperty float y\nproperty float z\n") +
-      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
       "0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n";
   EXPECT_EQ(read_mesh(folder.write("called.stl", ply)).topology.face_count(), 1);
   const auto refuse = [&](const char* name, const std::string& bytes, const char* phrase) {
