@@ -61,11 +61,12 @@ class LikenessTree {
       const std::vector<float> query = points.padded_query(points_[face].*of);
       const auto wanted = [&](float squared, const auto&) { return squared <= bound; };
       tree.visit(query, wanted, [&](Index block) {
-        const PointBlocks::Lanes squared = points.squared_distances(query, block, bound);
+        const auto squared = points.squared_distances(query, block, bound);
+        if (!squared) return;
         const Index first = block * PointBlocks::kLanes;
         const Index last = std::min(PointBlocks::kLanes, points.size() - first);
         for (Index lane = 0; lane < last; ++lane) {
-          if (squared[static_cast<std::size_t>(lane)] > bound) continue;
+          if ((*squared)[static_cast<std::size_t>(lane)] > bound) continue;
           meet(static_cast<std::size_t>(points.point_number(first + lane)));
         }
       });

@@ -10,9 +10,9 @@
 namespace crowdface {
 namespace {
 
-/// up to this number of points, a linear search is as fast as a tree
-constexpr Index kMaxNewestPoints = 2048;
-constexpr std::uint32_t kLeafSize = 2 * PointBlocks::kLanes;
+/// up to this number of points, a linear search is as fast as building a tree and searching it
+constexpr Index kMaxNewestPoints = 512;
+constexpr std::uint32_t kLeafSize = 4 * PointBlocks::kLanes;
 
 }  // namespace
 

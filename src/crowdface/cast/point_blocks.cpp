@@ -34,16 +34,15 @@ std::vector<float> PointBlocks::padded_query(const Eigen::VectorXf& query) const
   return values;
 }
 
-PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& query, Index block,
-                                                  float bound) const {
+std::optional<PointBlocks::Lanes> PointBlocks::squared_distances(const std::vector<float>& query,
+                                                                 Index block, float bound) const {
   Lanes sums = {};
   for (Index chunk = 0; chunk < padded_dimensions_; chunk += kCoordinatesPerChunk) {
     // The sums only grow, so once all sums exceed the bound, no point of the block is within the
     // bound.
     if (!add_squares(query.data() + chunk, &chunk_of(chunk)[offset_in_chunk(block * kLanes, chunk)],
                      kCoordinatesPerChunk, bound, sums.data())) {
-      sums.fill(HUGE_VALF);
-      return sums;
+      return std::nullopt;
     }
   }
   return sums;
@@ -51,13 +50,14 @@ PointBlocks::Lanes PointBlocks::squared_distances(const std::vector<float>& quer
 
 void PointBlocks::search(const std::vector<float>& query, Index block, Index begin, Index end,
                          NearestPoint& best) const {
-  const Lanes sums =
+  const auto sums =
       squared_distances(query, block, static_cast<float>(std::min(best.squared_distance, 1e30)));
+  if (!sums) return;
   const Index last = std::min(kLanes, size() - block * kLanes);
   for (Index lane = 0; lane < last; ++lane) {
     const Index number = point_numbers_[static_cast<std::size_t>(block * kLanes + lane)];
     if (number < begin || number >= end) continue;
-    best.update(number, static_cast<double>(sums[static_cast<std::size_t>(lane)]));
+    best.update(number, static_cast<double>((*sums)[static_cast<std::size_t>(lane)]));
   }
 }
 

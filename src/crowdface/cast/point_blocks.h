@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -78,10 +79,12 @@ class PointBlocks {
   /// Returns the query, padded with zeros to padded_dimensions() values.
   std::vector<float> padded_query(const Eigen::VectorXf& query) const;
   using Lanes = std::array<float, kLanes>;
-  /// Returns the squared distances between a query and the points of a block. If all distances
-  /// exceed the bound, all returned values are infinite. Lanes without a point have arbitrary
-  /// values.
-  Lanes squared_distances(const std::vector<float>& query, Index block, float bound) const;
+  /// Returns the squared distances between a query and the points of a block. Lanes without a point
+  /// have arbitrary values.
+  ///
+  /// \return  nullopt if all distances exceed the bound.
+  std::optional<Lanes> squared_distances(const std::vector<float>& query, Index block,
+                                         float bound) const;
   /// Searches one block for points that are nearer than `best` and have numbers in [begin, end).
   /// The distance of a point does not depend on which other points the block contains, not even in
   /// the last bits.
@@ -90,7 +93,7 @@ class PointBlocks {
 
  private:
   /// number of coordinates that are summed before the sums are compared with the bound
-  static constexpr Index kCoordinatesPerChunk = 16;
+  static constexpr Index kCoordinatesPerChunk = 8;
 
   /// Returns the index of a coordinate of a point within the chunk `chunk_of(dimension)`.
   ///

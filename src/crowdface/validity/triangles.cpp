@@ -59,7 +59,7 @@ TargetTriangles::TargetTriangles(const std::vector<Triangle>& triangles, const P
     const double length = std::sqrt(u.squaredNorm());
     const double apex_x = u.dot(v) / length;
     planar_triangles_.push_back(
-        {t, normal, length, apex_x, std::sqrt(normal.squaredNorm()) / length});
+        {t, normal, 1 / length, apex_x, length / std::sqrt(normal.squaredNorm())});
   }
 }
 
@@ -79,8 +79,8 @@ LocalDefects TargetTriangles::compare(const Positions& positions) const {
     if (turned || collapsed) ++defects.flipped_triangle_count;
     // Compute the square of the largest singular value of the linear map from the target triangle
     // to this triangle. x and y are the images of the axes of `frame`.
-    const Vector x = u / frame.length;
-    const Vector y = (v - frame.apex_x * x) / frame.apex_y;
+    const Vector x = frame.inverse_length * u;
+    const Vector y = frame.inverse_apex_y * (v - frame.apex_x * x);
     const double a = x.squaredNorm(), b = x.dot(y), c = y.squaredNorm();
     stretches.push_back(0.5 * (a + c) + std::sqrt(0.25 * (a - c) * (a - c) + b * b));
   }

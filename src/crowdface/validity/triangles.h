@@ -39,7 +39,7 @@ class TargetTriangles {
   struct PlanarTriangle {
     Triangle corners;        ///< vertex indices
     Eigen::Vector3d normal;  ///< the length of this vector is twice the triangle's area
-    double length, apex_x, apex_y;
+    double inverse_length, apex_x, inverse_apex_y;
   };
   /// the triangles of the target that are not degenerate
   std::vector<PlanarTriangle> planar_triangles_;
