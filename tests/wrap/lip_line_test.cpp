@@ -28,39 +28,47 @@ Scan relief_of_heights(const std::function<double(double)>& front) {
   return scan;
 }
 
-/// The offset of the scan's line between the lips from a line at height 0.
-std::optional<double> offset_of(const Scan& scan) {
+/// The scan's line between the lips, seen from a line at height 0.
+std::optional<ScanLipLine> line_of(const Scan& scan) {
   WrapTemplate wrap_template;
   wrap_template.axes = {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitY()};
-  Positions wrapped(22, 3);
+  Positions wrapped(62, 3);
   LipLine line;
-  for (std::uint32_t i = 0; i < 11; ++i) {
-    const double across = 3 * (static_cast<double>(i) - 5);
+  for (std::uint32_t i = 0; i < 31; ++i) {
+    const double across = static_cast<double>(i) - 15;
     wrapped.row(2 * i) << across, 1.5, 0;
     wrapped.row(2 * i + 1) << across, -1.5, 0;
     const auto vertex = [](std::uint32_t v) { return SurfacePoint{{v, v, v}, {1, 0, 0}}; };
     line.push_back({vertex(2 * i), vertex(2 * i + 1)});
   }
-  return lip_line_offset(wrap_template, line, wrapped, scan, {});
+  return find_scan_lip_line(wrap_template, line, wrapped, scan, {});
 }
 
 TEST(LipLine, IsTheClearestCreaseNearTheMouth) {
   for (const double height : {-9.0, 0.0, 4.0}) {
-    const auto offset = offset_of(
-        relief_of_heights([&](double up) { return std::abs(up - height) <= 1 ? -2 : 0; }));
-    ASSERT_TRUE(offset);
-    EXPECT_NEAR(*offset, height, 0.51);
+    const auto line =
+        line_of(relief_of_heights([&](double up) { return std::abs(up - height) <= 1 ? -2 : 0; }));
+    ASSERT_TRUE(line);
+    EXPECT_NEAR(line->offset_mm, height, 0.51);
+    EXPECT_TRUE(line->is_closed);
   }
-  EXPECT_FALSE(offset_of(relief_of_heights([](double) { return 0; }))) << "no crease";
+  EXPECT_FALSE(line_of(relief_of_heights([](double) { return 0; }))) << "no crease";
 }
 
 // The gap of an open mouth is no crease. The nostrils were taken for the line between the lips.
 TEST(LipLine, IsUnknownIfTheMouthIsOpen) {
-  const auto offset = offset_of(relief_of_heights([](double up) {
+  const auto line = line_of(relief_of_heights([](double up) {
     if (std::abs(up) <= 4) return -20.0;
     return std::abs(up - 15) <= 1 ? -2.5 : 0.0;
   }));
-  EXPECT_FALSE(offset);
+  EXPECT_FALSE(line);
+}
+
+TEST(LipLine, LipsThatAreAFewMillimetresApartAreNotClosed) {
+  const auto line =
+      line_of(relief_of_heights([](double up) { return std::abs(up) <= 1.5 ? -20 : 0; }));
+  ASSERT_TRUE(line);
+  EXPECT_FALSE(line->is_closed);
 }
 
 }  // namespace

@@ -23,6 +23,8 @@ constexpr int kBendSteps = 3;              // steps per round
 constexpr double kHiddenStiffnessMm = 10;  // smallest stiffness where the scan shows no skin
 constexpr double kReachFirstMm = 30, kReachLastMm = 6;
 constexpr double kEndMm = 200, kRimReachMm = 15;
+/// Weight of a tie between two vertices, relative to the square of the round's wavelength.
+constexpr double kTieWeight = 100;
 
 /// A pair of corresponding points: one on the skin and one on the scan. Either the point of the
 /// skin is a vertex, or the point of the scan is a sampled point.
@@ -53,10 +55,12 @@ double spread_of(const std::vector<Correspondence>& correspondences, double reac
 class Bending {
  public:
   Bending(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
-          const std::vector<WrapLandmark>& landmarks, const BendOptions& options)
+          const std::vector<WrapLandmark>& landmarks, const std::vector<TiedVertices>& ties,
+          const BendOptions& options)
       : skin_(skin),
         scan_(scan),
         landmarks_(landmarks),
+        ties_(ties),
         options_(options),
         base_(base),
         displacements_(Positions::Zero(base.rows(), 3)),
@@ -138,7 +142,9 @@ class Bending {
     }
     const double for_landmarks = landmarks * length * length;
     for (const WrapLandmark& landmark : landmarks_) typical(landmark.vertex) += for_landmarks;
-    const SparseMatrix stiffness = bending_energy(laplacian_, areas_, factors);
+    const double for_ties = kTieWeight * length * length;
+    const SparseMatrix stiffness =
+        bending_energy(laplacian_, areas_, factors) + tie_energy(for_ties);
     const ElasticSolver solver(stiffness, typical);
     for (int i = 0; i < kBendSteps; ++i) {
       const Positions current = base_ + displacements_;
@@ -150,7 +156,35 @@ class Bending {
         data_terms.add(landmark.vertex, Eigen::Vector3d::UnitX(), 0, for_landmarks,
                        landmark.scan_position - base_.row(landmark.vertex).transpose());
       }
+      add_tie_terms(for_ties, data_terms);
       solver.solve(data_terms, {}, displacements_);
+    }
+  }
+
+  /// Returns the matrix T, #V by #V, for which dᵀ T d is `weight` times the sum of |d_b − d_a|² over
+  /// the tied vertices a and b.
+  SparseMatrix tie_energy(double weight) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const TiedVertices& tie : ties_) {
+      const auto [a, b] = tie.vertices;
+      entries.insert(entries.end(), {{static_cast<int>(a), static_cast<int>(a), weight},
+                                     {static_cast<int>(b), static_cast<int>(b), weight},
+                                     {static_cast<int>(a), static_cast<int>(b), -weight},
+                                     {static_cast<int>(b), static_cast<int>(a), -weight}});
+    }
+    SparseMatrix energy(base_.rows(), base_.rows());
+    energy.setFromTriplets(entries.begin(), entries.end());
+    return energy;
+  }
+
+  /// Adds the linear part of weight · |d_b − d_a − t|², where t is the wanted minus the present
+  /// difference of the tied vertices a and b in the base.
+  void add_tie_terms(double weight, DataTerms& data_terms) const {
+    for (const TiedVertices& tie : ties_) {
+      const auto [a, b] = tie.vertices;
+      const Eigen::Vector3d change = tie.difference - (row3(base_, b) - row3(base_, a));
+      data_terms.right_hand_side.row(a) -= weight * change.transpose();
+      data_terms.right_hand_side.row(b) += weight * change.transpose();
     }
   }
 
@@ -223,6 +257,7 @@ class Bending {
   const SkinMesh& skin_;
   const ScanSurface& scan_;
   const std::vector<WrapLandmark>& landmarks_;
+  const std::vector<TiedVertices>& ties_;
   const BendOptions& options_;
   Positions base_, displacements_;
   Eigen::VectorXd areas_;
@@ -247,8 +282,9 @@ class Bending {
 }  // namespace
 
 Positions bend_skin(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
-                    const std::vector<WrapLandmark>& landmarks, const BendOptions& options) {
-  return Bending(skin, base, scan, landmarks, options).run();
+                    const std::vector<WrapLandmark>& landmarks,
+                    const std::vector<TiedVertices>& ties, const BendOptions& options) {
+  return Bending(skin, base, scan, landmarks, ties, options).run();
 }
 
 }  // namespace crowdface

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "crowdface/wrap/scan_surface.h"
@@ -21,11 +23,19 @@ struct BendOptions {
   double first_round_landmark_weight = 1, last_round_landmark_weight = 0.3;
 };
 
+/// Two vertices of the skin that keep their difference, such as two vertices of closed lips.
+struct TiedVertices {
+  std::array<std::uint32_t, 2> vertices;
+  Eigen::Vector3d difference;  ///< wanted position of the second vertex minus that of the first
+};
+
 /// Deforms a skin onto a scan by non-rigid iterated closest points (Amberg et al. 2007), with a
 /// bilaplacian of the displacements as regulariser.
 /// \param base  #skin by 3, in millimetres, in the scan's frame: the shape before deformation.
+/// \param ties  pairs of vertices that keep their difference, whatever the scan shows there.
 /// \return #skin by 3
 Positions bend_skin(const SkinMesh& skin, const Positions& base, const ScanSurface& scan,
-                    const std::vector<WrapLandmark>& landmarks, const BendOptions& options);
+                    const std::vector<WrapLandmark>& landmarks,
+                    const std::vector<TiedVertices>& ties, const BendOptions& options);
 
 }  // namespace crowdface

@@ -15,8 +15,8 @@ namespace {
 constexpr double kHalfWidthMm = 2.5;
 constexpr double kStepMm = 0.5;      ///< distance between neighbouring rays of a profile
 constexpr int kHalfWidthSteps = 5;   ///< kHalfWidthMm / kStepMm
-constexpr double kColumnStepMm = 3;  ///< distance between profiles
-constexpr int kColumnsPerSide = 5;
+constexpr double kColumnStepMm = 1;  ///< distance between profiles
+constexpr int kColumnsPerSide = 15;
 
 /// Vertical profiles of a surface near a mouth, seen from the front.
 class Profiles {
@@ -73,12 +73,12 @@ class Profiles {
     return depths;
   }
 
-  /// Whether the profile crosses a gap that is higher than 2 kHalfWidthMm, such as an open mouth.
-  /// In such a gap, `hollows` returns 0.
-  static bool has_wide_gap(const std::vector<Hit>& profile) {
+  /// Returns the height in mm of the highest gap that the profile crosses, such as an open mouth. In
+  /// a gap higher than 2 kHalfWidthMm, `hollows` returns 0.
+  static double gap_height(const std::vector<Hit>& profile) {
     constexpr double kGapDepthMm = 8;
     constexpr std::size_t kReach = 20;  // steps
-    int height = 0;                     // of the gap so far, in steps
+    int height = 0, highest = 0;        // of the gap so far, and of the highest gap, in steps
     for (std::size_t i = kReach; i + kReach < profile.size(); ++i) {
       double below = kFarBehind, above = kFarBehind;
       for (std::size_t k = 1; k <= kReach; ++k) {
@@ -86,9 +86,9 @@ class Profiles {
         above = std::max(above, profile[i + k].depth);
       }
       height = std::min(below, above) - profile[i].depth > kGapDepthMm ? height + 1 : 0;
-      if (height > 2 * kHalfWidthSteps) return true;
+      highest = std::max(highest, height);
     }
-    return false;
+    return highest * kStepMm;
   }
 
  private:
@@ -132,12 +132,12 @@ LipLine find_lip_line(const WrapTemplate& wrap_template,
   return line;
 }
 
-std::optional<double> lip_line_offset(const WrapTemplate& wrap_template, const LipLine& line,
-                                      const Positions& wrapped, const Scan& scan,
-                                      const Similarity& pose) {
+std::optional<ScanLipLine> find_scan_lip_line(const WrapTemplate& wrap_template,
+                                              const LipLine& line, const Positions& wrapped,
+                                              const Scan& scan, const Similarity& pose) {
   constexpr int kReachSteps = 40, kBlurSteps = 2;
   constexpr std::ptrdiff_t kOtherCreaseSteps = 10;
-  constexpr double kMinDepthMm = 0.4, kMaxOtherShare = 0.7, kPlateauShare = 0.95;
+  constexpr double kMinDepthMm = 0.4, kMaxOtherShare = 0.7, kPlateauShare = 0.95, kMaxClosedMm = 1;
   if (line.size() < kColumnsPerSide) return std::nullopt;
   std::vector<Eigen::Vector3d> places;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -151,13 +151,15 @@ std::optional<double> lip_line_offset(const WrapTemplate& wrap_template, const L
                           wrap_template.axes);
   constexpr int kMargin = kReachSteps + kBlurSteps + kHalfWidthSteps;
   std::vector<double> sums(2 * kReachSteps + 1, 0);
-  std::size_t wide_gaps = 0;
+  std::size_t wide_gaps = 0, gaps = 0;
   for (const Eigen::Vector3d& place : places) {
     const Eigen::Vector3d offset = place - middle;
     const auto profile =
         profiles.trace(offset.dot(wrap_template.axes.side()),
                        offset.dot(wrap_template.axes.up) - kMargin * kStepMm, 2 * kMargin + 1);
-    if (Profiles::has_wide_gap(profile)) ++wide_gaps;
+    const double gap = Profiles::gap_height(profile);
+    if (gap > 2 * kHalfWidthMm) ++wide_gaps;
+    if (gap > kMaxClosedMm) ++gaps;
     const std::vector<double> depths = Profiles::hollows(profile);
     for (std::size_t i = 0; i < sums.size(); ++i) {
       const auto begin = depths.begin() + static_cast<std::ptrdiff_t>(i);
@@ -177,7 +179,7 @@ std::optional<double> lip_line_offset(const WrapTemplate& wrap_template, const L
     sum += static_cast<double>(at - sums.begin() - kReachSteps) * kStepMm;
     ++count;
   }
-  return sum / count;
+  return ScanLipLine{sum / count, 2 * gaps <= places.size()};
 }
 
 }  // namespace crowdface

@@ -26,15 +26,20 @@ using LipLine = std::vector<std::array<SurfacePoint, 2>>;
 LipLine find_lip_line(const WrapTemplate& wrap_template,
                       const std::map<std::string, std::uint32_t>& landmarks);
 
-/// Height in mm of the line between the scan's lips above the line between the lips of the wrapped
-/// head. The line of the scan is the clearest crease within 20 mm above and below the line of the
-/// wrapped head. Returns nothing if the scan has no clear crease there, or two of them, or an open
-/// mouth.
+/// The line between the lips of a scan.
+struct ScanLipLine {
+  double offset_mm = 0;   ///< height above the line between the lips of the wrapped head
+  bool is_closed = true;  ///< whether the lips of the scan are at most about 1 mm apart
+};
+
+/// Finds the line between the scan's lips: the clearest crease within 20 mm above and below the line
+/// between the lips of the wrapped head. Returns nothing if the scan has no clear crease there, or
+/// two of them, or a wide open mouth.
 /// \param scan  without eyeballs and teeth
 /// \param wrapped  #V by 3, positions of the whole template after the wrap
 /// \param pose     similarity transform from the template's frame to the scan's frame
-std::optional<double> lip_line_offset(const WrapTemplate& wrap_template, const LipLine& line,
-                                      const Positions& wrapped, const Scan& scan,
-                                      const Similarity& pose);
+std::optional<ScanLipLine> find_scan_lip_line(const WrapTemplate& wrap_template,
+                                              const LipLine& line, const Positions& wrapped,
+                                              const Scan& scan, const Similarity& pose);
 
 }  // namespace crowdface

@@ -151,9 +151,9 @@ std::vector<std::string> doubtful_part_warnings(const WrapTemplate& wrap_templat
   std::vector<std::string> warnings;
   for (const FeatureCheck& feature : result.features) {
     if (!feature.is_doubtful()) continue;
-    const double up = feature.lip_line_offset_mm.value_or(0);
+    const double up = feature.scan_lip_line ? feature.scan_lip_line->offset_mm : 0;
     const std::string reason =
-        feature.lip_line_offset_mm
+        feature.scan_lip_line
             ? concat("the scan's lips meet ", format_fixed(std::abs(up), 1), " mm ",
                      up > 0 ? "above" : "below", " the lips of the wrapped head")
             : concat("on the wrapped head it does not look like the template's (correlation ",

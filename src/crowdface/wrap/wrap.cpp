@@ -30,6 +30,8 @@ constexpr double kMinMirroredFraction = 0.9;
 /// kMinOutlierMm, and larger than kOutlierFactor times the median of the final distances of all
 /// landmarks.
 constexpr double kMinOutlierMm = 4, kOutlierFactor = 3.5;
+/// If a wrap moves closed lips apart by more than this distance, wrap_checked ties them together.
+constexpr double kMaxLipGapMm = 1;
 
 /// Converts the landmarks' vertex indices in the template to vertex indices in the skin. Drops
 /// landmarks outside the skin.
@@ -99,6 +101,49 @@ void measure(const Positions& wrapped, const ScanSurface& scan, WrapResult& resu
     }
   });
   result.lacks_data.assign(on_boundary.begin(), on_boundary.end());
+}
+
+/// Returns pairs of vertices of `bent` on both sides of the line between the lips, with the
+/// difference that they have at rest.
+/// \param rest  #skin by 3, positions of the template's skin
+std::vector<TiedVertices> tied_lips(const WrapTemplate& wrap_template, const LipLine& line,
+                                    const Positions& rest) {
+  const auto main_corner = [](const auto& barycentric) {
+    return static_cast<std::size_t>(std::ranges::max_element(barycentric) - barycentric.begin());
+  };
+  std::vector<TiedVertices> ties;
+  for (const auto& points : line) {
+    TiedVertices tie;
+    std::array<std::uint32_t, 2> of_skin;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      of_skin[i] = index_in_list(wrap_template.skin.vertices,
+                                 points[i].corners[main_corner(points[i].barycentric)]);
+      tie.vertices[i] = of_skin[i];
+      if (const auto& reduced = wrap_template.reduced_skin) {
+        const auto& place = reduced->vertex_positions[of_skin[i]];
+        tie.vertices[i] = reduced->mesh.triangles[place.triangle][main_corner(place.barycentric)];
+        of_skin[i] = reduced->mesh.vertices[tie.vertices[i]];
+      }
+    }
+    if (tie.vertices[0] == tie.vertices[1]) continue;
+    tie.difference = row3(rest, of_skin[1]) - row3(rest, of_skin[0]);
+    ties.push_back(tie);
+  }
+  return ties;
+}
+
+/// How much higher the gap between the lips of the wrapped head is than the template's, in mm.
+double lip_gap_increase(const WrapTemplate& wrap_template, const LipLine& line,
+                        const Positions& wrapped) {
+  double sum = 0;
+  for (const auto& [upper, lower] : line) {
+    for (const auto& [positions, sign] : {std::pair(&wrapped, 1), {&wrap_template.positions, -1}}) {
+      sum += sign * (point_on(*positions, upper.corners, upper.barycentric) -
+                     point_on(*positions, lower.corners, lower.barycentric))
+                        .dot(wrap_template.axes.up);
+    }
+  }
+  return line.empty() ? 0 : sum / static_cast<double>(line.size());
 }
 
 /// The inputs of a wrap, converted to the vertices of the reduced skin.
@@ -175,7 +220,7 @@ ShapeModel skin_model(const ShapeModel& heads, const WrapTemplate& wrap_template
 
 static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeModel* model,
                                const Scan& scan, const std::vector<WrapLandmark>& all_landmarks,
-                               const std::optional<PoseHint>& hint) {
+                               const std::optional<PoseHint>& hint, const LipLine& closed_lips) {
   const std::optional<ReliefMatch> face = hint ? hint->face : std::nullopt;
   const SkinMesh& skin = wrap_template.skin;
   const SkinMesh& bent = wrap_template.reduced_skin ? wrap_template.reduced_skin->mesh : skin;
@@ -221,7 +266,8 @@ static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeMod
             .first_round_landmark_weight = 2,
             .last_round_landmark_weight = 1.5};
   }
-  wrapped = bend_skin(bent, wrapped, surface, marks, bend);
+  wrapped =
+      bend_skin(bent, wrapped, surface, marks, tied_lips(wrap_template, closed_lips, rest), bend);
   if (small) {
     repair_folded_triangles(bent, small->rest, wrapped);
     wrapped = rest + wrap_template.reduced_skin->interpolate(wrapped - small->rest, skin);
@@ -251,7 +297,8 @@ static WrapResult wrap_centred(const WrapTemplate& wrap_template, const ShapeMod
 }
 
 WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, const Scan& scan,
-                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint) {
+                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint,
+                const LipLine& closed_lips) {
   const CentredScan moved = centre_scan(scan, landmarks);
   std::optional<PoseHint> standing = hint;
   const auto picked = std::ranges::count(landmarks, false, &WrapLandmark::is_found_by_program);
@@ -261,7 +308,8 @@ WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, cons
     standing->face = find_scan_face(scan, hint);
   }
   if (standing && standing->face) standing->face->eye_midpoint -= moved.box_centre;
-  WrapResult result = wrap_centred(wrap_template, model, moved.scan, moved.landmarks, standing);
+  WrapResult result =
+      wrap_centred(wrap_template, model, moved.scan, moved.landmarks, standing, closed_lips);
   result.pose.translation += moved.box_centre;
   return result;
 }
@@ -276,18 +324,19 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
       lowest = std::min(lowest, feature.agreement());
     return lowest;
   };
-  const auto wrapped_with = [&](const std::vector<WrapLandmark>& landmarks) {
-    WrapResult result = wrap(wrap_template, model, scan, landmarks, hint);
+  const auto wrapped_with = [&](const std::vector<WrapLandmark>& landmarks,
+                                const LipLine& closed_lips) {
+    WrapResult result = wrap(wrap_template, model, scan, landmarks, hint, closed_lips);
     const std::vector<ReliefCorrelation> correlations =
         relief_correlations(wrap_template, features, result.positions);
     for (std::size_t i = 0; i < features.size(); ++i) {
       result.features.push_back({features[i].name, correlations[i], features[i].skin_vertices,
-                                 lip_line_offset(wrap_template, features[i].lip_line,
-                                                 result.positions, scan, result.pose)});
+                                 find_scan_lip_line(wrap_template, features[i].lip_line,
+                                                    result.positions, scan, result.pose)});
     }
     return result;
   };
-  WrapResult best = wrapped_with(all_landmarks);
+  WrapResult best = wrapped_with(all_landmarks, {});
   // All automatically found landmarks of a feature may be wrong in the same way, for example if the
   // landmarks of the mouth lie in the crease above the chin. The error shows only in a fit that
   // does not use these landmarks.
@@ -304,7 +353,7 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
       return landmark.is_found_by_program && (drops_all || is_of_questioned_feature(landmark));
     });
     if (dropped == 0) continue;
-    WrapResult other = wrapped_with(landmarks);
+    WrapResult other = wrapped_with(landmarks, {});
     if (lowest_agreement(other) <= lowest_agreement(best)) continue;
     for (const WrapLandmark& landmark : all_landmarks) {
       if (std::ranges::find(landmarks, landmark.name, &WrapLandmark::name) == landmarks.end()) {
@@ -312,6 +361,26 @@ WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* mod
       }
     }
     best = std::move(other);
+  }
+  // On a closed mouth, the wrapped lips come apart if they are drawn to skin above and below the
+  // scan's lips. Then tie them together.
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const LipLine& line = features[i].lip_line;
+    const double gap = lip_gap_increase(wrap_template, line, best.positions);
+    const auto& scan_line = best.features[i].scan_lip_line;
+    if (!scan_line || !scan_line->is_closed || gap <= kMaxLipGapMm) continue;
+    std::vector<WrapLandmark> used = all_landmarks;
+    std::erase_if(used, [&](const WrapLandmark& landmark) {
+      return std::ranges::find(best.dropped_landmarks, landmark.name) !=
+             best.dropped_landmarks.end();
+    });
+    WrapResult closed = wrapped_with(used, line);
+    if (lip_gap_increase(wrap_template, line, closed.positions) >= gap ||
+        (closed.features[i].is_doubtful() && !best.features[i].is_doubtful())) {
+      continue;
+    }
+    closed.dropped_landmarks = std::move(best.dropped_landmarks);
+    best = std::move(closed);
   }
   return best;
 }

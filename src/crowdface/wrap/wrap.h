@@ -35,24 +35,23 @@ struct FeatureCheck {
   std::string name;
   ReliefCorrelation correlation;             ///< agreement of the reliefs before and after the wrap
   std::vector<std::uint32_t> skin_vertices;  ///< vertex indices in the skin, ascending
-  /// Of the mouth: see `lip_line_offset`. Nothing for the other features, or if the scan has no
+  /// Of the mouth: see `find_scan_lip_line`. Nothing for the other features, or if the scan has no
   /// clear line between the lips.
-  std::optional<double> lip_line_offset_mm = {};
+  std::optional<ScanLipLine> scan_lip_line = {};
 
   /// Agreement of the feature with the scan: 1 is best, below 0.7 the feature may be misplaced. The
   /// agreement of a mouth depends on the line between the lips, because two people's mouths may
   /// differ more in relief than one person's mouth and chin.
   double agreement() const {
     constexpr double kZeroAgreementMm = 7;  // so a mouth is doubtful if it is 3.2 mm off
-    return lip_line_offset_mm ? 1 - std::abs(*lip_line_offset_mm) / kZeroAgreementMm
-                              : correlation.correlation_at_feature;
+    return scan_lip_line ? 1 - std::abs(scan_lip_line->offset_mm) / kZeroAgreementMm
+                         : correlation.correlation_at_feature;
   }
   /// Whether the agreement is so high that the feature cannot be doubtful.
   bool is_high() const { return agreement() >= ReliefCorrelation::kHigh; }
   /// Whether the template's feature probably lies on another part of the scan.
   bool is_doubtful() const {
-    return lip_line_offset_mm ? agreement() < ReliefCorrelation::kDoubtful
-                              : correlation.is_doubtful();
+    return scan_lip_line ? agreement() < ReliefCorrelation::kDoubtful : correlation.is_doubtful();
   }
 };
 
@@ -94,15 +93,19 @@ inline constexpr std::size_t kMinLandmarks = 4;
 ///               nullptr.
 /// \param landmarks  vertices of the whole template, positions in the scan's frame; the function
 /// ignores landmarks outside the skin.
+/// \param closed_lips  The line between the template's lips, if they must not come apart. Empty: the
+///                     wrap may open the mouth.
 /// \throws InvalidInput if there are fewer than kMinLandmarks landmarks and no hint, or if the scan
 /// has no data near the landmarks.
 WrapResult wrap(const WrapTemplate& wrap_template, const ShapeModel* model, const Scan& scan,
-                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint);
+                const std::vector<WrapLandmark>& landmarks, const std::optional<PoseHint>& hint,
+                const LipLine& closed_lips = {});
 
 /// Wraps the template, and checks whether each feature of the template ended on the same feature of
 /// the scan (see `FeatureCheck::agreement`). If a feature's agreement is not high, repeats the wrap
 /// without the automatically found landmarks of this feature, and then without all automatically
-/// found landmarks. Returns the result whose worst feature agrees best.
+/// found landmarks. Takes the result whose worst feature agrees best. If the scan's mouth is closed
+/// but this result's mouth is open, repeats the wrap with `closed_lips`.
 /// \param features  see `face_features`; may be empty
 /// \param wrap_template, model, scan, landmarks, hint  as for `wrap`
 WrapResult wrap_checked(const WrapTemplate& wrap_template, const ShapeModel* model,
