@@ -74,8 +74,8 @@ SkinAtlas::SkinAtlas(int side)
 
 Eigen::Vector3d SkinAtlas::barycentric(const Triangle& triangle, std::size_t texel) const {
   const auto& [p, q, r] = triangle.corners;
-  const Vector2d centre(static_cast<double>(texel % side_) + 0.5,
-                        static_cast<double>(texel / side_) + 0.5);
+  const std::size_t row = texel / side_, column = texel % side_;
+  const Vector2d centre(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
   const double area = cross_z(q - p, r - p);
   const double b = cross_z(centre - p, r - p) / area;
   const double c = cross_z(q - p, centre - p) / area;
